@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All of the project's chores, from a fresh Debian machine with nothing but python3.
+
+    python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
+    python3 build_tools/dev.py test           all tests; the last line counts them
+    python3 build_tools/dev.py setup          system packages, .venv and the native build
+    python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
+    python3 build_tools/dev.py extension      the extension's zips under out/
+    python3 build_tools/dev.py format         clang-format and ruff on all sources
+"""
+
+import argparse
+import fcntl
+import sys
+
+import native_wheel
+import python_environment
+import system_packages
+from layout import CACHE, OUT, ROOT, VENV_PYTHON
+from shell import DevError, fail, run, say
+
+
+def setup() -> None:
+    """Everything that the other commands need; quick when nothing changed."""
+    CACHE.mkdir(exist_ok=True)
+    with (CACHE / "setup.lock").open("w") as lock:  # two at once would spoil .venv
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        system_packages.install()
+        python_environment.install()
+        native_wheel.install()
+
+
+def demo(names: list[str]) -> int:
+    """The main job, end to end."""
+    setup()
+    OUT.mkdir(exist_ok=True)
+    return run(VENV_PYTHON, ROOT / "examples" / "demo.py", *names, check=False)
+
+
+def bench(names: list[str]) -> int:
+    """The benchmarks; native ones are built first."""
+    setup()
+    run("cmake", "--preset", "bench")
+    run("cmake", "--build", "--preset", "bench")
+    (OUT / "bench").mkdir(parents=True, exist_ok=True)
+    return run(VENV_PYTHON, ROOT / "benchmarks" / "run.py", *names, check=False)
+
+
+def test(names: list[str]) -> int:
+    """All suites."""
+    import suites
+
+    setup()
+    return suites.run_all(names)
+
+
+def extension() -> int:
+    """One zip per Python that is at hand."""
+    import extension as packing
+
+    setup()
+    for path in packing.build_all():
+        say(f"{path.relative_to(ROOT)} is ready")
+    return 0
+
+
+def format_sources() -> int:
+    """Rewrites the sources in the project's style."""
+    import style
+
+    setup()
+    return style.rewrite()
+
+
+def arguments() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command", choices=["setup", "test", "demo", "bench", "extension", "format"])
+    parser.add_argument("names", nargs="*", help="bench, demo, test: only these")
+    return parser.parse_args()
+
+
+def main() -> int:
+    """Runs one command; the exit code is the process's."""
+    given = arguments()
+    if sys.version_info < (3, 11):
+        raise DevError("python3 has to be 3.11 or newer.")
+    commands = {
+        "setup": setup,
+        "test": lambda: test(given.names),
+        "demo": lambda: demo(given.names),
+        "bench": lambda: bench(given.names),
+        "extension": extension,
+        "format": format_sources,
+    }
+    return commands[given.command]() or 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except DevError as error:
+        fail(str(error))

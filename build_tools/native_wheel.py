@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The wheel of the package discrete_fairing: compiled core, binding and Python files."""
+
+import shutil
+from pathlib import Path
+
+from layout import BUILD, MANIFEST, ROOT, VENV
+from python_environment import pip
+from shell import DevError, output, say
+from stamp import files_under, fingerprint, is_fresh, leave
+from wheel_version import LOCAL_PART, manifest_version
+
+WHEELS = BUILD / "wheels"
+STAMP = VENV / "stamps" / "wheel"
+# -Werror is for us; who builds the wheel elsewhere may have a compiler with new warnings
+PIP_WHEEL = ["wheel", "--no-deps", "--no-build-isolation", "--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
+
+
+def inputs() -> list[Path]:
+    """Every file that the wheel is made of."""
+    names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE", "build_tools/wheel_version.py"]
+    return files_under(MANIFEST, *(ROOT / name for name in names))
+
+
+def state() -> str:
+    """A hash of the wheel's inputs."""
+    return fingerprint(inputs())
+
+
+def local_version() -> str:
+    """The local part of a development build's version, from its content; empty for a tagged release."""
+    _, tags = output("git", "tag", "--points-at", "HEAD")
+    clean = output("git", "status", "--porcelain", "--untracked-files=no") == (0, "")
+    if clean and f"v{manifest_version()}" in tags.split():
+        return ""
+    return f"g{state()[:10]}"
+
+
+def only_wheel(folder: Path) -> Path:
+    """The one wheel in a folder."""
+    found = list(folder.glob("*.whl"))
+    if len(found) != 1:
+        raise DevError(f"{folder} should hold one wheel, but holds {len(found)}.")
+    return found[0]
+
+
+def build() -> Path:
+    """Builds the wheel for the Python of .venv, incrementally."""
+    folder = WHEELS / "venv"
+    shutil.rmtree(folder, ignore_errors=True)
+    pip(*PIP_WHEEL, "--wheel-dir", folder, ROOT, **{LOCAL_PART: local_version()})
+    return only_wheel(folder)
+
+
+def install() -> Path:
+    """Builds the wheel and installs it into .venv; returns at once when nothing changed."""
+    value = fingerprint(inputs(), local_version())
+    if is_fresh(STAMP, value):
+        return only_wheel(WHEELS / "venv")
+    say("native build: the wheel of discrete_fairing")
+    wheel = build()
+    pip("install", "--no-deps", "--force-reinstall", wheel)
+    leave(STAMP, value)
+    return wheel

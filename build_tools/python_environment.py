@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The project's own Python in .venv, with every dependency at an exact version."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from layout import ROOT, VENV, VENV_PYTHON
+from shell import run, say
+from stamp import fingerprint, is_fresh, leave
+
+REQUIREMENTS = ROOT / "build_tools" / "requirements.txt"
+STAMP = VENV / "stamps" / "requirements"
+BPY_VERSION = (3, 11)  # Blender 4.2 to 5.0, hence of the bpy wheel
+
+
+def has_bpy() -> bool:
+    """Whether .venv has the bpy module: it exists for one version of Python only."""
+    return (VENV / "lib" / "python{}.{}".format(*BPY_VERSION) / "site-packages" / "bpy").is_dir()
+
+
+def base_python() -> str:
+    """The Python that .venv is made of: the one that bpy is for where there is one."""
+    if sys.version_info[:2] == BPY_VERSION:
+        return sys.executable
+    name = "python{}.{}".format(*BPY_VERSION)
+    return shutil.which(name) or sys.executable
+
+
+def install() -> None:
+    """Makes .venv and fills it; returns at once when the requirements are as before."""
+    base = base_python()
+    version = subprocess.run([base, "-VV"], capture_output=True, text=True, check=True).stdout
+    value = fingerprint([REQUIREMENTS], version)
+    if is_fresh(STAMP, value) and VENV_PYTHON.exists():
+        return
+    say(f"Python environment: {VENV.relative_to(ROOT)}, {version.split(' (')[0].strip()}")
+    run(base, "-m", "venv", "--clear", VENV)
+    pip("install", "--requirement", REQUIREMENTS)
+    leave(STAMP, value)
+    if not has_bpy():
+        say("bpy exists for Python 3.11 only: here the add-on is tested in the real Blender alone.")
+
+
+def pip(*arguments: str | Path, **extra: str) -> None:
+    """Runs pip in .venv."""
+    run(VENV_PYTHON, "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments, **extra)

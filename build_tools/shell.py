@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Running other programs: what is run is shown, and a failure ends in one clear sentence."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from layout import ROOT, VENV_BIN
+
+
+class DevError(Exception):
+    """Something that the person at the keyboard has to know; shown without a traceback."""
+
+
+def say(message: str) -> None:
+    """A line of progress, in order with the output of the programs that are run."""
+    print(f"» {message}", flush=True)
+
+
+def environment(**extra: str) -> dict[str, str]:
+    """This process's environment with the project's own tools first on the path."""
+    return {**os.environ, "PATH": f"{VENV_BIN}{os.pathsep}{os.environ['PATH']}", **extra}
+
+
+def run(*command: str | Path, check: bool = True, **extra: str) -> int:
+    """Runs a program in the project's folder; `extra` are environment variables."""
+    words = [str(word) for word in command]
+    print("$ " + shlex.join(words), flush=True)
+    code = subprocess.run(words, cwd=ROOT, env=environment(**extra)).returncode
+    if check and code != 0:
+        raise DevError(f"`{words[0]}` failed with exit code {code}; its output is above.")
+    return code
+
+
+def output(*command: str | Path, **extra: str) -> tuple[int, str]:
+    """Exit code and output (errors included) of a program that is run quietly."""
+    words = [str(word) for word in command]
+    done = subprocess.run(
+        words, cwd=ROOT, env=environment(**extra), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    return done.returncode, done.stdout
+
+
+def as_root(*command: str | Path) -> list[str]:
+    """The command line that runs `command` as root, by sudo where we are not root ourselves."""
+    words = [str(word) for word in command]
+    if os.geteuid() == 0:
+        return words
+    if shutil.which("sudo") is None:
+        raise DevError(f"`{words[0]}` needs root: run dev.py as root, or install sudo.")
+    return ["sudo", *words]
+
+
+def fail(message: str) -> None:
+    """Ends the process with a sentence."""
+    print(f"dev.py: {message}", file=sys.stderr, flush=True)
+    raise SystemExit(1)

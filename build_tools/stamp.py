@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Skipping work whose inputs are the same as last time, by their content."""
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+
+from layout import ROOT
+
+
+def files_under(*tops: Path) -> list[Path]:
+    """All files in the given files and folders, caches left out, in a fixed order."""
+    found = []
+    for top in tops:
+        found += [top] if top.is_file() else [path for path in top.rglob("*") if path.is_file()]
+    return sorted(path for path in found if "__pycache__" not in path.parts)
+
+
+def fingerprint(files: Iterable[Path], *facts: str) -> str:
+    """One hash of the files' names and contents and of some facts that matter as well."""
+    digest = hashlib.sha256(repr(facts).encode())
+    for path in files:
+        digest.update(f"{path.relative_to(ROOT)}\0".encode())
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def is_fresh(stamp: Path, value: str) -> bool:
+    """Whether the work that left `stamp` was done on the very same inputs."""
+    return stamp.is_file() and stamp.read_text() == value
+
+
+def leave(stamp: Path, value: str) -> None:
+    """Notes that the work is done."""
+    stamp.parent.mkdir(parents=True, exist_ok=True)
+    stamp.write_text(value)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Debian packages that the project stands on."""
+
+import shutil
+
+from shell import DevError, as_root, output, run, say
+
+NATIVE = ["g++", "ccache", "libopenmesh-dev", "libeigen3-dev", "libgtest-dev", "libsuitesparse-dev"]
+PYTHON = ["python3-venv", "python3-dev"]
+# the bpy wheel loads these at import; the last ones are for drawing without a screen
+BPY = ["libgl1", "libegl1", "libgl1-mesa-dri", "libice6", "libsm6", "libx11-6", "libxext6", "libxfixes3", "libxi6"]
+BPY += ["libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1", "libuuid1", "libgomp1", "xvfb"]
+REAL_BLENDER = ["mmdebstrap"]
+
+ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
+
+
+def missing() -> list[str]:
+    """Those packages that are not installed."""
+    _, listing = output("dpkg-query", "-W", "-f", "${binary:Package} ${db:Status-Status}\n", *ALL)
+    lines = [line.split() for line in listing.splitlines() if line.endswith(" installed")]
+    installed = {words[0].split(":")[0] for words in lines}
+    return [package for package in ALL if package not in installed]
+
+
+def install() -> None:
+    """Installs what is missing; returns at once when nothing is."""
+    if shutil.which("dpkg-query") is None:
+        raise DevError("this is no Debian: install " + " ".join(ALL) + " or what they are called here.")
+    wanted = missing()
+    if not wanted:
+        return
+    say("system packages: " + " ".join(wanted))
+    quiet = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-qq", "-o", "Dpkg::Use-Pty=0"]
+    # an unrelated source that cannot be reached must not stop us: install tells what is really absent
+    run(*as_root(*quiet, "update"), check=False)
+    run(*as_root(*quiet, "install", "--yes", "--no-install-recommends", *wanted))

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The version of a wheel, for scikit-build-core: the manifest's, and a local part for development builds.
+
+Blender keeps the old native code when a wheel of the same version is installed again, so a build
+between releases has to have a version of its own, as `0.1.0+g1a2b3c4`.
+"""
+
+import os
+import tomllib
+from pathlib import Path
+
+MANIFEST = Path(__file__).resolve().parent.parent / "blender_manifest.toml"
+LOCAL_PART = "DF_LOCAL_VERSION"
+
+
+def manifest_version() -> str:
+    """The project's version, from the one place where it is written."""
+    return tomllib.loads(MANIFEST.read_text())["version"]
+
+
+def dynamic_metadata(field, settings=None, project=None) -> str:
+    """Called by scikit-build-core for the field `version`."""
+    if field != "version":
+        raise ValueError(f"wheel_version provides no {field}")
+    local = os.environ.get(LOCAL_PART)
+    return f"{manifest_version()}+{local}" if local else manifest_version()

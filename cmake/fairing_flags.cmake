@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# `fairing_flags`: what every one of our own targets is compiled with, and nobody else's.
+add_library(fairing_flags INTERFACE)
+target_compile_features(fairing_flags INTERFACE cxx_std_20)
+
+# Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count.
+target_compile_options(fairing_flags INTERFACE -ffp-contract=off)
+
+target_compile_options(fairing_flags INTERFACE -Wall -Wextra)
+# a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
+target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
+if(DF_WARNINGS_AS_ERRORS)
+  target_compile_options(fairing_flags INTERFACE -Werror)
+endif()
+
+target_compile_definitions(fairing_flags INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+
+if(DF_SANITIZE)
+  target_compile_options(fairing_flags INTERFACE -fsanitize=${DF_SANITIZE} -fno-sanitize-recover=all
+                                                 -fno-omit-frame-pointer)
+  target_link_options(fairing_flags INTERFACE -fsanitize=${DF_SANITIZE})
+endif()
