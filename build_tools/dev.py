@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All of the project's chores, from a fresh Debian machine with nothing but python3.
 
-    python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
-    python3 build_tools/dev.py test           all tests; the last line counts them
-    python3 build_tools/dev.py setup          system packages, .venv and the native build
-    python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
-    python3 build_tools/dev.py extension      the extension's zips under out/
-    python3 build_tools/dev.py format         clang-format and ruff on all sources
+python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
+python3 build_tools/dev.py test           all tests; the last line counts them
+python3 build_tools/dev.py setup          system packages, .venv and the native build
+python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
+python3 build_tools/dev.py extension      the extension's zips under out/
+python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
 import argparse
@@ -75,7 +75,9 @@ def format_sources() -> int:
 
 def arguments() -> argparse.Namespace:
     """The command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("command", choices=["setup", "test", "demo", "bench", "extension", "format"])
     parser.add_argument("names", nargs="*", help="bench, demo, test: only these")
     return parser.parse_args()
@@ -84,7 +86,7 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Runs one command; the exit code is the process's."""
     given = arguments()
-    if sys.version_info < (3, 11):
+    if sys.version_info < (3, 11):  # noqa: UP036
         raise DevError("python3 has to be 3.11 or newer.")
     commands = {
         "setup": setup,

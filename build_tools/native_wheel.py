@@ -13,7 +13,12 @@ from wheel_version import LOCAL_PART, manifest_version
 WHEELS = BUILD / "wheels"
 STAMP = VENV / "stamps" / "wheel"
 # -Werror is for us; who builds the wheel elsewhere may have a compiler with new warnings
-PIP_WHEEL = ["wheel", "--no-deps", "--no-build-isolation", "--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
+PIP_WHEEL = [
+    "wheel",
+    "--no-deps",
+    "--no-build-isolation",
+    "--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON",
+]
 
 
 def inputs() -> list[Path]:

@@ -8,7 +8,17 @@ from shell import DevError, as_root, output, run, say
 NATIVE = ["g++", "ccache", "libopenmesh-dev", "libeigen3-dev", "libgtest-dev", "libsuitesparse-dev"]
 PYTHON = ["python3-venv", "python3-dev"]
 # the bpy wheel loads these at import; the last ones are for drawing without a screen
-BPY = ["libgl1", "libegl1", "libgl1-mesa-dri", "libice6", "libsm6", "libx11-6", "libxext6", "libxfixes3", "libxi6"]
+BPY = [
+    "libgl1",
+    "libegl1",
+    "libgl1-mesa-dri",
+    "libice6",
+    "libsm6",
+    "libx11-6",
+    "libxext6",
+    "libxfixes3",
+    "libxi6",
+]
 BPY += ["libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1", "libuuid1", "libgomp1", "xvfb"]
 REAL_BLENDER = ["mmdebstrap"]
 

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The form of the sources: clang-format and ruff."""
+
+from pathlib import Path
+
+from layout import ROOT
+from shell import run
+from stamp import files_under
+
+CPP_FOLDERS = ["native", "tests/native", "benchmarks"]
+PYTHON_FOLDERS = ["addon", "benchmarks", "build_tools", "examples", "native", "tests"]
+
+
+def cpp_files() -> list[Path]:
+    """All C++ sources, as paths from the project's root."""
+    files = files_under(*(ROOT / folder for folder in CPP_FOLDERS))
+    return [path.relative_to(ROOT) for path in files if path.suffix in (".h", ".cpp")]
+
+
+def checks() -> dict[str, list]:
+    """The command of each check, by the check's name."""
+    return {
+        "clang-format": ["clang-format", "--dry-run", "--Werror", *cpp_files()],
+        "ruff check": ["ruff", "check", *PYTHON_FOLDERS],
+        "ruff format": ["ruff", "format", "--check", *PYTHON_FOLDERS],
+    }
+
+
+def rewrite() -> int:
+    """Brings all sources into form; what ruff cannot mend it names."""
+    run("clang-format", "-i", *cpp_files())
+    run("ruff", "format", *PYTHON_FOLDERS)
+    return run("ruff", "check", "--fix", *PYTHON_FOLDERS, check=False)

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The installed extension in a real Blender: `blender --background --python smoke.py`.
+
+Prints `PASS name` or `FAIL name` for each test and exits with 1 if any failed; build_tools/suites.py counts.
+The modules of the project are not on the path here, only what the extension's zip brought.
+"""
+
+import importlib
+import sys
+import traceback
+
+import bpy
+import numpy as np
+
+EXTENSION = "bl_ext.user_default.discrete_fairing"
+LEVELS = 2
+PARTS = 4**LEVELS  # of each control quad
+
+
+def fresh_scene():
+    """An empty scene; the enabled extension stays."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
+
+
+def active_mesh_object(add, **arguments):
+    """The object that a primitive operator makes."""
+    add(**arguments)
+    return bpy.context.active_object
+
+
+def contents(mesh):
+    """Everything of a mesh that fairing could have touched, to compare."""
+    positions = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", positions)
+    return positions.tobytes(), [tuple(polygon.vertices) for polygon in mesh.polygons]
+
+
+def positions(mesh):
+    """(n, 3) float32."""
+    flat = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", flat)
+    return flat.reshape(-1, 3)
+
+
+def sides(mesh):
+    """How many triangles and how many quads, as a pair; other polygons fail."""
+    counts = [polygon.loop_total for polygon in mesh.polygons]
+    assert set(counts) <= {3, 4}, f"a result has triangles and quads only, not {set(counts)}"
+    return counts.count(3), counts.count(4)
+
+
+def fair(source, **settings):
+    """Runs the operator on one object and returns the new one."""
+    assert bpy.ops.object.fair_surface(levels=LEVELS, **settings) == {"FINISHED"}
+    return bpy.data.objects[f"{source.name} Fair"]
+
+
+def test_extension_brings_its_own_native_module():
+    assert EXTENSION in bpy.context.preferences.addons
+    native = importlib.import_module("discrete_fairing._native")
+    assert "extensions" in native.__file__, native.__file__
+
+
+def test_cube_gives_sixteen_quads_a_face():
+    source = active_mesh_object(bpy.ops.mesh.primitive_cube_add)
+    assert sides(fair(source).data) == (0, 6 * PARTS)
+
+
+def test_suzanne_keeps_faces_and_vertices():
+    source = active_mesh_object(bpy.ops.mesh.primitive_monkey_add)
+    triangles, quads = sides(source.data)
+    result = fair(source).data
+    fine_triangles, fine_quads = sides(result)
+    # the core may split a warped quad in two triangles, so count in triangles
+    assert fine_triangles + 2 * fine_quads == PARTS * (triangles + 2 * quads)
+    control = positions(source.data)
+    assert np.array_equal(positions(result)[: len(control)], control), "control vertices are interpolated"
+    assert np.isfinite(positions(result)).all()
+
+
+def test_source_is_untouched():
+    source = active_mesh_object(
+        bpy.ops.mesh.primitive_monkey_add, location=(1, 2, 3), rotation=(0.1, 0.2, 0.3)
+    )
+    before = contents(source.data), source.matrix_world.copy()
+    result = fair(source)
+    assert (contents(source.data), source.matrix_world) == before
+    assert result.data != source.data
+    assert result.matrix_world == source.matrix_world
+
+
+def test_approximation_runs():
+    source = active_mesh_object(bpy.ops.mesh.primitive_monkey_add)
+    result = fair(source, interpolation="APPROXIMATE", tolerance=0.05)
+    control = positions(source.data)
+    moved = np.linalg.norm(positions(result.data)[: len(control)] - control, axis=1)
+    assert moved.max() <= 0.05 * (1 + 1e-5), moved.max()
+
+
+def test_bad_mesh_is_refused_and_nothing_changes():
+    mesh = bpy.data.meshes.new("Fan")
+    points = [(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0)]
+    mesh.from_pydata(points, [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    source = bpy.data.objects.new("Fan", mesh)
+    bpy.context.collection.objects.link(source)
+    bpy.context.view_layer.objects.active = source
+    source.select_set(True)
+    before = set(bpy.data.objects.keys())
+    try:
+        bpy.ops.object.fair_surface(levels=LEVELS)
+    except RuntimeError as error:
+        assert "edge" in str(error).lower(), error
+    else:
+        raise AssertionError("an edge with three faces has to be refused")
+    assert set(bpy.data.objects.keys()) == before
+
+
+def test_disable_and_enable_again():
+    bpy.ops.preferences.addon_disable(module=EXTENSION)
+    assert not hasattr(bpy.types, "OBJECT_OT_fair_surface")
+    bpy.ops.preferences.addon_enable(module=EXTENSION)
+    assert hasattr(bpy.types, "OBJECT_OT_fair_surface")
+
+
+def main():
+    """Every test in a scene of its own; the number of failures."""
+    failures = 0
+    for name, test in [item for item in globals().items() if item[0].startswith("test_")]:
+        try:
+            fresh_scene()
+            test()
+        except Exception:
+            failures += 1
+            traceback.print_exc(file=sys.stdout)
+            print(f"FAIL {name}", flush=True)
+        else:
+            print(f"PASS {name}", flush=True)
+    return failures
+
+
+if __name__ == "__main__":
+    sys.exit(1 if main() else 0)
