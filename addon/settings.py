@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every setting of the fairing, once: the operator and the panel both inherit this one list."""
+
+from math import radians
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+ENERGIES = (
+    (
+        "THIN_PLATE",
+        "Thin Plate",
+        "Bends like a thin sheet of spring steel held at the control vertices. Fast, and always has one answer",
+    ),
+)
+
+INTERPOLATIONS = (
+    ("EXACT", "Through", "The surface passes exactly through every vertex of the source"),
+    (
+        "APPROXIMATE",
+        "Near",
+        "The surface may leave each vertex of the source by at most the tolerance, and uses that to become calmer",
+    ),
+)
+
+BOUNDARIES = (
+    (
+        "CURVE",
+        "Smooth",
+        "Open borders become smooth curves through their own vertices, so that neighbouring parts with the same border fit",
+    ),
+    ("LINEAR", "Straight", "Open borders keep the straight edges of the source"),
+    ("FREE", "Free", "Open borders go where the surface takes them, fixed only at their vertices"),
+)
+
+
+class FairingSettings:
+    """Mix-in of annotations for an operator or a property group."""
+
+    levels: IntProperty(
+        name="Levels",
+        description="How often every face is split in four. Two or three show the shape; four and more are for close-ups",
+        default=3,
+        min=1,
+        max=10,
+        soft_max=5,
+    )
+    energy: EnumProperty(
+        name="Energy", description="What the surface tries to have as little of as it can", items=ENERGIES
+    )
+    interpolation: EnumProperty(
+        name="Vertices",
+        description="Whether the surface has to hit the vertices of the source",
+        items=INTERPOLATIONS,
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="The furthest that the surface may pass from a vertex of the source, before the object's scale. "
+        "A little goes a long way against bumps",
+        default=0.01,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+    )
+    boundary: EnumProperty(name="Boundary", description="What happens to open borders", items=BOUNDARIES)
+
+    use_crease_attribute: BoolProperty(
+        name="Edge Creases",
+        description="Edges with a crease (Shift E in Edit Mode) become sharp curves; "
+        "vertices with a vertex crease become corners where such curves end",
+        default=True,
+    )
+    crease_threshold: FloatProperty(
+        name="Threshold",
+        description="The least crease weight that counts",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    use_sharp_edges: BoolProperty(
+        name="Sharp Edges", description="Edges marked sharp become sharp curves as well", default=False
+    )
+    use_crease_angle: BoolProperty(
+        name="Crease Angle",
+        description="Edges folded by more than this angle become sharp curves",
+        default=False,
+    )
+    crease_angle: FloatProperty(
+        name="Angle",
+        description="The fold between two faces from which on their edge stays sharp",
+        default=radians(40),
+        min=0.0,
+        max=radians(180),
+        subtype="ANGLE",
+    )
+    use_corner_angle: BoolProperty(
+        name="Corner Angle",
+        description="Borders and creases that turn by more than this angle at a vertex get a corner there, not a bend",
+        default=False,
+    )
+    corner_angle: FloatProperty(
+        name="Angle",
+        description="The turn of a border or crease from which on the vertex is a corner",
+        default=radians(60),
+        min=0.0,
+        max=radians(180),
+        subtype="ANGLE",
+    )
+
+    metric_exponent: FloatProperty(
+        name="Spacing",
+        description="How far the size of the source's faces shapes the surface. 1: faces keep their proportions; "
+        "0: all count the same; ½ is the calmest on uneven meshes",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    epsilon: FloatProperty(
+        name="Release",
+        description="Lets the vertices of the source move by up to this distance at the very end, to take the "
+        "last small cusps out of the reflections",
+        default=0.0,
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+        subtype="DISTANCE",
+    )
+    repair_orientation: BoolProperty(
+        name="Repair Normals",
+        description="Turns over faces that point the other way than their neighbours, instead of refusing the mesh",
+        default=False,
+    )
+    shade_smooth: BoolProperty(
+        name="Shade Smooth",
+        description="Shades every face of the result smooth. Off: each face is shaded like the one it comes from",
+        default=False,
+    )
+    memory_limit: IntProperty(
+        name="Memory Limit",
+        description="Refuses to start a result that would need more memory than this, in megabytes. 0: the core decides",
+        default=0,
+        min=0,
+        soft_max=65536,
+        subtype="NONE",
+    )
+
+
+NAMES = tuple(FairingSettings.__annotations__)
+
+
+def copy_settings(source, target):
+    """Every setting of `source` onto `target` (operator properties or property group)."""
+    for name in NAMES:
+        setattr(target, name, getattr(source, name))
+
+
+class DISCRETE_FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
+    """What the panel shows; kept with the scene."""
+
+
+def register():
+    bpy.utils.register_class(DISCRETE_FAIRING_PG_settings)
+    bpy.types.Scene.discrete_fairing = bpy.props.PointerProperty(type=DISCRETE_FAIRING_PG_settings)
+
+
+def unregister():
+    del bpy.types.Scene.discrete_fairing
+    bpy.utils.unregister_class(DISCRETE_FAIRING_PG_settings)
