@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on in `bpy`, from the source tree; every test begins in an empty Blender."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parents[1]), str(HERE)]
+bpy = pytest.importorskip("bpy")
+
+import addon  # noqa: E402
+
+
+@pytest.fixture(autouse=True)
+def blender():
+    """An empty scene with the add-on registered."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    addon.register()
+    yield bpy
+    addon.unregister()

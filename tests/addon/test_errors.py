@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input: a sentence that names what is wrong, and nothing made."""
+
+import bmesh
+import bpy
+import pytest
+from scenes import CUBE, add, fair
+
+from addon import messages, size
+
+
+def expect_refusal(match, **settings):
+    before = len(bpy.data.objects), len(bpy.data.meshes)
+    with pytest.raises(RuntimeError, match=match):
+        bpy.ops.object.fair_surface(**settings)
+    assert (len(bpy.data.objects), len(bpy.data.meshes)) == before
+
+
+def test_three_faces_at_an_edge():
+    source = add("Book", [(0, 0, 0), (0, 0, 1)], [])
+    book = bmesh.new()
+    book.from_mesh(source.data)
+    spine = list(book.verts)
+    for x, y in ((1, 0), (-1, 1), (-1, -1)):
+        book.faces.new((*spine, book.verts.new((x, y, 0))))
+    book.to_mesh(source.data)
+    book.free()
+    expect_refusal(r"Book: .*edge.*\b0\b.*\b1\b.*Non Manifold")
+
+
+def test_no_faces():
+    add("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
+    expect_refusal("Wire: .*face")
+
+
+def test_empty_mesh():
+    add("Nothing", [], [])
+    expect_refusal("Nothing: ")
+
+
+def test_not_a_number():
+    add("Hole", [(float("nan"), 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    expect_refusal("Hole: .*finite")
+
+
+def test_one_bad_mesh_of_two_makes_nothing():
+    good, _bad = add("Good", *CUBE), add("Wire", [(0, 0, 0)], [])
+    good.select_set(True)
+    expect_refusal("Wire: ")
+
+
+def test_nothing_selected():
+    expect_refusal("Select a mesh")
+
+
+def test_other_modes():
+    add("Box", *CUBE)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    expect_refusal("Object Mode")
+
+
+def test_more_than_a_mesh_can_hold():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=50, y_subdivisions=50)
+    expect_refusal("fewer levels", levels=10)
+
+
+def test_loose_vertices_are_kept_with_a_warning(capfd):
+    vertices, faces = CUBE
+    add("Box", [*vertices, (9, 9, 9)], faces)
+    result = fair(levels=1)
+    assert tuple(result.data.vertices[8].co) == (9, 9, 9)
+    assert "Box: " in capfd.readouterr().out
+
+
+def test_every_code_has_a_remedy_or_speaks_for_itself():
+    class Refusal(Exception):
+        code = "NO_FACES"
+
+    assert messages.error_text("Wire", Refusal("the mesh has no faces")) == (
+        "Wire: the mesh has no faces. Fill the edges with faces (F in Edit Mode)."
+    )
+    Refusal.code = "SOMETHING_NEW"
+    assert messages.error_text("Wire", Refusal("no")) == "Wire: no."
+
+
+def test_size_sentence():
+    assert size.why_too_large(10**6) == ""
+    assert "fewer levels" in size.why_too_large(10**9)
+
+
+def test_an_error_leaves_edit_mode_as_it_was():
+    add("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
+    bpy.ops.object.mode_set(mode="EDIT")
+    expect_refusal("Wire: ")
+    assert bpy.context.mode == "EDIT_MESH"

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator on real Blender meshes."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from scenes import (
+    CUBE,
+    TRIANGLE,
+    activate,
+    add,
+    add_suzanne,
+    face_values,
+    fair,
+    positions,
+    set_edge_attribute,
+    snapshot,
+)
+
+
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_cube_in_quads(levels):
+    source = add("Box", *CUBE)
+    result = fair(levels=levels)
+    assert result.name == "Box Fair" and result.data.name == "Box Fair"
+    assert len(result.data.polygons) == 6 * 4**levels
+    assert set(face_values(result.data, "loop_total", np.int32)) == {4}
+    assert len(result.data.vertices) == 6 * 4**levels + 2
+    assert np.array_equal(positions(result.data)[:8], positions(source.data))
+
+
+def test_suzanne_keeps_triangles_and_quads_apart():
+    source = add_suzanne()
+    result = fair(levels=2)
+    sizes, fine = (
+        face_values(source.data, "loop_total", np.int32),
+        face_values(result.data, "loop_total", np.int32),
+    )
+    for size in (3, 4):
+        assert (fine == size).sum() == 16 * (sizes == size).sum()
+
+
+def test_single_triangle():
+    add("Triangle", *TRIANGLE)
+    result = fair(levels=2)
+    assert len(result.data.polygons) == 16
+    assert np.all(positions(result.data)[:, 2] == 0.0)
+
+
+def test_pentagon():
+    turn = np.arange(5) * 2 * np.pi / 5
+    add("Pentagon", np.c_[np.cos(turn), np.sin(turn), 0 * turn].tolist(), [range(5)])
+    result = fair(levels=1)
+    assert len(result.data.polygons) and np.allclose(positions(result.data)[:, 2], 0.0)
+
+
+def test_suzanne_stays_symmetric():
+    source = add_suzanne()
+    coarse, fine = positions(source.data), positions(fair(levels=2).data)
+    assert _asymmetry(fine) <= max(1e-5, 2 * _asymmetry(coarse))
+
+
+def _asymmetry(points):
+    """The largest distance from a mirrored point to the nearest point."""
+    mirrored = points * np.float32([-1, 1, 1])
+    return max(np.min(np.linalg.norm(points - p, axis=1)) for p in mirrored[:: max(1, len(points) // 800)])
+
+
+@pytest.mark.parametrize("make", [add_suzanne, lambda: add("Box", *CUBE), lambda: add("Triangle", *TRIANGLE)])
+def test_result_has_nothing_to_mend(make):
+    make()
+    result = fair(levels=2)
+    assert result.data.validate(verbose=True) is False
+
+
+def test_source_is_untouched_bit_by_bit():
+    source = add_suzanne()
+    source.location = (1, 2, 3)
+    source.data.materials.append(bpy.data.materials.new("Clay"))
+    bpy.context.view_layer.update()
+    before = snapshot(source)
+    fair(levels=1, use_crease_angle=True)
+    assert snapshot(source) == before
+
+
+def test_result_is_selected_and_active_alone():
+    source = add("Box", *CUBE)
+    result = fair(levels=1)
+    assert bpy.context.selected_objects == [result] and not source.select_get()
+
+
+def test_materials_and_shading_follow_the_faces():
+    source = add("Box", *CUBE)
+    for name in ("Red", "Green", "Blue"):
+        source.data.materials.append(bpy.data.materials.new(name))
+    source.data.polygons.foreach_set("material_index", [0, 1, 2, 0, 1, 2])
+    source.data.polygons.foreach_set("use_smooth", [True, False, True, False, True, False])
+    result = fair(levels=2)
+    assert [m.name for m in result.data.materials] == ["Red", "Green", "Blue"]
+    centres, normals = np.zeros((96, 3)), [tuple(p.normal) for p in source.data.polygons]
+    result.data.polygons.foreach_get("center", flat := np.empty(3 * 96, np.float32))
+    centres[:] = flat.reshape(-1, 3)
+    owner = np.argmax(
+        centres @ np.array(normals).T, axis=1
+    )  # the side of the cube that a fine face lies above
+    assert np.array_equal(
+        face_values(result.data, "material_index", np.int32), np.array([0, 1, 2, 0, 1, 2])[owner]
+    )
+    assert np.array_equal(
+        face_values(result.data, "use_smooth", bool), np.array([1, 0, 1, 0, 1, 0], bool)[owner]
+    )
+
+
+def test_shade_smooth():
+    add("Box", *CUBE).data.polygons.foreach_set("use_smooth", [False] * 6)
+    assert face_values(fair(levels=1, shade_smooth=True).data, "use_smooth", bool).all()
+
+
+def test_materials_held_by_the_object():
+    source = add("Box", *CUBE)
+    source.data.materials.append(bpy.data.materials.new("In Mesh"))
+    source.material_slots[0].link = "OBJECT"
+    source.material_slots[0].material = bpy.data.materials.new("In Object")
+    result = fair(levels=1)
+    assert result.material_slots[0].link == "OBJECT" and result.material_slots[0].material.name == "In Object"
+    assert result.data.materials[0].name == "In Mesh"
+
+
+def test_place_parent_and_collection():
+    parent = bpy.data.objects.new("Parent", None)
+    parts = bpy.data.collections.new("Parts")
+    bpy.context.scene.collection.children.link(parts)
+    parts.objects.link(parent)
+    source = add("Box", *CUBE)
+    parts.objects.link(source)
+    bpy.context.collection.objects.unlink(source)
+    source.parent = parent
+    parent.location, source.location = (1, 0, 0), (0, 2, 0)
+    source.rotation_euler, source.scale = (0.1, 0.2, 0.3), (1, 2, 3)
+    activate(source)
+    result = fair(levels=1)
+    bpy.context.view_layer.update()
+    assert result.parent == parent and list(result.users_collection) == [parts]
+    assert result.matrix_world == source.matrix_world
+
+
+def test_constrained_object_stays_where_it_is_seen():
+    source = add("Box", *CUBE)
+    goal = bpy.data.objects.new("Goal", None)
+    bpy.context.collection.objects.link(goal)
+    goal.location = (5, 6, 7)
+    source.constraints.new("COPY_LOCATION").target = goal
+    result = fair(levels=1)
+    bpy.context.view_layer.update()
+    assert tuple(result.matrix_world.translation) == (5, 6, 7)
+
+
+def test_all_selected_meshes():
+    first, _second = add("A", *CUBE), add("B", *TRIANGLE)
+    first.select_set(True)
+    fair(levels=1)
+    assert {o.name for o in bpy.context.selected_objects} == {"A Fair", "B Fair"}
+    assert bpy.context.active_object.name == "B Fair"
+
+
+def test_edit_mode_sees_the_latest_edit():
+    source = add("Box", *CUBE)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(2, 2, 2))
+    result = fair(levels=1)
+    assert np.array_equal(positions(result.data)[:8], 2 * np.float32(CUBE[0]))
+    assert bpy.context.mode == "OBJECT" and source.mode == "OBJECT"
+
+
+def test_creases_are_sharp_in_the_result():
+    source = add("Box", *CUBE)
+    set_edge_attribute(source.data, "crease_edge", "FLOAT", [(1, 3), (3, 7), (5, 7), (1, 5)], 1.0)
+    result = fair(levels=2, shade_smooth=True)
+    sharp = [e for e in result.data.edges if e.use_edge_sharp]
+    assert len(sharp) == 4 * 4
+    ids = np.unique([e.vertices[:] for e in sharp])
+    assert np.allclose(positions(result.data)[ids][:, 2], 1.0)  # a plane loop of creases stays in its plane
+
+
+def test_crease_angle_reaches_the_core():
+    add("Box", *CUBE)
+    result = fair(levels=2, use_crease_angle=True, crease_angle=np.radians(30))
+    assert np.allclose(np.abs(positions(result.data)).max(axis=1), 1.0)  # all edges creased: the cube itself
+
+
+def test_report_stays_with_the_result():
+    add("Box", *CUBE)
+    report = json.loads(fair(levels=2)["fairing_report"])
+    assert {"energy", "iterations", "seconds", "warnings"} <= set(report)
+
+
+def test_approximation_keeps_its_tolerance():
+    source = add_suzanne()
+    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.02)
+    moved = np.linalg.norm(
+        positions(result.data)[: len(source.data.vertices)] - positions(source.data), axis=1
+    )
+    assert moved.max() <= 0.02 * (1 + 1e-5)

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel computes and draws, on a layout that only remembers (drawing for real needs a window)."""
+
+import bpy
+import pytest
+from scenes import CUBE, add, add_suzanne, face_values
+
+from addon import native, panel, settings_layout, size
+from addon.settings import NAMES, copy_settings
+
+
+class Layout:
+    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties that do not exist."""
+
+    def __init__(self, log=None):
+        self.log = log if log is not None else []
+
+    def row(self, **_):
+        return Layout(self.log)
+
+    column = box = row
+
+    def panel(self, _name, **_):
+        return Layout(self.log), Layout(self.log)
+
+    def label(self, text="", **_):
+        self.log.append(text)
+
+    def prop(self, owner, name, **_):
+        assert name in owner.bl_rna.properties
+        self.log.append(name)
+
+    def operator(self, name, **_):
+        self.log.append(name)
+        return self.button
+
+    class button:
+        """The operator properties that the panel fills in."""
+
+
+def draw(cls):
+    class Instance:
+        layout = Layout()
+        _prepare = cls._prepare
+
+    cls.draw(Instance(), bpy.context)
+    return Instance.layout.log
+
+
+def test_every_setting_is_shown_somewhere():
+    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
+    log = [entry for cls in panel.CLASSES for entry in draw(cls)]
+    assert set(NAMES) <= set(log)
+
+
+def test_triangle_count_stands_beside_the_levels():
+    add("Box", *CUBE)
+    assert "768 triangles" in draw(panel.VIEW3D_PT_fairing)
+
+
+def test_button_carries_the_settings():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.levels = 4
+    draw(panel.VIEW3D_PT_fairing)
+    assert Layout.button.levels == 4
+
+
+def test_a_large_result_is_announced():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.levels = 10
+    assert any("large" in text for text in draw(panel.VIEW3D_PT_fairing))
+
+
+def test_missing_core_is_said_in_the_panel(monkeypatch):
+    monkeypatch.setattr(native, "_load", lambda: (None, native.MISSING))
+    assert " ".join(draw(panel.VIEW3D_PT_fairing)) == native.MISSING
+
+
+@pytest.mark.parametrize("levels", [1, 3])
+def test_count_is_what_comes(levels):
+    source = add_suzanne()
+    bpy.ops.object.fair_surface(levels=levels)
+    fine = face_values(bpy.context.object.data, "loop_total", "i")
+    assert size.triangle_count(size.face_sizes(source.data), levels) == int((fine - 2).sum())
+
+
+@pytest.mark.parametrize("sizes, triangles", [([], 0), ([3], 1), ([4], 2), ([5], 5), ([3, 4, 6], 9)])
+def test_coarse_triangles(sizes, triangles):
+    assert size.coarse_triangles(sizes) == triangles
+
+
+def test_count_text():
+    assert size.count_text(12345) == "12,345 triangles"
+    assert size.count_text(12_345_678) == "12.3 M triangles"
+
+
+def test_copy_settings():
+    class Target:
+        pass
+
+    copy_settings(bpy.context.scene.discrete_fairing, Target)
+    assert {name for name in vars(Target) if not name.startswith("_")} == set(NAMES)
+
+
+def test_layout_draws_operator_properties_too():
+    log = Layout()
+    properties = bpy.context.window_manager.operator_properties_last("object.fair_surface")
+    settings_layout.draw_shape(log, properties)
+    settings_layout.draw_creases(log, properties)
+    settings_layout.draw_advanced(log, properties)
+    assert "levels" in log.log

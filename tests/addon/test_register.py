@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+
+import addon
+from addon import native
+
+CLASSES = (
+    "OBJECT_OT_fair_surface",
+    "VIEW3D_PT_fairing",
+    "VIEW3D_PT_fairing_creases",
+    "VIEW3D_PT_fairing_advanced",
+)
+
+
+def registered():
+    return [hasattr(bpy.types, name) for name in CLASSES] + [hasattr(bpy.types.Scene, "discrete_fairing")]
+
+
+def test_register_and_unregister_twice():
+    assert all(registered())
+    for _ in range(2):
+        addon.unregister()
+        assert not any(registered())
+        addon.register()
+        assert all(registered())
+
+
+def test_operator_can_be_undone_and_redone():
+    assert bpy.types.OBJECT_OT_fair_surface.bl_options == {"REGISTER", "UNDO"}
+
+
+def test_panel_stands_in_its_tab():
+    assert bpy.types.VIEW3D_PT_fairing.bl_category == "Fairing"
+
+
+def test_without_the_native_module_the_button_is_grey_and_nothing_breaks(monkeypatch):
+    monkeypatch.setattr(native, "_load", lambda: (None, native.MISSING))
+    bpy.ops.mesh.primitive_cube_add()
+    assert not bpy.ops.object.fair_surface.poll()
+    addon.unregister()
+    addon.register()
