@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "check/error.h"
+
+namespace fairing {
+
+const char* name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::empty_mesh: return "EMPTY_MESH";
+    case ErrorCode::no_faces: return "NO_FACES";
+    case ErrorCode::bad_shape: return "BAD_SHAPE";
+    case ErrorCode::non_finite: return "NON_FINITE";
+    case ErrorCode::index_out_of_range: return "INDEX_OUT_OF_RANGE";
+    case ErrorCode::repeated_vertex: return "REPEATED_VERTEX";
+    case ErrorCode::duplicate_face: return "DUPLICATE_FACE";
+    case ErrorCode::nonmanifold_edge: return "NONMANIFOLD_EDGE";
+    case ErrorCode::nonmanifold_vertex: return "NONMANIFOLD_VERTEX";
+    case ErrorCode::inconsistent_orientation: return "INCONSISTENT_ORIENTATION";
+    case ErrorCode::non_orientable: return "NON_ORIENTABLE";
+    case ErrorCode::degenerate_face: return "DEGENERATE_FACE";
+    case ErrorCode::coincident_vertices: return "COINCIDENT_VERTICES";
+    case ErrorCode::bad_feature_edge: return "BAD_FEATURE_EDGE";
+    case ErrorCode::bad_option: return "BAD_OPTION";
+    case ErrorCode::underdetermined: return "UNDERDETERMINED";
+    case ErrorCode::too_large: return "TOO_LARGE";
+    case ErrorCode::out_of_memory: return "OUT_OF_MEMORY";
+    case ErrorCode::not_converged: return "NOT_CONVERGED";
+    case ErrorCode::cancelled: return "CANCELLED";
+  }
+  return "UNKNOWN";
+}
+
+}  // namespace fairing

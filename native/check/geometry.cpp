@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "check/geometry.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "check/coincidence.h"
+#include "check/listing.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+using Point = Eigen::Vector3d;
+
+constexpr double least_area = 1e-12;  // of the longest side squared
+
+bool has_no_area(const PolygonMesh& mesh, std::span<const std::int64_t> face) {
+  const auto point = [&](std::size_t i) {
+    return Point(Eigen::Map<const Point>(&mesh.coordinates[3 * std::size_t(face[i])]));
+  };
+  // Relative to one corner, or a small face far from the origin would drown in rounding.
+  const Point origin = point(0);
+  Point twice_area = Point::Zero(), last = point(face.size() - 1) - origin;
+  double longest = 0;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Point here = point(i) - origin;
+    twice_area += last.cross(here);
+    longest = std::max(longest, (here - last).squaredNorm());
+    last = here;
+  }
+  return !(twice_area.norm() > 2 * least_area * longest);  // so written, NaN counts as none
+}
+
+std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
+  std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
+  for (std::int64_t v : mesh.corners) used[std::size_t(v)] = 1;
+  return used;
+}
+
+}  // namespace
+
+void check_coincident_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings) {
+  const std::vector<std::int32_t> first = first_at_same_point(mesh.coordinates);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+
+  Ids shared;
+  std::vector<std::uint8_t> listed(first.size(), 0);
+  const auto add = [&](std::size_t v) {
+    if (!listed[v]) shared.push_back(std::int64_t(v));
+    listed[v] = 1;
+  };
+  // A group is led by its first *used* vertex, so that an isolated one is not reported twice over.
+  std::vector<std::int32_t> leader(first.size(), -1);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (!used[v]) continue;
+    auto& lead = leader[std::size_t(first[v])];
+    if (lead >= 0) {
+      add(std::size_t(lead));
+      add(v);
+    } else {
+      lead = std::int32_t(v);
+    }
+  }
+  if (shared.empty()) return;
+
+  Ids touching;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      if (!listed[std::size_t(face[i])]) continue;
+      for (std::size_t j = 0; j < i; ++j)
+        if (first[std::size_t(face[i])] == first[std::size_t(face[j])])
+          touching.insert(touching.end(), {face[i], face[j]});
+    }
+  }
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  if (!touching.empty())
+    throw FairingError(ErrorCode::coincident_vertices,
+                       listing("vertex lies", "vertices lie", touching) +
+                           " exactly on another vertex of the same face. Merge them by distance.",
+                       touching);
+
+  std::sort(shared.begin(), shared.end());
+  warnings.push_back({"COINCIDENT_VERTICES",
+                      listing("vertex shares", "vertices share", shared) +
+                          " a point with others without being joined to them: the surface is open there. "
+                          "Merge by distance if it should be closed.",
+                      shared});
+}
+
+void check_areas(const PolygonMesh& mesh) {
+  Ids bad;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f)
+    if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
+  if (bad.empty()) return;
+  throw FairingError(ErrorCode::degenerate_face,
+                     listing("face has", "faces have", bad) + " no area. Dissolve or delete them.", bad);
+}
+
+void warn_of_isolated_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings) {
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  Ids isolated;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) isolated.push_back(std::int64_t(v));
+  if (isolated.empty()) return;
+  warnings.push_back({"ISOLATED_VERTICES",
+                      listing("vertex belongs", "vertices belong", isolated) + " to no face: kept where they are.",
+                      isolated});
+}
+
+}  // namespace fairing

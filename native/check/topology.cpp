@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "check/topology.h"
+
+#include <algorithm>
+
+#include "check/error.h"
+#include "check/listing.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+std::uint64_t scramble(std::uint64_t x) {  // splitmix64
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+struct Print {
+  std::uint64_t hash;  // of the vertex set: a sum, so that order does not matter
+  std::int32_t face;
+  bool operator<(const Print& other) const {
+    return hash != other.hash ? hash < other.hash : face < other.face;
+  }
+};
+
+Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
+  const auto face = mesh.face(f);
+  Ids vertices(face.begin(), face.end());
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+// Faces of equal hash are compared in earnest.
+void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_hash, Ids& duplicates) {
+  std::vector<std::pair<Ids, std::int32_t>> sets;
+  for (const Print& print : same_hash) sets.emplace_back(sorted_vertices(mesh, print.face), print.face);
+  std::sort(sets.begin(), sets.end());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const bool as_before = i > 0 && sets[i - 1].first == sets[i].first;
+    const bool as_after = i + 1 < sets.size() && sets[i].first == sets[i + 1].first;
+    if (as_before || as_after) duplicates.push_back(sets[i].second);
+  }
+}
+
+// All corners of v's fan that holds corner k, whichever way the faces run.
+std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
+  const std::int64_t v = half_edges.from(k);
+  std::int32_t size = 1;
+  for (std::int32_t exit : {k, half_edges.previous(k)}) {
+    for (std::int32_t t = half_edges.twin(exit); t >= 0; t = half_edges.twin(exit)) {
+      const bool outgoing = half_edges.from(t) == v;
+      const std::int32_t corner = outgoing ? t : half_edges.next(t);
+      if (corner == k) return size;  // once around
+      ++size;
+      exit = outgoing ? half_edges.previous(t) : corner;
+    }
+  }
+  return size;
+}
+
+}  // namespace
+
+void check_duplicate_faces(const PolygonMesh& mesh) {
+  // Faces are filed under their lowest vertex: buckets of two on average, as in HalfEdges.
+  const auto faces = std::int32_t(mesh.face_count());
+  const auto lowest = [&](std::int32_t f) {
+    const auto face = mesh.face(f);
+    return std::size_t(*std::min_element(face.begin(), face.end()));
+  };
+  std::vector<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
+  for (std::int32_t f = 0; f < faces; ++f) ++start[lowest(f) + 1];
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+
+  std::vector<Print> prints(std::size_t(faces), Print{});
+  std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
+  for (std::int32_t f = 0; f < faces; ++f) {
+    std::uint64_t hash = 0;
+    for (std::int64_t v : mesh.face(f)) hash += scramble(std::uint64_t(v));
+    prints[std::size_t(fill[lowest(f)]++)] = {hash, f};
+  }
+
+  Ids duplicates;
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    const auto begin = prints.begin() + start[v], end = prints.begin() + start[v + 1];
+    std::sort(begin, end);
+    for (auto first = begin; first != end;) {
+      const auto last = std::find_if(first, end, [&](const Print& p) { return p.hash != first->hash; });
+      if (last - first > 1) collect_equal_sets(mesh, {first, last}, duplicates);
+      first = last;
+    }
+  }
+  if (duplicates.empty()) return;
+  std::sort(duplicates.begin(), duplicates.end());
+  throw FairingError(ErrorCode::duplicate_face,
+                     listing("face has", "faces have", duplicates) +
+                         " the same vertices as another face. Delete all but one of each.",
+                     duplicates);
+}
+
+void check_edges(const HalfEdges& half_edges) {
+  const Ids& pairs = half_edges.overfull();
+  if (pairs.empty()) return;
+  throw FairingError(ErrorCode::nonmanifold_edge,
+                     listing_pairs("edge has", "edges have", pairs) +
+                         " more than two faces (vertex pairs). Delete inner faces or separate the sheets.",
+                     pairs);
+}
+
+void check_fans(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+  std::vector<std::int32_t> corners(std::size_t(mesh.vertex_count()), 0), some(corners.size(), -1);
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    const auto v = std::size_t(half_edges.from(k));
+    ++corners[v];
+    some[v] = k;
+  }
+  Ids bad;
+  for (std::size_t v = 0; v < corners.size(); ++v)
+    if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v]) bad.push_back(std::int64_t(v));
+  if (bad.empty()) return;
+  throw FairingError(ErrorCode::nonmanifold_vertex,
+                     listing("vertex joins", "vertices join", bad) +
+                         " parts of the surface that share no edge there. Separate (rip) the parts.",
+                     bad);
+}
+
+}  // namespace fairing
