@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "control_mesh/connect.h"
+
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include "check/error.h"
+
+namespace fairing {
+namespace {
+
+// Only handles and prev/next/opposite are used: circulators changed their sense between OpenMesh versions.
+using HalfEdgeMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
+using Half = OpenMesh::HalfedgeHandle;
+
+// The half-edge from v that follows h counter-clockwise around v.
+Half rotated(const HalfEdgeMesh& mesh, Half h) { return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h)); }
+
+HalfEdgeMesh build(const ControlMesh& control) {
+  HalfEdgeMesh mesh;
+  mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(), control.faces.size());
+  for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex({});
+  for (const Face& face : control.faces) {
+    OpenMesh::VertexHandle corners[4];
+    for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);
+    // check() leaves nothing that could fail here; but a bug must not become a broken table.
+    if (!mesh.add_face(corners, std::size_t(face.size)).is_valid())
+      throw FairingError(ErrorCode::nonmanifold_vertex,
+                         "Face " + std::to_string(face.polygon) + " cannot be joined to its neighbours.", {face.polygon});
+  }
+  return mesh;
+}
+
+void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
+  control.edges.resize(mesh.n_edges());
+  for (std::size_t e = 0; e < control.edges.size(); ++e) {
+    const Half h = mesh.halfedge_handle(OpenMesh::EdgeHandle(int(e)), 0);
+    control.edges[e] = {{mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()}, {-1, -1}};
+  }
+}
+
+// OpenMesh's half-edges 2e and 2e + 1 are the edge's two directions, as Edge::side is.
+void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
+  for (std::size_t f = 0; f < control.faces.size(); ++f) {
+    const Face& face = control.faces[f];
+    Half h = mesh.halfedge_handle(OpenMesh::FaceHandle(int(f)));
+    while (mesh.from_vertex_handle(h).idx() != face.vertex[0]) h = mesh.next_halfedge_handle(h);
+    for (int s = 0; s < face.size; ++s, h = mesh.next_halfedge_handle(h)) {
+      const Index e = h.idx() / 2;
+      const bool reversed = h.idx() % 2 != 0;
+      control.edges[std::size_t(e)].side[reversed] = Index(control.sides.size());
+      control.sides.push_back({Index(f), e, std::int8_t(s), reversed});
+    }
+  }
+}
+
+void fill_ring(const HalfEdgeMesh& mesh, Index v, ControlMesh& control) {
+  const OpenMesh::VertexHandle centre(v);
+  if (mesh.is_isolated(centre)) return;
+  // A boundary vertex refers to the boundary half-edge, behind which there is no face: the last spoke.
+  const Half last = mesh.halfedge_handle(centre);
+  const bool open = mesh.is_boundary(last);
+  Half first = last;
+  if (open)
+    while (!mesh.is_boundary(mesh.opposite_halfedge_handle(first)))
+      first = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(first));
+  Half h = first;
+  do {
+    const auto direction = std::size_t(h.idx() % 2);
+    const Index side = control.edges[std::size_t(h.idx() / 2)].side[direction];
+    Spoke spoke{h.idx() / 2, -1, -1, direction == 0};
+    if (side >= 0) {
+      spoke.face = control.sides[std::size_t(side)].face;
+      spoke.corner = control.sides[std::size_t(side)].local;
+    }
+    control.spokes.push_back(spoke);
+    if (spoke.face < 0) break;
+    h = rotated(mesh, h);
+  } while (h != first);
+}
+
+}  // namespace
+
+void connect_faces(ControlMesh& control) {
+  const HalfEdgeMesh mesh = build(control);
+  fill_edges(mesh, control);
+  fill_sides(mesh, control);
+  control.ring_offset.assign(1, 0);
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    fill_ring(mesh, v, control);
+    control.ring_offset.push_back(Index(control.spokes.size()));
+  }
+}
+
+}  // namespace fairing

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The control mesh: triangles and quads with edges, sides, one-rings and feature chains as flat tables.
+// Built once through OpenMesh from checked arrays; all later rooms read these tables and nothing else.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "check/polygon_mesh.h"
+
+namespace fairing {
+
+using Index = std::int32_t;
+using Vec3 = Eigen::Vector3d;
+
+enum class BoundaryMode {
+  curve,   // variational curve through the boundary's control vertices
+  linear,  // the straight control edges
+  free,    // natural boundary: the surface decides
+};
+
+struct FeatureOptions {
+  std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
+  std::vector<std::int64_t> corner_vertices{};              // curves end here; an interior one may be a cone tip
+  double crease_angle = -1.0;  // radians: edges folded by more than this are creases; negative: none
+  double corner_angle = -1.0;  // radians: chains that turn by more than this are split; negative: none
+  BoundaryMode boundary = BoundaryMode::curve;
+};
+
+// A face's side s runs from its corner s to its corner s + 1.
+struct Side {
+  Index face;
+  Index edge;
+  std::int8_t local;  // s
+  bool reversed;      // the side runs against its edge
+};
+
+struct Edge {
+  std::array<Index, 2> vertex;
+  std::array<Index, 2> side;  // [0] runs with the edge (face on its left), [1] against it; -1: none
+  bool boundary() const { return side[0] < 0 || side[1] < 0; }
+};
+
+struct Face {
+  std::array<Index, 4> vertex;  // counter-clockwise; vertex[3] == -1 for a triangle
+  Index first_side;             // sides first_side … first_side + size - 1
+  Index polygon;                // the input face that it is or comes from
+  std::int8_t size;             // 3 or 4
+  bool quad() const { return size == 4; }
+};
+
+// One spoke of a one-ring: an edge, and the face that follows it counter-clockwise.
+struct Spoke {
+  Index edge;
+  Index face;           // -1 behind the last spoke of an open ring
+  std::int8_t corner;   // the ring's centre is face.vertex[corner]
+  bool outward;         // the centre is edge.vertex[0]
+};
+
+// A maximal run of feature edges between corners, or a closed loop without any corner.
+struct Chain {
+  std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
+  std::vector<Index> edges;     // edges[k] joins vertices[k] and vertices[k + 1] (cyclically in a loop)
+  bool closed = false;
+  bool straight = false;        // BoundaryMode::linear: not smoothed
+};
+
+struct ControlMesh {
+  std::vector<Vec3> positions;  // input vertices first, then split centres
+  Index input_vertices = 0;     // positions[input_vertices …] are free vertices that splits have added
+  Index input_faces = 0;
+  std::vector<Face> faces;
+  std::vector<Side> sides;
+  std::vector<Edge> edges;
+
+  std::vector<Index> ring_offset;  // vertices + 1
+  std::vector<Spoke> spokes;       // counter-clockwise; an open ring starts at its first boundary edge
+
+  std::vector<Index> spoke_of_edge;  // [2 e + h]: the spoke at edge e's vertex h that is e
+  std::vector<Index> spoke_of_side;  // the spoke at the side's first corner that is the side
+
+  std::vector<std::uint8_t> feature_edge;    // per edge: lies on a curve (crease, or boundary unless free)
+  std::vector<std::uint8_t> feature_vertex;  // per vertex: lies on a curve or is a corner; carries no fit
+  std::vector<Chain> chains;
+
+  Index vertex_count() const { return Index(positions.size()); }
+  std::span<const Spoke> ring(Index v) const {
+    return {spokes.data() + ring_offset[v], std::size_t(ring_offset[v + 1] - ring_offset[v])};
+  }
+  // True when the one-ring closes around v (v is not on the boundary and not isolated).
+  bool interior(Index v) const {
+    const auto r = ring(v);
+    return !r.empty() && r.back().face >= 0;
+  }
+};
+
+// `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons of five and
+// more sides, and quads too concave or warped, are split by shape (control_mesh/split.h).
+// Throws FairingError (bad_feature_edge, index_out_of_range) for creases and corners that are not in the mesh.
+ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
+                              std::span<const std::int64_t> flipped = {});
+
+}  // namespace fairing
