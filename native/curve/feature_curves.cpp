@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve/feature_curves.h"
+
+#include <algorithm>
+
+#include "curve/curve.h"
+
+namespace fairing {
+namespace {
+
+std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, int subdivisions) {
+  std::vector<Vec3> points;
+  for (std::size_t s = 0; s < (closed ? vertices.size() : vertices.size() - 1); ++s) {
+    // An edge at a time, so a vertex elsewhere in the chain can change nothing.
+    const Vec3 ends[2] = {vertices[s], vertices[(s + 1) % vertices.size()]};
+    const bool backwards = std::lexicographical_compare(ends[1].data(), ends[1].data() + 3, ends[0].data(), ends[0].data() + 3);
+    const Vec3 &a = ends[backwards], &b = ends[!backwards];
+    for (int k = 1; k < subdivisions; ++k) {
+      const int from_a = backwards ? subdivisions - k : k;
+      points.push_back(a + (double(from_a) / subdivisions) * (b - a));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
+  FeatureCurves curves;
+  curves.points_per_edge = subdivisions - 1;
+  curves.run.assign(mesh.edges.size(), -1);
+  const auto inner = std::size_t(curves.points_per_edge);
+  Index runs = 0;
+  for (const Chain& chain : mesh.chains) {
+    std::vector<Vec3> vertices;
+    for (Index v : chain.vertices) vertices.push_back(mesh.positions[std::size_t(v)]);
+    std::vector<Vec3> points = chain.straight ? straight_points(vertices, chain.closed, subdivisions)
+                                              : refine_chain(vertices, chain.closed, subdivisions, exponent);
+    for (std::size_t k = 0; k < chain.edges.size(); ++k) {
+      const auto edge = std::size_t(chain.edges[k]);
+      curves.run[edge] = runs++;
+      const auto begin = points.begin() + std::ptrdiff_t(k * inner);
+      if (mesh.edges[edge].vertex[0] != chain.vertices[k]) std::reverse(begin, begin + std::ptrdiff_t(inner));
+    }
+    curves.points.insert(curves.points.end(), points.begin(), points.end());
+  }
+  return curves;
+}
+
+}  // namespace fairing
