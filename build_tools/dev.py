@@ -21,14 +21,19 @@ from layout import CACHE, OUT, ROOT, VENV_PYTHON
 from shell import DevError, fail, run, say
 
 
-def setup() -> None:
-    """Everything that the other commands need; quick when nothing changed."""
+def setup_tools() -> None:
+    """System packages and .venv; quick when nothing changed."""
     CACHE.mkdir(exist_ok=True)
     with (CACHE / "setup.lock").open("w") as lock:  # two at once would spoil .venv
         fcntl.flock(lock, fcntl.LOCK_EX)
         system_packages.install()
         python_environment.install()
-        native_wheel.install()
+
+
+def setup() -> None:
+    """Everything that the other commands need."""
+    setup_tools()
+    native_wheel.install()
 
 
 def demo(names: list[str]) -> int:
@@ -48,10 +53,10 @@ def bench(names: list[str]) -> int:
 
 
 def test(names: list[str]) -> int:
-    """All suites."""
+    """All suites; those that need the wheel build it, so that the others run even where it cannot be built."""
     import suites
 
-    setup()
+    setup_tools()
     return suites.run_all(names)
 
 
@@ -69,7 +74,7 @@ def format_sources() -> int:
     """Rewrites the sources in the project's style."""
     import style
 
-    setup()
+    setup_tools()
     return style.rewrite()
 
 

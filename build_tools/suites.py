@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 
+import native_wheel
 import style
 from extension import build
 from layout import BUILD, ROOT, VENV_PYTHON
@@ -75,6 +76,7 @@ def native_suite(preset: str) -> Tally:
 
 def pytest_suite(name: str) -> Tally:
     """pytest on one folder below tests/."""
+    native_wheel.install()
     report = fresh_report(name)
     code = run(VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}", check=False)
     return with_exit_code(read_junit(report), code)
