@@ -18,7 +18,7 @@ Half rotated(const HalfEdgeMesh& mesh, Half h) { return mesh.opposite_halfedge_h
 HalfEdgeMesh build(const ControlMesh& control) {
   HalfEdgeMesh mesh;
   mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(), control.faces.size());
-  for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex({});
+  for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex(HalfEdgeMesh::Point(0, 0, 0));
   for (const Face& face : control.faces) {
     OpenMesh::VertexHandle corners[4];
     for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "curve/tridiagonal.h"
 
@@ -44,23 +45,27 @@ bool precedes(std::span<const Vec3> vertices, const Order& a, const Order& b) {
   return false;
 }
 
-Order canonical_order(std::span<const Vec3> vertices, bool closed) {
+// The least order, or all of them where the chain looks the same from several vertices or ends: a boundary that runs
+// along a slit and back does.
+std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed) {
+  std::vector<Order> orders;
+  const auto consider = [&](const Order& order) {
+    if (!orders.empty() && precedes(vertices, orders[0], order)) return;
+    if (!orders.empty() && precedes(vertices, order, orders[0])) orders.clear();
+    orders.push_back(order);
+  };
   if (!closed) {
-    const Order forward{0, false}, backward{vertices.size() - 1, true};
-    return precedes(vertices, backward, forward) ? backward : forward;
+    consider({0, false});
+    consider({vertices.size() - 1, true});
+    return orders;
   }
   const Vec3 least = *std::min_element(vertices.begin(), vertices.end(), less);
-  Order best;
-  bool found = false;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (vertices[v] != least) continue;
-    for (const bool backwards : {false, true}) {
-      const Order order{v, backwards};
-      if (!found || precedes(vertices, order, best)) best = order;
-      found = true;
-    }
+    consider({v, false});
+    consider({v, true});
   }
-  return best;
+  return orders;
 }
 
 // The second divided differences at the control vertices; lengths[s] is of the segment from vertex s on.
@@ -112,18 +117,23 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int 
   const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
   const auto inner = std::size_t(subdivisions - 1);
 
-  const Order order = canonical_order(vertices, closed);
+  const std::vector<Order> orders = canonical_orders(vertices, closed);
   std::vector<Vec3> canonical;
   for (std::size_t i = 0; i < count; ++i)
-    canonical.push_back(vertices[order(i, count)] + Vec3::Zero());  // −0 becomes 0
+    canonical.push_back(vertices[orders[0](i, count)] + Vec3::Zero());  // −0 becomes 0
   const std::vector<Vec3> refined = refine_canonical(canonical, closed, subdivisions, exponent);
 
+  // Under several orders, segments at the same place all take the points of the first of them.
   std::vector<Vec3> points(segments * inner);
+  std::vector<std::uint8_t> filled(segments, 0);
   for (std::size_t s = 0; s < segments; ++s) {
-    // Canonical segment s joins order(s) and order(s + 1); as a given segment it is filed under its first vertex.
-    const std::size_t given = order.backwards ? order(s + 1, count) : order(s, count);
-    for (std::size_t i = 0; i < inner; ++i)
-      points[given * inner + (order.backwards ? inner - 1 - i : i)] = refined[s * inner + i];
+    for (const Order& order : orders) {
+      // Canonical segment s joins order(s) and order(s + 1); as a given segment it is filed under its first vertex.
+      const std::size_t given = order.backwards ? order(s + 1, count) : order(s, count);
+      if (std::exchange(filled[given], std::uint8_t(1))) continue;
+      for (std::size_t i = 0; i < inner; ++i)
+        points[given * inner + (order.backwards ? inner - 1 - i : i)] = refined[s * inner + i];
+    }
   }
   return points;
 }

@@ -9,6 +9,7 @@
 #include "check/check.h"
 #include "control_mesh_invariants.h"
 #include "meshes.h"
+#include "thrown.h"
 
 namespace fairing::test {
 namespace {
@@ -155,17 +156,6 @@ TEST(Chains, ALoneCornerIsAConeTip) {
   const ControlMesh mesh = build(open_cone(8), {.corner_vertices = {0}});
   EXPECT_TRUE(mesh.feature_vertex[0]);
   EXPECT_EQ(mesh.chains.size(), 1u);
-}
-
-template <class Action>
-FairingError thrown(Action action) {
-  try {
-    action();
-  } catch (const FairingError& error) {
-    return error;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return FairingError(ErrorCode::cancelled, "");
 }
 
 TEST(Chains, RefusesCreasesThatAreNotThere) {
