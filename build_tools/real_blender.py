@@ -54,17 +54,18 @@ def venv_tag() -> str:
     return output(VENV_PYTHON, "-c", "import sys; print('cp%d%d' % sys.version_info[:2])")[1].strip()
 
 
-def ask(command: list[str]) -> tuple[str, str] | None:
-    """Version and Python tag of a Blender; None if it does not run."""
-    found = re.search(r"^is (\S+).* (cp\d+)$", output(*command, "--python-expr", ASK)[1], re.MULTILINE)
-    return (found[1], found[2]) if found else None
+def ask(command: list[str]) -> tuple[tuple[str, str] | None, str]:
+    """Version and Python tag of a Blender, None if it does not run, and what it said."""
+    _, text = output(*command, "--python-expr", ASK)
+    found = re.search(r"^is (\S+).* (cp\d+)$", text, re.MULTILINE)
+    return (found[1], found[2]) if found else None, text
 
 
 def on_path() -> RealBlender | None:
     """The machine's own Blender, if it is new enough and its Python is the one that .venv builds for."""
     if shutil.which("blender") is None:
         return None
-    facts = ask(["blender", "--background", "--factory-startup"])
+    facts, _ = ask(["blender", "--background", "--factory-startup"])
     if facts is None or facts[1] != venv_tag():
         return None
     if tuple(int(part) for part in facts[0].split(".")[:2]) < OLDEST:
@@ -76,10 +77,11 @@ def on_path() -> RealBlender | None:
 def of_debian() -> RealBlender:
     """Blender in the Debian root, which is made if need be."""
     debian_root.make()
-    facts = ask(debian_root.command("blender", "--background", "--factory-startup"))
+    facts, text = ask(debian_root.command("blender", "--background", "--factory-startup"))
     if facts is None:
         raise DevError(
-            f"Blender does not start in {debian_root.FOLDER}: entering it needs root and the right to mount."
+            f"Blender does not start in {debian_root.FOLDER} (entering it needs root and the right to mount): "
+            f"{text.strip()[-500:]}"
         )
     return RealBlender(*facts, folder=debian_root.OUTSIDE, inside=debian_root.INSIDE, in_debian_root=True)
 

@@ -36,8 +36,10 @@ def run(*command: str | Path, check: bool = True, **extra: str) -> int:
 
 
 def output(*command: str | Path, **extra: str) -> tuple[int, str]:
-    """Exit code and output (errors included) of a program that is run quietly."""
+    """Exit code and output (errors included) of a program that is run quietly; 127 if it is not there."""
     words = [str(word) for word in command]
+    if shutil.which(words[0], path=environment()["PATH"]) is None:
+        return 127, ""
     done = subprocess.run(
         words, cwd=ROOT, env=environment(**extra), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     )
