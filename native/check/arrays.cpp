@@ -43,17 +43,20 @@ void check_sizes(const PolygonMesh& mesh) {
   if (mesh.offsets.empty() || mesh.offsets.front() != 0 ||
       mesh.offsets.back() != std::int64_t(mesh.corners.size()) ||
       !std::is_sorted(mesh.offsets.begin(), mesh.offsets.end()))
-    throw FairingError(ErrorCode::bad_shape,
-                       "The face offsets must ascend from 0 to the number of corners, one more than there are faces.");
+    throw FairingError(
+        ErrorCode::bad_shape,
+        "The face offsets must ascend from 0 to the number of corners, one more than there are faces.");
   if (mesh.corners.size() > most_corners || mesh.coordinates.size() / 3 > most_corners)
-    throw FairingError(ErrorCode::too_large, "The control mesh has more than 500 million corners or vertices.");
+    throw FairingError(ErrorCode::too_large,
+                       "The control mesh has more than 500 million corners or vertices.");
 }
 
 void check_corner_counts(const PolygonMesh& mesh) {
   const Ids bad = faces_where(mesh, [](auto face) { return face.size() < 3; });
   if (!bad.empty())
     throw FairingError(ErrorCode::bad_shape,
-                       listing("face has", "faces have", bad) + " fewer than three corners. Delete them.", bad);
+                       listing(face_s, bad, {"has", "have"}) + " fewer than three corners. Delete them.",
+                       bad);
 }
 
 void check_finite(const PolygonMesh& mesh) {
@@ -66,7 +69,7 @@ void check_finite(const PolygonMesh& mesh) {
   }
   if (!bad.empty())
     throw FairingError(ErrorCode::non_finite,
-                       listing("vertex has", "vertices have", bad) +
+                       listing(vertex_s, bad, {"has", "have"}) +
                            " a coordinate that is NaN, infinite or beyond 1e100. Delete or move them.",
                        bad);
 }
@@ -78,13 +81,14 @@ void check_indices(const PolygonMesh& mesh) {
   });
   if (!outside.empty())
     throw FairingError(ErrorCode::index_out_of_range,
-                       listing("face names", "faces name", outside) + " a vertex that does not exist: ids run from 0 to " +
+                       listing(face_s, outside, {"names", "name"}) +
+                           " a vertex that does not exist: ids run from 0 to " +
                            std::to_string(vertices - 1) + ".",
                        outside);
   const Ids repeated = faces_where(mesh, repeats_a_vertex);
   if (!repeated.empty())
     throw FairingError(ErrorCode::repeated_vertex,
-                       listing("face names", "faces name", repeated) +
+                       listing(face_s, repeated, {"names", "name"}) +
                            " the same vertex twice. Delete them or dissolve the doubled corner.",
                        repeated);
 }
@@ -93,7 +97,8 @@ void check_indices(const PolygonMesh& mesh) {
 
 void check_arrays(const PolygonMesh& mesh) {
   check_sizes(mesh);
-  if (mesh.coordinates.empty()) throw FairingError(ErrorCode::empty_mesh, "The mesh has faces but no vertices.");
+  if (mesh.coordinates.empty())
+    throw FairingError(ErrorCode::empty_mesh, "The mesh has faces but no vertices.");
   check_corner_counts(mesh);
   check_finite(mesh);
   check_indices(mesh);

@@ -21,10 +21,11 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
     result.flipped_faces = disagreeing_faces(mesh, half_edges);
   }
   if (!result.flipped_faces.empty() && !options.repair_orientation)
-    throw FairingError(ErrorCode::inconsistent_orientation,
-                       listing("face looks", "faces look", result.flipped_faces) +
-                           " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
-                       result.flipped_faces);
+    throw FairingError(
+        ErrorCode::inconsistent_orientation,
+        listing(face_s, result.flipped_faces, {"looks", "look"}) +
+            " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
+        result.flipped_faces);
   check_coincident_vertices(mesh, result.warnings);
   check_areas(mesh);
   warn_of_isolated_vertices(mesh, result.warnings);

@@ -78,13 +78,13 @@ void check_coincident_vertices(const PolygonMesh& mesh, std::vector<Warning>& wa
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   if (!touching.empty())
     throw FairingError(ErrorCode::coincident_vertices,
-                       listing("vertex lies", "vertices lie", touching) +
+                       listing(vertex_s, touching, {"lies", "lie"}) +
                            " exactly on another vertex of the same face. Merge them by distance.",
                        touching);
 
   std::sort(shared.begin(), shared.end());
   warnings.push_back({"COINCIDENT_VERTICES",
-                      listing("vertex shares", "vertices share", shared) +
+                      listing(vertex_s, shared, {"shares", "share"}) +
                           " a point with others without being joined to them: the surface is open there. "
                           "Merge by distance if it should be closed.",
                       shared});
@@ -96,7 +96,7 @@ void check_areas(const PolygonMesh& mesh) {
     if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
   if (bad.empty()) return;
   throw FairingError(ErrorCode::degenerate_face,
-                     listing("face has", "faces have", bad) + " no area. Dissolve or delete them.", bad);
+                     listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.", bad);
 }
 
 void warn_of_isolated_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings) {
@@ -105,9 +105,9 @@ void warn_of_isolated_vertices(const PolygonMesh& mesh, std::vector<Warning>& wa
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v]) isolated.push_back(std::int64_t(v));
   if (isolated.empty()) return;
-  warnings.push_back({"ISOLATED_VERTICES",
-                      listing("vertex belongs", "vertices belong", isolated) + " to no face: kept where they are.",
-                      isolated});
+  warnings.push_back(
+      {"ISOLATED_VERTICES",
+       listing(vertex_s, isolated, {"belongs", "belong"}) + " to no face: kept where they are.", isolated});
 }
 
 }  // namespace fairing

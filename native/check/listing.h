@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How messages name elements: the count, and the first few ids.
+// How messages begin: the count of elements, the first few ids, and the verb in agreement.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,16 @@
 
 namespace fairing {
 
-// "1 face (7)", "12 faces (0, 4, 9, 11, 12, …)".
-std::string listing(const char* noun, const char* plural, std::span<const std::int64_t> ids);
+struct Words {
+  const char *one, *many;
+};
 
-// Ids laid end to end in pairs: "2 edges (0-4, 4-9)".
-std::string listing_pairs(const char* noun, const char* plural, std::span<const std::int64_t> ids);
+constexpr Words face_s{"face", "faces"}, vertex_s{"vertex", "vertices"};
+
+// "1 face (7) has", "12 faces (0, 4, 9, 11, 12, …) have".
+std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb);
+
+// Ids laid end to end in pairs: "2 edges (0-4, 4-9) have".
+std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb);
 
 }  // namespace fairing

@@ -80,10 +80,12 @@ std::vector<std::int64_t> disagreeing_faces(const PolygonMesh& mesh, const HalfE
   }
   std::sort(one_sided.begin(), one_sided.end());
   if (!one_sided.empty())
-    throw FairingError(ErrorCode::non_orientable,
-                       "The surface through " + listing("face has", "faces have", one_sided) +
-                           " only one side, like a Möbius strip: no turning of faces can help. Cut it open.",
-                       one_sided);
+    throw FairingError(
+        ErrorCode::non_orientable,
+        listing(face_s, one_sided, {"belongs", "belong"}) +
+            " to a surface with only one side, like a Möbius strip: no turning of faces can help. "
+            "Cut it open.",
+        one_sided);
   std::sort(to_flip.begin(), to_flip.end());
   return to_flip;
 }

@@ -95,7 +95,7 @@ void check_duplicate_faces(const PolygonMesh& mesh) {
   if (duplicates.empty()) return;
   std::sort(duplicates.begin(), duplicates.end());
   throw FairingError(ErrorCode::duplicate_face,
-                     listing("face has", "faces have", duplicates) +
+                     listing(face_s, duplicates, {"has", "have"}) +
                          " the same vertices as another face. Delete all but one of each.",
                      duplicates);
 }
@@ -104,7 +104,7 @@ void check_edges(const HalfEdges& half_edges) {
   const Ids& pairs = half_edges.overfull();
   if (pairs.empty()) return;
   throw FairingError(ErrorCode::nonmanifold_edge,
-                     listing_pairs("edge has", "edges have", pairs) +
+                     listing_pairs({"edge", "edges"}, pairs, {"has", "have"}) +
                          " more than two faces (vertex pairs). Delete inner faces or separate the sheets.",
                      pairs);
 }
@@ -121,7 +121,7 @@ void check_fans(const PolygonMesh& mesh, const HalfEdges& half_edges) {
     if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v]) bad.push_back(std::int64_t(v));
   if (bad.empty()) return;
   throw FairingError(ErrorCode::nonmanifold_vertex,
-                     listing("vertex joins", "vertices join", bad) +
+                     listing(vertex_s, bad, {"joins", "join"}) +
                          " parts of the surface that share no edge there. Separate (rip) the parts.",
                      bad);
 }

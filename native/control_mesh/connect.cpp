@@ -13,11 +13,14 @@ using HalfEdgeMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
 using Half = OpenMesh::HalfedgeHandle;
 
 // The half-edge from v that follows h counter-clockwise around v.
-Half rotated(const HalfEdgeMesh& mesh, Half h) { return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h)); }
+Half rotated(const HalfEdgeMesh& mesh, Half h) {
+  return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h));
+}
 
 HalfEdgeMesh build(const ControlMesh& control) {
   HalfEdgeMesh mesh;
-  mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(), control.faces.size());
+  mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(),
+               control.faces.size());
   for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex(HalfEdgeMesh::Point(0, 0, 0));
   for (const Face& face : control.faces) {
     OpenMesh::VertexHandle corners[4];
@@ -25,7 +28,8 @@ HalfEdgeMesh build(const ControlMesh& control) {
     // check() leaves nothing that could fail here; but a bug must not become a broken table.
     if (!mesh.add_face(corners, std::size_t(face.size)).is_valid())
       throw FairingError(ErrorCode::nonmanifold_vertex,
-                         "Face " + std::to_string(face.polygon) + " cannot be joined to its neighbours.", {face.polygon});
+                         "Face " + std::to_string(face.polygon) + " cannot be joined to its neighbours.",
+                         {face.polygon});
   }
   return mesh;
 }

@@ -13,7 +13,8 @@ namespace {
 std::vector<std::int64_t> oriented_corners(const PolygonMesh& mesh, std::span<const std::int64_t> flipped) {
   std::vector<std::int64_t> corners(mesh.corners.begin(), mesh.corners.end());
   for (std::int64_t f : flipped)  // the first corner stays the first
-    std::reverse(corners.begin() + mesh.offsets[std::size_t(f)] + 1, corners.begin() + mesh.offsets[std::size_t(f) + 1]);
+    std::reverse(corners.begin() + mesh.offsets[std::size_t(f)] + 1,
+                 corners.begin() + mesh.offsets[std::size_t(f) + 1]);
   return corners;
 }
 
@@ -28,6 +29,19 @@ void take_faces(const SplitMesh& split, ControlMesh& control) {
   control.sides.reserve(std::size_t(sides));
 }
 
+// Where edges and sides are in the rings of their vertices.
+void index_spokes(ControlMesh& control) {
+  control.spoke_of_edge.resize(2 * control.edges.size());
+  control.spoke_of_side.resize(control.sides.size());
+  for (std::size_t k = 0; k < control.spokes.size(); ++k) {
+    const Spoke& spoke = control.spokes[k];
+    control.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 1)] = Index(k);
+    if (spoke.face < 0) continue;
+    const Face& face = control.faces[std::size_t(spoke.face)];
+    control.spoke_of_side[std::size_t(face.first_side + spoke.corner)] = Index(k);
+  }
+}
+
 }  // namespace
 
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
@@ -40,10 +54,12 @@ ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& fea
   control.input_vertices = Index(mesh.vertex_count());
   control.input_faces = Index(mesh.face_count());
   for (std::size_t v = 0; v < std::size_t(mesh.vertex_count()); ++v)
-    control.positions.emplace_back(mesh.coordinates[3 * v], mesh.coordinates[3 * v + 1], mesh.coordinates[3 * v + 2]);
+    control.positions.emplace_back(mesh.coordinates[3 * v], mesh.coordinates[3 * v + 1],
+                                   mesh.coordinates[3 * v + 2]);
   control.positions.insert(control.positions.end(), split.centres.begin(), split.centres.end());
   take_faces(split, control);
   connect_faces(control);
+  index_spokes(control);
   find_features(oriented, features, control);
   return control;
 }

@@ -24,7 +24,7 @@ enum class BoundaryMode {
 
 struct FeatureOptions {
   std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
-  std::vector<std::int64_t> corner_vertices{};              // curves end here; an interior one may be a cone tip
+  std::vector<std::int64_t> corner_vertices{};  // curves end here; an interior one may be a cone tip
   double crease_angle = -1.0;  // radians: edges folded by more than this are creases; negative: none
   double corner_angle = -1.0;  // radians: chains that turn by more than this are split; negative: none
   BoundaryMode boundary = BoundaryMode::curve;
@@ -55,9 +55,9 @@ struct Face {
 // One spoke of a one-ring: an edge, and the face that follows it counter-clockwise.
 struct Spoke {
   Index edge;
-  Index face;           // -1 behind the last spoke of an open ring
-  std::int8_t corner;   // the ring's centre is face.vertex[corner]
-  bool outward;         // the centre is edge.vertex[0]
+  Index face;          // -1 behind the last spoke of an open ring
+  std::int8_t corner;  // the ring's centre is face.vertex[corner]
+  bool outward;        // the centre is edge.vertex[0]
 };
 
 // A maximal run of feature edges between corners, or a closed loop without any corner.
@@ -65,7 +65,7 @@ struct Chain {
   std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
   std::vector<Index> edges;     // edges[k] joins vertices[k] and vertices[k + 1] (cyclically in a loop)
   bool closed = false;
-  bool straight = false;        // BoundaryMode::linear: not smoothed
+  bool straight = false;  // BoundaryMode::linear: not smoothed
 };
 
 struct ControlMesh {
@@ -99,7 +99,8 @@ struct ControlMesh {
 
 // `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons of five and
 // more sides, and quads too concave or warped, are split by shape (control_mesh/split.h).
-// Throws FairingError (bad_feature_edge, index_out_of_range) for creases and corners that are not in the mesh.
+// Throws FairingError: bad_feature_edge, index_out_of_range for creases and corners that are not in the mesh;
+// too_large for polygons that cannot be split (control_mesh/split.h).
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped = {});
 

@@ -19,9 +19,9 @@ struct Diagonal {
   }
 };
 
-// cost(i, length): the least badness of the part between the diagonal (i, i + length) and the sides from i on to
-// i + length. All starts i are tabulated, round the corner too: then the two sides of a diagonal together
-// give the cost of the best triangulation that uses it.
+// cost(i, length): the least badness of the part between the diagonal (i, i + length) and the sides from i
+// on to i + length. All starts i are tabulated, round the corner too: then the two sides of a diagonal
+// together give the cost of the best triangulation that uses it.
 class Costs {
  public:
   Costs(const PolygonShape& shape, const std::function<bool(std::size_t, std::size_t)>& allowed)
@@ -69,7 +69,8 @@ std::vector<Piece> cut(std::size_t corners, const std::vector<Diagonal>& diagona
   for (const Diagonal& d : diagonals) {
     // The diagonals do not cross: exactly one piece holds both ends.
     for (Piece& piece : pieces) {
-      const auto first = std::find(piece.begin(), piece.end(), d.i), last = std::find(first, piece.end(), d.j);
+      const auto first = std::find(piece.begin(), piece.end(), d.i),
+                 last = std::find(first, piece.end(), d.j);
       if (last == piece.end()) continue;
       const Piece inner(first, last + 1);
       piece.erase(first + 1, last);

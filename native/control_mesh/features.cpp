@@ -51,11 +51,14 @@ class FeatureFinder {
     return control_.faces[std::size_t(control_.sides[std::size_t(side)].face)].polygon;
   }
   // Cut by split_polygons: no edge of the input.
-  bool inside_polygon(const Edge& e) const { return !e.boundary() && polygon(e.side[0]) == polygon(e.side[1]); }
+  bool inside_polygon(const Edge& e) const {
+    return !e.boundary() && polygon(e.side[0]) == polygon(e.side[1]);
+  }
 
   void mark_boundary() {
     if (options_.boundary == BoundaryMode::free) return;
-    for (std::size_t e = 0; e < control_.edges.size(); ++e) control_.feature_edge[e] = control_.edges[e].boundary();
+    for (std::size_t e = 0; e < control_.edges.size(); ++e)
+      control_.feature_edge[e] = control_.edges[e].boundary();
   }
 
   Index find_edge(Index a, Index b) const {
@@ -81,7 +84,7 @@ class FeatureFinder {
     refuse_unknown(unknown_vertices, "crease edges");
     if (!unknown_edges.empty())
       throw FairingError(ErrorCode::bad_feature_edge,
-                         listing_pairs("crease joins", "creases join", unknown_edges) +
+                         listing_pairs({"crease", "creases"}, unknown_edges, {"joins", "join"}) +
                              " two vertices between which the mesh has no edge (vertex pairs).",
                          unknown_edges);
   }
@@ -89,8 +92,9 @@ class FeatureFinder {
   void refuse_unknown(const std::vector<std::int64_t>& vertices, const char* where) const {
     if (vertices.empty()) return;
     throw FairingError(ErrorCode::index_out_of_range,
-                       listing("vertex id", "vertex ids", vertices) + " among the " + where +
-                           " out of range: ids run from 0 to " + std::to_string(control_.input_vertices - 1) + ".",
+                       listing(vertex_s, vertices, {"is", "are"}) + " named among the " + where +
+                           " but not in the mesh: ids run from 0 to " +
+                           std::to_string(control_.input_vertices - 1) + ".",
                        vertices);
   }
 
@@ -100,7 +104,8 @@ class FeatureFinder {
     for (std::size_t e = 0; e < control_.edges.size(); ++e) {
       const Edge& edge = control_.edges[e];
       if (edge.boundary() || inside_polygon(edge)) continue;
-      const Vec3 &left = normals[std::size_t(polygon(edge.side[0]))], &right = normals[std::size_t(polygon(edge.side[1]))];
+      const Vec3 &left = normals[std::size_t(polygon(edge.side[0]))],
+                 &right = normals[std::size_t(polygon(edge.side[1]))];
       if (angle_between(left, right) > options_.crease_angle) control_.feature_edge[e] = 1;
     }
   }
@@ -171,8 +176,9 @@ class FeatureFinder {
       const auto edges = feature_edges_at(v, count);
       e = edges[0] == e ? edges[1] : edges[0];
     }
-    chain.straight = options_.boundary == BoundaryMode::linear &&
-                     std::all_of(chain.edges.begin(), chain.edges.end(), [&](Index k) { return edge(k).boundary(); });
+    chain.straight =
+        options_.boundary == BoundaryMode::linear &&
+        std::all_of(chain.edges.begin(), chain.edges.end(), [&](Index k) { return edge(k).boundary(); });
     control_.chains.push_back(std::move(chain));
   }
 

@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double tan_10_degrees = 0.17632698070846498;
 constexpr double cos_60_degrees = 0.5;
-constexpr double least_distance = 0.01;  // of a star's sides from its centre, relative to the root of its area
+constexpr double least_distance =
+    0.01;  // of a star's sides from its centre, relative to the root of its area
 constexpr double least_flatness = 1e-9;  // a triangle's projected area over its sides' squares
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -76,7 +77,8 @@ bool PolygonShape::warped() const {
 }
 
 double PolygonShape::badness(std::size_t i, std::size_t j, std::size_t k) const {
-  const double squares = (corners_[i] - corners_[j]).squaredNorm() + (corners_[j] - corners_[k]).squaredNorm() +
+  const double squares = (corners_[i] - corners_[j]).squaredNorm() +
+                         (corners_[j] - corners_[k]).squaredNorm() +
                          (corners_[k] - corners_[i]).squaredNorm();
   const double twice_area = cross(plane_[j] - plane_[i], plane_[k] - plane_[i]);
   if (!(twice_area > least_flatness * squares)) return std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a polygon in space looks like in its mean (Newell) plane. Nothing here depends on which corner is first.
+// What a polygon in space looks like in its mean (Newell) plane. Nothing here depends on which corner is
+// first.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +40,7 @@ class PolygonShape {
   std::vector<Eigen::Vector3d> corners_;  // relative to their mean
   std::vector<Eigen::Vector2d> plane_;    // the same, projected
   Eigen::Vector3d normal_, centroid_;
-  Eigen::Vector2d centre_;                // the centroid, projected
+  Eigen::Vector2d centre_;  // the centroid, projected
   double area_ = 0;
 };
 

@@ -89,13 +89,15 @@ class Splitter {
     std::vector<std::int64_t> too_long;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       treatment_.push_back(choose(f, pinched));
-      if (treatment_.back() == Treatment::cut && mesh_.face(f).size() > most_corners_to_cut) too_long.push_back(f);
+      if (treatment_.back() == Treatment::cut && mesh_.face(f).size() > most_corners_to_cut)
+        too_long.push_back(f);
     }
     if (!too_long.empty())
-      throw FairingError(ErrorCode::too_large,
-                         listing("face has", "faces have", too_long) +
-                             " more than 1000 corners and no point that sees them all. Cut them into smaller ones.",
-                         too_long);
+      throw FairingError(
+          ErrorCode::too_large,
+          listing(face_s, too_long, {"has", "have"}) +
+              " more than 1000 corners and no point that sees them all. Cut them into smaller ones.",
+          too_long);
   }
 
   Treatment choose(std::int64_t f, const std::vector<std::uint8_t>& pinched) const {
@@ -103,7 +105,8 @@ class Splitter {
     if (face.size() == 3) return Treatment::keep;
     const PolygonShape shape = shape_of(mesh_, f);
     if (face.size() > 4) return shape.star_shaped() ? Treatment::fan : Treatment::cut;
-    const bool has_pinched = std::any_of(face.begin(), face.end(), [&](std::int64_t v) { return pinched[std::size_t(v)]; });
+    const bool has_pinched =
+        std::any_of(face.begin(), face.end(), [&](std::int64_t v) { return pinched[std::size_t(v)]; });
     return has_pinched || shape.concave() || shape.warped() ? Treatment::cut : Treatment::keep;
   }
 
@@ -132,7 +135,8 @@ class Splitter {
     const auto c = Index(mesh_.vertex_count() + std::int64_t(result_.centres.size()));
     result_.centres.push_back(centre);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      result_.faces.push_back({{Index(corners[i]), Index(corners[(i + 1) % corners.size()]), c, -1}, Index(f)});
+      result_.faces.push_back(
+          {{Index(corners[i]), Index(corners[(i + 1) % corners.size()]), c, -1}, Index(f)});
   }
 
   void add_cut(std::int64_t f) {

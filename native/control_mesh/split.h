@@ -20,15 +20,15 @@ struct SplitMesh {
   std::vector<Vec3> centres;     // free vertices, numbered on from the input's
 };
 
-// * Polygons of five and more sides that are star-shaped around their area centroid become a fan around a free
-//   vertex there; others are cut by their best triangulation (cut_polygon.h).
-// * Quads with an angle over 170°, those that fold by more than 60°, and those with a vertex that has only one
-//   other face, all around it, are cut along the better diagonal, or into a fan where neither is better.
-// * No diagonal joins two vertices that an edge joins already, or that two faces would join; so the result is a
-//   manifold again, no interior vertex has fewer than three faces, and no order of faces matters.
+// * Polygons of five and more sides that are star-shaped around their area centroid become a fan around a
+//   free vertex there; others are cut by their best triangulation (cut_polygon.h).
+// * Quads with an angle over 170°, those that fold by more than 60°, and those with a vertex that has only
+//   one other face, all around it, are cut along the better diagonal, or into a fan where neither is better.
+// * No diagonal joins two vertices that an edge joins already, or that two faces would join; so the result
+//   is a manifold again, no interior vertex has fewer than three faces, and no order of faces matters.
 //
-// `mesh` must have passed check(), and be oriented. Throws FairingError (too_large) for polygons of more than 1000
-// corners that are not star-shaped.
+// `mesh` must have passed check(), and be oriented. Throws FairingError (too_large) for polygons of more
+// than 1000 corners that are not star-shaped.
 SplitMesh split_polygons(const PolygonMesh& mesh);
 
 }  // namespace fairing

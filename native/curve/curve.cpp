@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The minimizer in closed form. Between two control vertices the second divided differences M of a minimizer vary
-// linearly, so its points are cubic in the index i = 0 … N:
+// The minimizer in closed form. Between two control vertices the second divided differences M of a
+// minimizer vary linearly, so its points are cubic in the index i = 0 … N:
 //
 //   f_i = (1 − i/N) a + (i/N) b + h² [M_a φ(N − i) + M_b φ(i)],   φ(i) = (i³ − N² i) / 6N,   h = H / N,
 //
 // H being the segment's length in the parameter, |b − a|^exponent. What remains are the M at the control
 // vertices, where the definition of the second divided difference is one tridiagonal equation a vertex:
 //
-//   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1}) = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
+//   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
+//       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
 //
 // M is zero at the ends of an open chain. N → ∞ gives the cubic spline.
 #include "curve/curve.h"
@@ -21,8 +22,8 @@
 namespace fairing {
 namespace {
 
-// Rounding depends on the order of operations, so every chain is first put into an order that follows from its
-// coordinates alone: vertex i of the canonical chain is vertex (start ± i) of the given one.
+// Rounding depends on the order of operations, so every chain is first put into an order that follows from
+// its coordinates alone: vertex i of the canonical chain is vertex (start ± i) of the given one.
 struct Order {
   std::size_t start = 0;
   bool backwards = false;
@@ -45,8 +46,8 @@ bool precedes(std::span<const Vec3> vertices, const Order& a, const Order& b) {
   return false;
 }
 
-// The least order, or all of them where the chain looks the same from several vertices or ends: a boundary that runs
-// along a slit and back does.
+// The least order, or all of them where the chain looks the same from several vertices or ends: a boundary
+// that runs along a slit and back does.
 std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed) {
   std::vector<Order> orders;
   const auto consider = [&](const Order& order) {
@@ -69,7 +70,8 @@ std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed)
 }
 
 // The second divided differences at the control vertices; lengths[s] is of the segment from vertex s on.
-std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths, bool closed, double n) {
+std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths, bool closed,
+                                double n) {
   const std::size_t count = c.size(), segments = lengths.size();
   const std::size_t first = closed ? 0 : 1, joints = closed ? count : count - 2;
   std::vector<Vec3> moments(count, Vec3::Zero());
@@ -91,10 +93,12 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
 }
 
 // Interior points in canonical order, segment by segment.
-std::vector<Vec3> refine_canonical(const std::vector<Vec3>& c, bool closed, int subdivisions, double exponent) {
+std::vector<Vec3> refine_canonical(const std::vector<Vec3>& c, bool closed, int subdivisions,
+                                   double exponent) {
   const std::size_t segments = closed ? c.size() : c.size() - 1;
   std::vector<double> lengths(segments);
-  for (std::size_t s = 0; s < segments; ++s) lengths[s] = std::pow((c[(s + 1) % c.size()] - c[s]).norm(), exponent);
+  for (std::size_t s = 0; s < segments; ++s)
+    lengths[s] = std::pow((c[(s + 1) % c.size()] - c[s]).norm(), exponent);
 
   const double n = subdivisions;
   const std::vector<Vec3> moments = joint_moments(c, lengths, closed, n);
@@ -112,7 +116,8 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& c, bool closed, int 
 
 }  // namespace
 
-std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions, double exponent) {
+std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
+                               double exponent) {
   if (vertices.size() < 2 || subdivisions < 2) return {};
   const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
   const auto inner = std::size_t(subdivisions - 1);
@@ -128,7 +133,8 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int 
   std::vector<std::uint8_t> filled(segments, 0);
   for (std::size_t s = 0; s < segments; ++s) {
     for (const Order& order : orders) {
-      // Canonical segment s joins order(s) and order(s + 1); as a given segment it is filed under its first vertex.
+      // Canonical segment s joins order(s) and order(s + 1); as a given segment it is filed under its first
+      // vertex.
       const std::size_t given = order.backwards ? order(s + 1, count) : order(s, count);
       if (std::exchange(filled[given], std::uint8_t(1))) continue;
       for (std::size_t i = 0; i < inner; ++i)

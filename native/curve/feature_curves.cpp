@@ -13,7 +13,8 @@ std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, i
   for (std::size_t s = 0; s < (closed ? vertices.size() : vertices.size() - 1); ++s) {
     // An edge at a time, so a vertex elsewhere in the chain can change nothing.
     const Vec3 ends[2] = {vertices[s], vertices[(s + 1) % vertices.size()]};
-    const bool backwards = std::lexicographical_compare(ends[1].data(), ends[1].data() + 3, ends[0].data(), ends[0].data() + 3);
+    const bool backwards =
+        std::lexicographical_compare(ends[1].data(), ends[1].data() + 3, ends[0].data(), ends[0].data() + 3);
     const Vec3 &a = ends[backwards], &b = ends[!backwards];
     for (int k = 1; k < subdivisions; ++k) {
       const int from_a = backwards ? subdivisions - k : k;

@@ -21,8 +21,8 @@ struct FeatureCurves {
   }
 };
 
-// Straight chains stay on their edges (point k is at k / subdivisions, the same from either end, bit for bit);
-// all others are refined by refine_chain.
+// Straight chains stay on their edges (point k is at k / subdivisions, the same from either end, bit for
+// bit); all others are refined by refine_chain.
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
 
 }  // namespace fairing

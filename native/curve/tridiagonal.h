@@ -8,8 +8,9 @@
 
 namespace fairing {
 
-// diagonal[i] x[i] + right[i] x[i + 1] + right[i - 1] x[i - 1] = value[i]. With `cyclic` (at least three unknowns),
-// right.back() couples the last unknown to the first; without, it is not used. No pivoting is needed.
+// diagonal[i] x[i] + right[i] x[i + 1] + right[i - 1] x[i - 1] = value[i]. With `cyclic` (at least three
+// unknowns), right.back() couples the last unknown to the first; without, it is not used. No pivoting is
+// needed.
 std::vector<Vec3> solve_tridiagonal(const std::vector<double>& diagonal, const std::vector<double>& right,
                                     std::vector<Vec3> value, bool cyclic);
 

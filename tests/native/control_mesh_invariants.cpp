@@ -36,7 +36,9 @@ void expect_edges(const ControlMesh& mesh) {
   std::size_t sides = 0;
   for (const Edge& edge : mesh.edges) {
     EXPECT_NE(edge.vertex[0], edge.vertex[1]);
-    EXPECT_TRUE(pairs.insert({std::min(edge.vertex[0], edge.vertex[1]), std::max(edge.vertex[0], edge.vertex[1])}).second);
+    EXPECT_TRUE(
+        pairs.insert({std::min(edge.vertex[0], edge.vertex[1]), std::max(edge.vertex[0], edge.vertex[1])})
+            .second);
     sides += std::size_t(edge.side[0] >= 0) + std::size_t(edge.side[1] >= 0);
     EXPECT_TRUE(edge.side[0] >= 0 || edge.side[1] >= 0);
   }

@@ -134,8 +134,10 @@ TEST(Chains, EndWhereThreeMeetAndInTheOpen) {
 }
 
 TEST(Chains, MixedBoundaryAndCreaseInLinearMode) {
-  const ControlMesh mesh = build(grid(2, 2), {.crease_edges = {{1, 4}, {7, 4}}, .boundary = BoundaryMode::linear});
-  EXPECT_EQ(std::count_if(mesh.chains.begin(), mesh.chains.end(), [](const Chain& c) { return c.straight; }), 2);
+  const ControlMesh mesh =
+      build(grid(2, 2), {.crease_edges = {{1, 4}, {7, 4}}, .boundary = BoundaryMode::linear});
+  EXPECT_EQ(std::count_if(mesh.chains.begin(), mesh.chains.end(), [](const Chain& c) { return c.straight; }),
+            2);
 }
 
 TEST(Chains, ClosedCrease) {

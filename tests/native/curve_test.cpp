@@ -33,17 +33,21 @@ Points random_chain(unsigned seed, int count) {
 double distance(const Points& a, const Points& b) {
   EXPECT_EQ(a.size(), b.size());
   double largest = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    largest = std::max(largest, (a[i] - b[i]).norm());
   return largest;
 }
 
-// Minimizes the sum of ω |second divided difference|² over all points but the given ones, by dense least squares.
+// Minimizes the sum of ω |second divided difference|² over all points but the given ones, by dense least
+// squares.
 Points minimize_directly(const Points& vertices, bool closed, int n, double exponent) {
-  const int count = int(vertices.size()), segments = closed ? count : count - 1, points = segments * n + !closed;
+  const int count = int(vertices.size()), segments = closed ? count : count - 1,
+            points = segments * n + !closed;
   std::vector<double> spacing;
   for (int s = 0; s < segments; ++s)
     for (int i = 0; i < n; ++i)
-      spacing.push_back(std::pow((vertices[std::size_t((s + 1) % count)] - vertices[std::size_t(s)]).norm(), exponent) / n);
+      spacing.push_back(
+          std::pow((vertices[std::size_t((s + 1) % count)] - vertices[std::size_t(s)]).norm(), exponent) / n);
 
   const int first = closed ? 0 : 1, rows = closed ? points : points - 2;
   Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(rows, points);
@@ -65,7 +69,8 @@ Points minimize_directly(const Points& vertices, bool closed, int n, double expo
       free.col(f++) = differences.col(i);
     }
   }
-  const Eigen::MatrixXd solution = (free.transpose() * free).ldlt().solve(-free.transpose() * (fixed * given));
+  const Eigen::MatrixXd solution =
+      (free.transpose() * free).ldlt().solve(-free.transpose() * (fixed * given));
   Points result;
   for (Eigen::Index i = 0; i < solution.rows(); ++i) result.push_back(solution.row(i).transpose());
   return result;
@@ -78,7 +83,9 @@ TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
         for (const bool closed : {false, true}) {
           if (closed && count < 3) continue;
           const Points chain = random_chain(unsigned(count), count);
-          EXPECT_LT(distance(refine_chain(chain, closed, n, exponent), minimize_directly(chain, closed, n, exponent)), 1e-9)
+          EXPECT_LT(distance(refine_chain(chain, closed, n, exponent),
+                             minimize_directly(chain, closed, n, exponent)),
+                    1e-9)
               << count << " vertices, N = " << n << ", exponent " << exponent << (closed ? ", closed" : "");
         }
 }
@@ -98,7 +105,8 @@ TEST(Curve, ApproximatesTheCircle) {
   for (const int count : {8, 16, 32}) {
     Points circle;
     for (int i = 0; i < count; ++i)
-      circle.emplace_back(std::cos(2 * std::numbers::pi * i / count), std::sin(2 * std::numbers::pi * i / count), 0);
+      circle.emplace_back(std::cos(2 * std::numbers::pi * i / count),
+                          std::sin(2 * std::numbers::pi * i / count), 0);
     double error = 0;
     for (const Vec3& p : refine_chain(circle, true, 64, 0.5)) error = std::max(error, std::abs(p.norm() - 1));
     EXPECT_LT(error, last / 14);
@@ -106,7 +114,9 @@ TEST(Curve, ApproximatesTheCircle) {
   }
 }
 
-TEST(Curve, NothingBetweenOnLevelZero) { EXPECT_TRUE(refine_chain(random_chain(1, 5), false, 1, 0.5).empty()); }
+TEST(Curve, NothingBetweenOnLevelZero) {
+  EXPECT_TRUE(refine_chain(random_chain(1, 5), false, 1, 0.5).empty());
+}
 
 Points reversed_result(Points points) {
   std::reverse(points.begin(), points.end());
@@ -116,18 +126,21 @@ Points reversed_result(Points points) {
 TEST(Curve, BitIdenticalInBothDirections) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Points chain = random_chain(seed, 2 + int(seed % 9));
-    EXPECT_EQ(refine_chain(reversed_result(chain), false, 5, 0.5), reversed_result(refine_chain(chain, false, 5, 0.5)));
+    EXPECT_EQ(refine_chain(reversed_result(chain), false, 5, 0.5),
+              reversed_result(refine_chain(chain, false, 5, 0.5)));
   }
   Points bow = random_chain(3, 6);  // ends where it starts: the next vertices decide
   bow.back() = bow.front();
-  EXPECT_EQ(refine_chain(reversed_result(bow), false, 5, 0.5), reversed_result(refine_chain(bow, false, 5, 0.5)));
+  EXPECT_EQ(refine_chain(reversed_result(bow), false, 5, 0.5),
+            reversed_result(refine_chain(bow, false, 5, 0.5)));
 }
 
 TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const int count = 3 + int(seed % 7), n = 4;
     Points loop = random_chain(seed, count);
-    if (seed % 2) loop[std::size_t(count) - 1] = loop[0] = Vec3(-9, 0, 0);  // the least point twice, not side by side
+    if (seed % 2)
+      loop[std::size_t(count) - 1] = loop[0] = Vec3(-9, 0, 0);  // the least point twice, not side by side
     if (seed % 2) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     if (seed % 2 && count > 3) std::swap(loop[0], loop[std::size_t(count) - 1]);
     if (seed % 2) loop[1] = Vec3(1, double(seed), 2);
@@ -168,7 +181,8 @@ ControlMesh build(const OwnedPolygonMesh& mesh, const FeatureOptions& features) 
 
 TEST(FeatureCurves, RunsFollowTheirEdges) {
   OwnedPolygonMesh cylinder = open_cylinder(6);
-  for (std::size_t i = 2; i < cylinder.coordinates.size(); i += 3) cylinder.coordinates[i] += 0.3 * std::sin(double(i));
+  for (std::size_t i = 2; i < cylinder.coordinates.size(); i += 3)
+    cylinder.coordinates[i] += 0.3 * std::sin(double(i));
   const ControlMesh mesh = build(cylinder, {.crease_edges = {{0, 1}}});
   const FeatureCurves curves = refine_feature_edges(mesh, 8, 0.5);
   std::size_t runs = 0;
@@ -198,12 +212,14 @@ TEST(FeatureCurves, StraightBoundariesStayOnTheirEdges) {
   }
 }
 
-// Two meshes on either side of one boundary polyline: numbered, oriented and refined apart, equal to the last bit.
+// Two meshes on either side of one boundary polyline: numbered, oriented and refined apart, equal to the
+// last bit.
 TEST(FeatureCurves, NeighboursAgreeBitForBit) {
   const int around = 7;
   for (const BoundaryMode mode : {BoundaryMode::curve, BoundaryMode::linear}) {
     OwnedPolygonMesh lower = open_cylinder(around), upper;
-    for (std::size_t i = 0; i < lower.coordinates.size(); ++i) lower.coordinates[i] += 0.1 * std::sin(3.7 * double(i));
+    for (std::size_t i = 0; i < lower.coordinates.size(); ++i)
+      lower.coordinates[i] += 0.1 * std::sin(3.7 * double(i));
     upper.offsets = lower.offsets;
     const auto shifted = [&](std::int64_t v) { return 2 * ((v / 2 + 3) % around) + v % 2; };
     upper.coordinates.resize(lower.coordinates.size());
@@ -214,10 +230,12 @@ TEST(FeatureCurves, NeighboursAgreeBitForBit) {
     upper.corners = lower.corners;
     for (auto& v : upper.corners) v = shifted(v);
     for (std::size_t f = 0; f < std::size_t(around); ++f)
-      std::reverse(upper.corners.begin() + 4 * std::ptrdiff_t(f), upper.corners.begin() + 4 * std::ptrdiff_t(f) + 4);
+      std::reverse(upper.corners.begin() + 4 * std::ptrdiff_t(f),
+                   upper.corners.begin() + 4 * std::ptrdiff_t(f) + 4);
 
     const ControlMesh low = build(lower, {.boundary = mode}), high = build(upper, {.boundary = mode});
-    const FeatureCurves low_curves = refine_feature_edges(low, 16, 0.5), high_curves = refine_feature_edges(high, 16, 0.5);
+    const FeatureCurves low_curves = refine_feature_edges(low, 16, 0.5),
+                        high_curves = refine_feature_edges(high, 16, 0.5);
     int shared = 0;
     for (Index e = 0; e < Index(low.edges.size()); ++e)
       for (Index d = 0; d < Index(high.edges.size()); ++d) {
@@ -229,7 +247,8 @@ TEST(FeatureCurves, NeighboursAgreeBitForBit) {
         const bool opposite = end(low, e, 0) == end(high, d, 1) && end(low, e, 1) == end(high, d, 0);
         if (!same && !opposite) continue;
         ++shared;
-        Points a(low_curves.of(e).begin(), low_curves.of(e).end()), b(high_curves.of(d).begin(), high_curves.of(d).end());
+        Points a(low_curves.of(e).begin(), low_curves.of(e).end()),
+            b(high_curves.of(d).begin(), high_curves.of(d).end());
         EXPECT_EQ(a, opposite ? reversed_result(b) : b);
       }
     EXPECT_EQ(shared, around);

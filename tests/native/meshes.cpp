@@ -35,14 +35,16 @@ OwnedPolygonMesh make_mesh(const std::vector<Point>& points, const std::vector<P
 }
 
 OwnedPolygonMesh tetrahedron() {
-  auto mesh = make_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+  auto mesh = make_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
   scale_to_unit_sphere(mesh);
   return mesh;
 }
 
 OwnedPolygonMesh cube() {
-  return make_mesh({{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
-                   {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+  return make_mesh(
+      {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
 }
 
 OwnedPolygonMesh cube_triangles() {
@@ -65,11 +67,21 @@ OwnedPolygonMesh octahedron() {
 
 OwnedPolygonMesh icosahedron() {
   const double g = std::numbers::phi;
-  auto mesh = make_mesh({{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                         {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-                        {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                         {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                         {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}});
+  auto mesh = make_mesh({{-1, g, 0},
+                         {1, g, 0},
+                         {-1, -g, 0},
+                         {1, -g, 0},
+                         {0, -1, g},
+                         {0, 1, g},
+                         {0, -1, -g},
+                         {0, 1, -g},
+                         {g, 0, -1},
+                         {g, 0, 1},
+                         {-g, 0, -1},
+                         {-g, 0, 1}},
+                        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
   scale_to_unit_sphere(mesh);
   return mesh;
 }
@@ -127,7 +139,8 @@ OwnedPolygonMesh torus(int around, int across) {
 OwnedPolygonMesh two_tetrahedra() {
   OwnedPolygonMesh mesh = tetrahedron();
   const OwnedPolygonMesh other = tetrahedron();
-  for (std::size_t i = 0; i < 12; ++i) mesh.coordinates.push_back(other.coordinates[i] + (i % 3 == 0 ? 5 : 0));
+  for (std::size_t i = 0; i < 12; ++i)
+    mesh.coordinates.push_back(other.coordinates[i] + (i % 3 == 0 ? 5 : 0));
   for (std::int64_t v : other.corners) mesh.corners.push_back(v + 4);
   for (std::size_t f = 1; f < 5; ++f) mesh.offsets.push_back(other.offsets[f] + 12);
   return mesh;
@@ -135,7 +148,9 @@ OwnedPolygonMesh two_tetrahedra() {
 
 OwnedPolygonMesh single_triangle() { return make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
 
-OwnedPolygonMesh single_quad() { return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}); }
+OwnedPolygonMesh single_quad() {
+  return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+}
 
 OwnedPolygonMesh two_triangles() {
   return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
@@ -162,7 +177,8 @@ OwnedPolygonMesh grid(int columns, int rows) {
     for (int i = 0; i <= columns; ++i) points.push_back({double(i), double(j), 0});
   const auto id = [&](int i, int j) { return std::int64_t(j * (columns + 1) + i); };
   for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) faces.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
+    for (int i = 0; i < columns; ++i)
+      faces.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
   return make_mesh(points, faces);
 }
 
@@ -189,7 +205,8 @@ OwnedPolygonMesh open_cylinder(int around) {
 }
 
 OwnedPolygonMesh roof() {
-  return make_mesh({{0, 0, 1}, {2, 0, 1}, {0, -1, 0}, {2, -1, 0}, {0, 1, 0}, {2, 1, 0}}, {{2, 3, 1, 0}, {0, 1, 5, 4}});
+  return make_mesh({{0, 0, 1}, {2, 0, 1}, {0, -1, 0}, {2, -1, 0}, {0, 1, 0}, {2, 1, 0}},
+                   {{2, 3, 1, 0}, {0, 1, 5, 4}});
 }
 
 OwnedPolygonMesh l_shape() {
@@ -201,9 +218,13 @@ OwnedPolygonMesh u_shape() {
                    {{0, 1, 2, 3, 4, 5, 6, 7}});
 }
 
-OwnedPolygonMesh arrow() { return make_mesh({{0, 0, 0}, {2, -1, 0}, {0, 2, 0}, {0.2, 0.3, 0}}, {{0, 1, 2, 3}}); }
+OwnedPolygonMesh arrow() {
+  return make_mesh({{0, 0, 0}, {2, -1, 0}, {0, 2, 0}, {0.2, 0.3, 0}}, {{0, 1, 2, 3}});
+}
 
-OwnedPolygonMesh flat_corner() { return make_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2, 3}}); }
+OwnedPolygonMesh flat_corner() {
+  return make_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2, 3}});
+}
 
 OwnedPolygonMesh warped_quad(double height) {
   return make_mesh({{0, 0, height}, {1, 0, 0}, {1, 1, height}, {0, 1, 0}}, {{0, 1, 2, 3}});
@@ -219,7 +240,8 @@ OwnedPolygonMesh mobius(int quads) {
   for (int i = 0; i < quads; ++i) {
     const double half_turn = pi * i / quads;
     for (const double side : {-0.4, 0.4})
-      points.push_back(on_circle(double(i) / quads, 2 + side * std::cos(half_turn), side * std::sin(half_turn)));
+      points.push_back(
+          on_circle(double(i) / quads, 2 + side * std::cos(half_turn), side * std::sin(half_turn)));
     const int j = (i + 1) % quads, swap = j == 0;
     faces.push_back({2 * i, 2 * j + swap, 2 * j + 1 - swap, 2 * i + 1});
   }
@@ -236,7 +258,8 @@ OwnedPolygonMesh hourglass() {
 }
 
 OwnedPolygonMesh three_on_an_edge() {
-  return make_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  return make_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
+                   {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
 }
 
 OwnedPolygonMesh pillow() {

@@ -38,12 +38,12 @@ OwnedPolygonMesh open_cylinder(int around);    // one ring of quads, two boundar
 OwnedPolygonMesh roof();                       // two quads over the ridge 0-1, at a right angle
 
 // Polygons for splitting, each one face in z = 0.
-OwnedPolygonMesh l_shape();        // six corners, star-shaped
-OwnedPolygonMesh u_shape();        // eight corners, mirror-symmetric, no point sees all of it
-OwnedPolygonMesh arrow();          // a concave quad, reflex at corner 3
-OwnedPolygonMesh flat_corner();    // a quad that looks like a triangle: 180 degrees at corner 1
+OwnedPolygonMesh l_shape();                   // six corners, star-shaped
+OwnedPolygonMesh u_shape();                   // eight corners, mirror-symmetric, no point sees all of it
+OwnedPolygonMesh arrow();                     // a concave quad, reflex at corner 3
+OwnedPolygonMesh flat_corner();               // a quad that looks like a triangle: 180 degrees at corner 1
 OwnedPolygonMesh warped_quad(double height);  // a unit square with two opposite corners lifted
-OwnedPolygonMesh quad_doublet();   // two quads around the interior vertex 1 of valence 2
+OwnedPolygonMesh quad_doublet();              // two quads around the interior vertex 1 of valence 2
 
 // Defective.
 OwnedPolygonMesh mobius(int quads);

@@ -38,7 +38,8 @@ OwnedPolygonMesh random_soup(Dice& dice) {
 
 // Starts from a manifold and does it little harm: most of these pass, and bring odd connectivity.
 OwnedPolygonMesh random_manifold(Dice& dice) {
-  const OwnedPolygonMesh whole[] = {icosahedron(), cube(), torus(3, 3), grid(3, 2), dodecahedron(), octahedron()};
+  const OwnedPolygonMesh whole[] = {icosahedron(), cube(),         torus(3, 3),
+                                    grid(3, 2),    dodecahedron(), octahedron()};
   const PolygonMesh view = whole[dice(0, 5)].view();
   std::vector<Polygon> faces;
   for (std::int64_t f = 0; f < view.face_count(); ++f) {

@@ -45,7 +45,8 @@ double area(const OwnedPolygonMesh& input, const SplitMesh& mesh) {
     EXPECT_LT(face.vertex[3], 0);
     const Vec3& a = points[std::size_t(face.vertex[0])];
     sum += 0.5 * (points[std::size_t(face.vertex[1])] - a).cross(points[std::size_t(face.vertex[2])] - a).z();
-    EXPECT_GT((points[std::size_t(face.vertex[1])] - a).cross(points[std::size_t(face.vertex[2])] - a).z(), 0);
+    EXPECT_GT((points[std::size_t(face.vertex[1])] - a).cross(points[std::size_t(face.vertex[2])] - a).z(),
+              0);
   }
   return sum;
 }
@@ -101,7 +102,8 @@ TEST(Split, WarpedQuads) {
   ASSERT_EQ(symmetric.centres.size(), 1u);
   EXPECT_NEAR((symmetric.centres[0] - Vec3(0.5, 0.5, 0.4)).norm(), 0, 1e-15);
 
-  OwnedPolygonMesh long_one = warped_quad(0.9);  // folded along the long diagonal it would be the flatter… it is not
+  OwnedPolygonMesh long_one =
+      warped_quad(0.9);  // folded along the long diagonal it would be the flatter… it is not
   long_one.coordinates[6] = long_one.coordinates[7] = 1.1;
   EXPECT_EQ(vertex_sets(split(long_one)), (Sets{{0, 1, 3}, {1, 2, 3}}));
 }
