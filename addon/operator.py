@@ -4,6 +4,7 @@
 import bpy
 
 from . import messages, native, size
+from .lattice import fine_edges
 from .read_mesh import read_object
 from .request import fair_arguments
 from .settings import FairingSettings
@@ -83,35 +84,38 @@ class OBJECT_OT_fair_surface(FairingSettings, bpy.types.Operator):
             source
         ) in sources:  # all are computed before anything is made: an error leaves the scene as it was
             arrays = read_object(source)
-            result = self._fair(source, arrays)
+            arguments = fair_arguments(arrays, self)
+            result = self._fair(source.name, arguments)
             if result is None:
                 return {"CANCELLED"}
-            faired.append((source, arrays, result))
+            faired.append(
+                (source, arrays, result, fine_edges(result.faces, arguments["crease_edges"], self.levels))
+            )
 
         if context.mode == "EDIT_MESH":
             bpy.ops.object.mode_set(mode="OBJECT")
         created = []
-        for source, arrays, result in faired:
-            mesh = write_mesh(f"{source.name} Fair", result, arrays, source.data.materials, self.shade_smooth)
+        for source, arrays, result, sharp_pairs in faired:
+            name = f"{source.name} Fair"
+            mesh = write_mesh(name, result, arrays, sharp_pairs, source.data.materials, self.shade_smooth)
             created.append(write_object(context, source, mesh, result.report))
             for warning in result.report["warnings"]:
                 self.report({"WARNING"}, messages.warning_text(source.name, warning))
         select_only(context, created)
         return {"FINISHED"}
 
-    def _fair(self, source, arrays):
-        """The core's result for one mesh; None after an error has been reported."""
+    def _fair(self, name, arguments):
+        """The core's result for the object of that name; None after an error has been reported."""
         core = native.core()
-        too_large = size.why_too_large(
-            size.triangle_count(arrays.offsets[1:] - arrays.offsets[:-1], self.levels)
-        )
+        _corners, offsets = arguments["faces"]
+        too_large = size.why_too_large(size.triangle_count(offsets[1:] - offsets[:-1], self.levels))
         if too_large:
-            self.report({"ERROR"}, f"{source.name}: {too_large}.")
+            self.report({"ERROR"}, f"{name}: {too_large}.")
             return None
         try:
-            return core.fair(**fair_arguments(arrays, self))
+            return core.fair(**arguments)
         except core.FairingError as error:
-            self.report({"ERROR"}, messages.error_text(source.name, error))
+            self.report({"ERROR"}, messages.error_text(name, error))
             return None
 
 

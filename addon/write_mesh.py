@@ -4,12 +4,16 @@
 import bpy
 import numpy as np
 
+from .lattice import mark_pairs
 
-def write_mesh(name, result, arrays, materials=(), shade_smooth=False):
-    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; vertex i < n is control vertex i of `arrays`."""
+
+def write_mesh(name, result, arrays, sharp_pairs, materials=(), shade_smooth=False):
+    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; vertex i < n is control vertex i of `arrays`.
+
+    The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
+    """
     triangles, quads = result.faces
     origin = np.concatenate([result.triangle_polygon, result.quad_polygon])
-    sharp_edges = result.crease_edges
 
     mesh = bpy.data.meshes.new(name)
     _write_faces(mesh, result.vertices, triangles, quads)
@@ -20,8 +24,8 @@ def write_mesh(name, result, arrays, materials=(), shade_smooth=False):
     if not shade_smooth and arrays.sharp_face is not None and arrays.sharp_face.any():
         _write(mesh, "sharp_face", "BOOLEAN", "FACE", arrays.sharp_face[origin])
     mesh.update(calc_edges=True)
-    if len(sharp_edges):
-        _mark_sharp(mesh, sharp_edges)
+    if len(sharp_pairs):
+        _mark_sharp(mesh, sharp_pairs)
     return mesh
 
 
@@ -44,14 +48,6 @@ def _write(mesh, name, data_type, domain, values):
 
 
 def _mark_sharp(mesh, pairs):
-    """Marks the edges between the vertex `pairs` (k, 2) sharp, so that smooth shading stops at creases."""
     edges = np.empty(2 * len(mesh.edges), np.int32)
     mesh.attributes[".edge_verts"].data.foreach_get("value", edges)
-    sharp = np.isin(_keys(edges.reshape(-1, 2), len(mesh.vertices)), _keys(pairs, len(mesh.vertices)))
-    _write(mesh, "sharp_edge", "BOOLEAN", "EDGE", sharp)
-
-
-def _keys(pairs, vertex_count):
-    """One number for each vertex pair, whichever way round it is given."""
-    pairs = np.sort(np.asarray(pairs, np.int64), axis=1)
-    return pairs[:, 0] * vertex_count + pairs[:, 1]
+    _write(mesh, "sharp_edge", "BOOLEAN", "EDGE", mark_pairs(edges.reshape(-1, 2), pairs))
