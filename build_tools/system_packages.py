@@ -19,17 +19,19 @@ BPY = [
     "libxfixes3",
     "libxi6",
 ]
-BPY += ["libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1", "libuuid1", "libgomp1", "xvfb"]
+BPY += ["libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1", "libuuid1", "libopengl0", "libgomp1", "xvfb"]
 REAL_BLENDER = ["mmdebstrap"]
 
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
 
 
 def missing() -> list[str]:
-    """Those packages that are not installed."""
-    _, listing = output("dpkg-query", "-W", "-f", "${binary:Package} ${db:Status-Status}\n", *ALL)
-    lines = [line.split() for line in listing.splitlines() if line.endswith(" installed")]
-    installed = {words[0].split(":")[0] for words in lines}
+    """Those packages that are not installed, nor provided by another one (libxt6 by trixie's libxt6t64)."""
+    _, listing = output("dpkg-query", "-W", "-f", "${db:Status-Status} ${Package}, ${Provides}\n")
+    lines = [
+        line.removeprefix("installed ") for line in listing.splitlines() if line.startswith("installed ")
+    ]
+    installed = {entry.split()[0] for line in lines for entry in line.split(",") if entry.strip()}
     return [package for package in ALL if package not in installed]
 
 
