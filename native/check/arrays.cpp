@@ -15,8 +15,9 @@ using Ids = std::vector<std::int64_t>;
 // Above this, squares and cubes of lengths would overflow later on.
 constexpr double largest_coordinate = 1e100;
 
-// A corner becomes up to three sides when its polygon is split, and sides have 32-bit ids.
-constexpr std::size_t most_corners = (std::size_t(1) << 31) / 4;
+// A corner becomes up to three sides when its polygon is split, a side up to two half-edges; all ids have
+// 32 bits.
+constexpr std::size_t most_corners = (std::size_t(1) << 31) / 8;
 
 template <class Predicate>
 Ids faces_where(const PolygonMesh& mesh, Predicate predicate) {
@@ -48,7 +49,7 @@ void check_sizes(const PolygonMesh& mesh) {
         "The face offsets must ascend from 0 to the number of corners, one more than there are faces.");
   if (mesh.corners.size() > most_corners || mesh.coordinates.size() / 3 > most_corners)
     throw FairingError(ErrorCode::too_large,
-                       "The control mesh has more than 500 million corners or vertices.");
+                       "The control mesh has more than 268 million corners or vertices.");
 }
 
 void check_corner_counts(const PolygonMesh& mesh) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "control_mesh/connect.h"
 
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+#include <string>
 
 #include "check/error.h"
 
@@ -9,7 +10,7 @@ namespace fairing {
 namespace {
 
 // Only handles and prev/next/opposite are used: circulators changed their sense between OpenMesh versions.
-using HalfEdgeMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
+using HalfEdgeMesh = OpenMesh::PolyConnectivity;  // the half-edges alone: positions have no business here
 using Half = OpenMesh::HalfedgeHandle;
 
 // The half-edge from v that follows h counter-clockwise around v.
@@ -21,7 +22,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
   HalfEdgeMesh mesh;
   mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(),
                control.faces.size());
-  for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex(HalfEdgeMesh::Point(0, 0, 0));
+  for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex();
   for (const Face& face : control.faces) {
     OpenMesh::VertexHandle corners[4];
     for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);
