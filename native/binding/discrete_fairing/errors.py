@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Errors of the Python layer, of the same type as the core's."""
+
+from ._native import FairingError
+
+
+def fairing_error(code: str, message: str, elements: list[int] | None = None) -> FairingError:
+    """A FairingError with its code and element ids set."""
+    error = FairingError(message)
+    error.code = code
+    error.elements = elements or []
+    return error

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one function that most callers need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import isfinite
+
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, index_array, numbers, vertex_array
+from .errors import fairing_error
+from .result import Result
+
+ENERGIES = ("thin_plate",)
+
+
+def fair(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    levels: int = 3,
+    energy: str = "thin_plate",
+    *,
+    metric_exponent: float = 0.5,
+    chart_blend: float = 1.0,
+    chart: str = "exponential",
+    interpolation: str = "exact",
+    tolerance: float = 0.0,
+    weights: ArrayLike | None = None,
+    epsilon: float = 0.0,
+    crease_edges: ArrayLike | None = None,
+    crease_angle: float | None = None,
+    corner_vertices: ArrayLike | None = None,
+    corner_angle: float | None = None,
+    boundary: str = "curve",
+    repair_orientation: bool = False,
+    method: str = "multigrid",
+    relative_residual: float = 1e-8,
+    max_iterations: int = 200,
+    smoother_degree: int = 0,
+    sweeps: int = 10,
+    threads: int = 0,
+    memory_limit: int = 0,
+    measure: bool = True,
+    progress: Callable[[float, str], bool | None] | None = None,
+    monitor: _native.Monitor | None = None,
+) -> Result:
+    """Refine a control mesh 1-to-4 and fair it: the new vertices minimize a bending energy.
+
+    After Kobbelt, *Fairing by Finite Difference Methods* (1997). Neither array is changed; any layout and any float or
+    integer type will do.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+        Control vertices, in any unit of length.
+    faces : (m, 3) or (m, 4) int, a list of polygons, or the pair (corners, offsets) of flat arrays
+        Counter-clockwise. Polygons of five and more sides, and quads too concave or warped, are split by shape.
+    levels : int
+        How often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels quads.
+    energy : "thin_plate"
+        [Kobbelt 1997a, section 4].
+    metric_exponent : float from 0 to 1
+        Control edge lengths to this power make the charts: 1 the paper's, 0 uniform, 0.5 centripetal.
+    chart_blend : float from 0 to 1
+        The paper's linear blend of charts: 0 uniform, 1 the chart itself.
+    chart : "exponential" or "tangent"
+        Exponential map of the control metric, or projection to its tangent planes.
+    interpolation : "exact" or "approximate"
+        Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`.
+        Vertices on curves always stay.
+    tolerance : float, mesh units
+        Approximate: the farthest that any control vertex moves; the energy is as low as that allows.
+    weights : (n,) float, dimensionless
+        Approximate: the pull of each control vertex on the surface. 0 leaves a vertex free (where there is no
+        tolerance), infinity interpolates it.
+    epsilon : float, mesh units
+        Afterwards interpolated vertices are let go by as much, which takes off cusps [Kobbelt 1997a, section 5].
+    crease_edges : (k, 2) int
+        Vertex pairs of the edges that are creases.
+    crease_angle, corner_angle : float, radians
+        Edges folded by more are creases; curves that turn by more at a vertex end there. None: no such rule.
+    corner_vertices : (c,) int
+        Vertices where curves end; in the midst of a surface, the tip of a cone.
+    boundary : "curve", "linear" or "free"
+        A smooth curve through the boundary's own vertices, the straight edges, or what the surface makes of it.
+    repair_orientation : bool
+        Turn faces over where their neighbours disagree (report["flipped_faces"]).
+    method : "multigrid" or "back_leg"
+        The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps a level.
+    relative_residual : float
+        Where the solver stops: residual relative to the control polyhedron's, and error relative to the solution in
+        the energy norm.
+    max_iterations, smoother_degree, sweeps : int
+        Limits and work of the solver; degree 0 is chosen from how the coarse levels converge.
+    threads : int
+        0: all cores. The result is the same, to the last bit, for any number.
+    memory_limit : int, bytes
+        Refuse runs that would take more; 0: three quarters of the machine's memory.
+    measure : bool
+        Measure the total curvature of the result, the control polyhedron and the prediction.
+    progress : callable(fraction, phase)
+        Called from this thread some 40 times a second; returning False cancels.
+    monitor : Monitor
+        For watching and cancelling from another thread.
+
+    Returns
+    -------
+    Result
+        vertices, triangles, faces, report.
+
+    Raises
+    ------
+    FairingError
+        With `code`, `elements` and a message that says what to do. CANCELLED after a cancel.
+    """
+    o = _native.Options()
+    if energy not in ENERGIES:
+        raise choice_error("energy", energy, ENERGIES)
+    o.levels = whole("levels", levels)
+    o.metric_exponent = real("metric_exponent", metric_exponent)
+    o.chart_blend = real("chart_blend", chart_blend)
+    o.chart = choice("chart", chart, _native.Chart)
+    o.interpolation = choice("interpolation", interpolation, _native.Interpolation)
+    o.tolerance = real("tolerance", tolerance)
+    o.epsilon = real("epsilon", epsilon)
+    o.boundary = choice("boundary", boundary, _native.Boundary)
+    o.method = choice("method", method, _native.Method)
+    o.repair_orientation = bool(repair_orientation)
+    o.relative_residual = real("relative_residual", relative_residual)
+    o.max_iterations = whole("max_iterations", max_iterations)
+    o.smoother_degree = whole("smoother_degree", smoother_degree)
+    o.sweeps = whole("sweeps", sweeps)
+    o.threads = whole("threads", threads)
+    o.memory_limit = whole("memory_limit", memory_limit)
+    o.measure = bool(measure)
+    if weights is not None:
+        o.weights = numbers(weights, "weights", "iuf").astype(float).reshape(-1)
+    if crease_edges is not None:
+        o.crease_edges = crease_pairs(crease_edges)
+    if crease_angle is not None:
+        o.crease_angle = real("crease_angle", crease_angle)
+    if corner_vertices is not None:
+        o.corner_vertices = index_array(corner_vertices, "corner_vertices").reshape(-1)
+    if corner_angle is not None:
+        o.corner_angle = real("corner_angle", corner_angle)
+    corners, offsets = face_arrays(faces)
+    return Result(
+        _native.fair(vertex_array(vertices), corners, offsets, o, monitor or _native.Monitor(), progress)
+    )
+
+
+def crease_pairs(edges: ArrayLike):
+    pairs = index_array(edges, "crease_edges")
+    if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
+        raise fairing_error("BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2).")
+    return pairs.reshape(-1, 2)
+
+
+def choice(name: str, value: str, options):
+    members = options.__members__
+    if value not in members:
+        raise choice_error(name, value, tuple(members))
+    return members[value]
+
+
+def choice_error(name: str, value: object, options: tuple[str, ...]):
+    listed = " or ".join(f'"{option}"' for option in options)
+    return fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {listed}.")
+
+
+def whole(name: str, value: object) -> int:
+    try:
+        number = value.__index__()
+    except AttributeError:
+        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a whole number.") from None
+    if not 0 <= number < 2**31 and not (name == "memory_limit" and 0 <= number < 2**63):
+        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must not be negative, nor over 2**31.")
+    return number
+
+
+def real(name: str, value: object) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a number.") from None
+    if not isfinite(number):
+        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be finite.")
+    return number

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The exponential map: faces unfolded around the point, their angles scaled to a full turn.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "chart/chart.h"
+
+namespace fairing {
+namespace {
+
+constexpr double full_turn = 2 * std::numbers::pi;
+
+Vec2 polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
+
+// A point's share of the face's area at unit spacing, for one corner of one cell.
+double corner_share(const Face& face, const FlatFace& flat) { return flat.area / face.size; }
+
+// The row of the face on one side of an edge point, front to back, in a frame whose x axis runs along the side.
+void append_row(const Face& face, const FlatFace& flat, int s, bool turned, std::vector<Vec2>& ring) {
+  const Vec2 along(flat.length[std::size_t(s)], 0);
+  const auto previous = std::size_t((s + face.size - 1) % face.size);
+  const Vec2 up = polar(flat.length[previous], flat.angle[std::size_t(s)]);
+  const double sign = turned ? -1 : 1;
+  if (face.quad()) ring.push_back(sign * (up + along));
+  ring.push_back(sign * up);
+  ring.push_back(sign * (up - along));
+}
+
+}  // namespace
+
+Chart ChartMaker::exponential_vertex(Index v, const std::vector<FlatFace>& flat) const {
+  Chart chart;
+  const auto ring = mesh_.ring(v);
+  double total = 0;
+  for (const Spoke& spoke : ring)
+    if (spoke.face >= 0) total += flat[std::size_t(spoke.face)].angle[std::size_t(spoke.corner)];
+  chart.closed = mesh_.interior(v);
+  // An open ring keeps its angle unless it would overlap itself.
+  const double scale =
+      chart.closed || total > 0.95 * full_turn ? (chart.closed ? 1.0 : 0.95) * full_turn / total : 1.0;
+  double angle = 0;
+  for (const Spoke& spoke : ring) {
+    chart.ring.push_back(polar(edge_length(mesh_, flat, spoke.edge), scale * angle));
+    if (spoke.face < 0) break;
+    const Face& face = mesh_.faces[std::size_t(spoke.face)];
+    const FlatFace& shape = flat[std::size_t(spoke.face)];
+    const auto c = std::size_t(spoke.corner);
+    if (face.quad()) {
+      const Vec2 far = Vec2(shape.length[c], 0) + polar(shape.length[(c + 3) % 4], shape.angle[c]);
+      chart.ring.push_back(polar(far.norm(), scale * (angle + std::atan2(far.y(), far.x()))));
+    }
+    angle += shape.angle[c];
+    chart.area += corner_share(face, shape);
+  }
+  return chart;
+}
+
+Chart ChartMaker::exponential_edge(Index e, const std::vector<FlatFace>& flat) const {
+  Chart chart;
+  const Edge& edge = mesh_.edges[std::size_t(e)];
+  const double length = edge_length(mesh_, flat, e);
+  chart.closed = !edge.boundary();
+  for (int h = 0; h < 2; ++h) {
+    chart.ring.push_back(Vec2(h == 0 ? length : -length, 0));
+    if (edge.side[std::size_t(h)] < 0) continue;
+    const Side& side = mesh_.sides[std::size_t(edge.side[std::size_t(h)])];
+    const Face& face = mesh_.faces[std::size_t(side.face)];
+    const FlatFace& shape = flat[std::size_t(side.face)];
+    append_row(face, shape, side.local, h == 1, chart.ring);
+    chart.area += (face.quad() ? 2 : 3) * corner_share(face, shape);
+  }
+  return chart;
+}
+
+Chart ChartMaker::exponential_face(Index f, const std::vector<FlatFace>& flat) const {
+  Chart chart;
+  const Face& face = mesh_.faces[std::size_t(f)];
+  const FlatFace& shape = flat[std::size_t(f)];
+  const Vec2 a(shape.length[0], 0), b = polar(shape.length[std::size_t(face.size - 1)], shape.angle[0]);
+  if (face.quad()) {
+    chart.ring = {a, a + b, b, b - a, -a, -a - b, -b, a - b};
+    chart.area = shape.area;
+  } else {
+    chart.ring = {a, b, b - a, -a, -b, a - b};
+    chart.area = 2 * shape.area;
+  }
+  return chart;
+}
+
+}  // namespace fairing

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "difference/hessian.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+namespace fairing {
+namespace {
+
+// fit()'s threshold on singular values, on their squares.
+constexpr double undetermined = 3e-3 * 3e-3;
+
+Vec3 orthonormal(double uu, double uv, double vv) {
+  constexpr double root_half = std::numbers::sqrt2 / 2;
+  return {root_half * (uu + vv), root_half * (uu - vv), std::numbers::sqrt2 * uv};
+}
+
+// Least squares after the ring has been made round (x, y have unit covariance and no correlation): the linear terms
+// then drop out of the normal equations by division, and a 3 x 3 system is left. False when undetermined.
+bool round_hessian(std::span<const Vec2> ring, std::span<const double> f, Vec3& hessian) {
+  const std::size_t size = ring.size();
+  const double n = double(size);
+  double uu = 0, uv = 0, vv = 0;
+  for (const Vec2& p : ring) {
+    uu += p.x() * p.x();
+    uv += p.x() * p.y();
+    vv += p.y() * p.y();
+  }
+  if (!(uu > 0)) return false;
+  const double rest = vv - uv * uv / uu;
+  if (!(rest > 1e-24 * uu)) return false;
+  const double w0 = std::sqrt(n / uu), w2 = std::sqrt(n / rest), w1 = -w2 * uv / uu;
+
+  // With a = x^2 + y^2, b = x^2 - y^2, c = 2 x y.
+  double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0, xa = 0, ya = 0, xb = 0, yb = 0, xc = 0, yc = 0;
+  double fx = 0, fy = 0, fa = 0, fb = 0, fc = 0;
+  for (std::size_t j = 0; j < size; ++j) {
+    const double x = w0 * ring[j].x(), y = w1 * ring[j].x() + w2 * ring[j].y();
+    const double xx = x * x, yy = y * y, a = xx + yy, b = xx - yy, c = 2 * x * y;
+    aa += a * a, ab += a * b, ac += a * c, bb += b * b, bc += b * c, cc += c * c;
+    xa += x * a, ya += y * a, xb += x * b, yb += y * b, xc += x * c, yc += y * c;
+    fx += f[j] * x, fy += f[j] * y, fa += f[j] * a, fb += f[j] * b, fc += f[j] * c;
+  }
+  const double each = 1 / n;
+  const auto without_linear = [&](double whole, double x, double y, double other_x, double other_y) {
+    return whole - each * (x * other_x + y * other_y);
+  };
+  const double s00 = without_linear(aa, xa, ya, xa, ya), s01 = without_linear(ab, xa, ya, xb, yb),
+               s02 = without_linear(ac, xa, ya, xc, yc), s11 = without_linear(bb, xb, yb, xb, yb),
+               s12 = without_linear(bc, xb, yb, xc, yc), s22 = without_linear(cc, xc, yc, xc, yc);
+  const double r0 = without_linear(fa, fx, fy, xa, ya), r1 = without_linear(fb, fx, fy, xb, yb),
+               r2 = without_linear(fc, fx, fy, xc, yc);
+
+  if (!(s00 > undetermined * aa)) return false;
+  const double l10 = s01 / s00, l20 = s02 / s00, d1 = s11 - l10 * s01, t12 = s12 - l10 * s02;
+  if (!(d1 > undetermined * bb)) return false;
+  const double l21 = t12 / d1, d2 = s22 - l20 * s02 - l21 * t12;
+  if (!(d2 > undetermined * cc)) return false;
+  const double z1 = r1 - l10 * r0, c2 = (r2 - l20 * r0 - l21 * z1) / d2, c1 = z1 / d1 - l21 * c2,
+               c0 = r0 / s00 - l10 * c1 - l20 * c2;
+
+  const double f_xx = 2 * (c0 + c1), f_yy = 2 * (c0 - c1), f_xy = 2 * c2;
+  hessian = orthonormal(w0 * w0 * f_xx + 2 * w0 * w1 * f_xy + w1 * w1 * f_yy, w2 * (w0 * f_xy + w1 * f_yy),
+                        w2 * w2 * f_yy);
+  return true;
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, Size> pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> eigen(gram);
+  Eigen::Matrix<double, Size, 1> inverse = eigen.eigenvalues();
+  const double least = std::max(undetermined * inverse(Size - 1), 1e-300);
+  for (int k = 0; k < Size; ++k) inverse(k) = inverse(k) > least ? 1 / inverse(k) : 0.0;
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+// fit()'s two stages as normal equations: gradient and trace first, then what is left by least norm.
+Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> f) {
+  double radius = 0;
+  for (const Vec2& p : ring) radius += p.norm() / double(ring.size());
+  if (!(radius > 0)) return Vec3::Zero();
+  Eigen::Matrix<double, 5, 5> gram = Eigen::Matrix<double, 5, 5>::Zero();
+  Coefficients moment = Coefficients::Zero();
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Coefficients b = basis(ring[j] / radius);
+    gram += b * b.transpose();
+    moment += f[j] * b;
+  }
+  const Eigen::Matrix3d first = pseudo_inverse<3>(gram.topLeftCorner<3, 3>());
+  const Eigen::Matrix<double, 3, 2> mixed = first * gram.topRightCorner<3, 2>();
+  Eigen::Matrix2d left = gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed;
+  const double whole = gram.bottomRightCorner<2, 2>().trace();
+  for (int k = 0; k < 2; ++k)
+    if (left(k, k) < undetermined * whole) {
+      left.row(k).setZero();
+      left.col(k).setZero();
+    }
+  Eigen::Vector2d rest = moment.tail<2>() - mixed.transpose() * moment.head<3>();
+  for (int k = 0; k < 2; ++k)
+    if (left(k, k) == 0) rest(k) = 0;
+  const Eigen::Vector2d free = pseudo_inverse<2>(left) * rest;
+  const Vec3 leading = first * moment.head<3>() - mixed * free;
+  return Vec3(leading(2), free(0), free(1)) / (radius * radius);
+}
+
+}  // namespace
+
+Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference) {
+  Vec3 hessian;
+  if (ring.size() >= 5 && round_hessian(ring, difference, hessian)) return hessian;
+  return staged_hessian(ring, difference);
+}
+
+}  // namespace fairing

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy/assemble.h"
+
+namespace fairing {
+
+std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
+  const ControlMesh& mesh = lattice.mesh();
+  std::vector<Index> number(lattice.size(), -1);
+  Index next = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (unknowns.vertex[std::size_t(v)]) number[std::size_t(v)] = next++;
+  std::size_t point = std::size_t(mesh.vertex_count());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    for (int k = 1; k < lattice.n(); ++k, ++point)
+      if (unknowns.edge[e]) number[point] = next++;
+  for (; point < lattice.size(); ++point) number[point] = next++;
+  return number;
+}
+
+AssembledSystem assemble_thin_plate(const Lattice& lattice, const Stencils& stencils,
+                                    const Unknowns& unknowns, const VertexWeights& weights) {
+  AssembledSystem system;
+  const std::vector<Index> number = number_unknowns(lattice, unknowns);
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] >= 0) system.unknown_points.push_back(Index(p));
+  std::vector<Eigen::Triplet<double>> entries;
+  visit_stencils(lattice, stencils, [&](const WrittenStencil& s) {
+    for (std::size_t a = 0; a < s.points.size(); ++a) {
+      const Index row = number[std::size_t(s.points[a])];
+      if (row < 0) continue;
+      for (std::size_t b = 0; b < s.points.size(); ++b) {
+        const Index column = number[std::size_t(s.points[b])];
+        if (column < 0) continue;
+        double sum = 0;
+        for (std::size_t c = 0; c < 3; ++c) sum += s.column[a][c] * s.column[b][c];
+        entries.emplace_back(row, column, sum);
+      }
+    }
+  });
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (number[v] >= 0) entries.emplace_back(number[v], number[v], weights[v]);
+  const auto size = Index(system.unknown_points.size());
+  system.matrix.resize(size, size);
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+}  // namespace fairing

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate as the solver sees it: its operator on one level, and the transfer to the next coarser one.
+#pragma once
+
+#include "energy/assemble.h"
+#include "energy/thin_plate.h"
+#include "solver/level_operator.h"
+#include "transfer/transfer.h"
+
+namespace fairing {
+
+// What all levels share.
+struct ThinPlateShared {
+  const ControlMesh& mesh;
+  const Stencils& stencils;
+  ThinPlateRows<double> fine_rows;
+  ThinPlateRows<float> fast_rows;
+  Unknowns unknowns;
+  VertexWeights weights;
+  Workers& workers;
+  Exchange<double> fine_exchange;
+  Exchange<float> fast_exchange;
+
+  ThinPlateShared(const ControlMesh& control, const Stencils& s, Unknowns u, VertexWeights w, Workers& crew)
+      : mesh(control),
+        stencils(s),
+        fine_rows(control, s),
+        fast_rows(control, s),
+        unknowns(std::move(u)),
+        weights(std::move(w)),
+        workers(crew) {}
+};
+
+class ThinPlateLevel final : public LevelOperator {
+ public:
+  ThinPlateLevel(ThinPlateShared& shared, const Lattice& lattice) : shared_(shared), lattice_(lattice) {
+    update();
+  }
+
+  // Call after the weights have changed.
+  void update() {
+    inverse_diagonal_ = thin_plate_diagonal(lattice_, shared_.fine_rows, shared_.unknowns, shared_.weights,
+                                            shared_.workers, shared_.fine_exchange);
+    for (float& d : inverse_diagonal_) d = 1 / d;
+  }
+
+  std::size_t points() const override { return lattice_.size(); }
+  void apply(const double* x, double* y) override {
+    apply_thin_plate(lattice_, shared_.fine_rows, shared_.unknowns, shared_.weights, shared_.workers,
+                     shared_.fine_exchange, x, y);
+  }
+  void apply(const float* x, float* y) override {
+    apply_thin_plate(lattice_, shared_.fast_rows, shared_.unknowns, shared_.weights, shared_.workers,
+                     shared_.fast_exchange, x, y);
+  }
+  const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
+  AssembledSystem assemble() const override {
+    return assemble_thin_plate(lattice_, shared_.stencils, shared_.unknowns, shared_.weights);
+  }
+
+ private:
+  ThinPlateShared& shared_;
+  const Lattice& lattice_;
+  Array<float> inverse_diagonal_;
+};
+
+class ThinPlateTransfer final : public LevelTransfer {
+ public:
+  ThinPlateTransfer(ThinPlateShared& shared, const Lattice& coarse, const Lattice& fine)
+      : shared_(shared), coarse_(coarse), fine_(fine) {}
+  void prolong(const float* x, float* y) override {
+    fairing::prolong(coarse_, fine_, shared_.stencils, &shared_.unknowns, shared_.workers,
+                     shared_.fast_exchange, x, y);
+  }
+  void restrict_to(const float* x, float* y) override {
+    fairing::restrict_to(coarse_, fine_, shared_.stencils, shared_.unknowns, shared_.workers,
+                         shared_.fast_exchange, x, y);
+  }
+
+ private:
+  ThinPlateShared& shared_;
+  const Lattice &coarse_, &fine_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Progress out, cancel in, both through atomics: the run never calls foreign code.
+#pragma once
+
+#include <atomic>
+
+#include "check/error.h"
+
+namespace fairing {
+
+enum class Phase : int { check, hierarchy, curves, solve, constrain, measure, output, done };
+
+inline const char* name(Phase phase) {
+  switch (phase) {
+    case Phase::check: return "check";
+    case Phase::hierarchy: return "hierarchy";
+    case Phase::curves: return "curves";
+    case Phase::solve: return "solve";
+    case Phase::constrain: return "constrain";
+    case Phase::measure: return "measure";
+    case Phase::output: return "output";
+    case Phase::done: return "done";
+  }
+  return "";
+}
+
+// Shared between a run and whoever watches it, on any thread.
+class Monitor {
+ public:
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  double fraction() const { return fraction_.load(std::memory_order_relaxed); }
+  Phase phase() const { return phase_.load(std::memory_order_relaxed); }
+
+  // For the run itself: says where it is; throws FairingError(cancelled) when asked to stop.
+  void report(Phase phase, double fraction) {
+    phase_.store(phase, std::memory_order_relaxed);
+    fraction_.store(fraction, std::memory_order_relaxed);
+    check_cancelled();
+  }
+  void check_cancelled() const {
+    if (cancelled_.load(std::memory_order_relaxed)) throw FairingError(ErrorCode::cancelled, "Cancelled.");
+  }
+
+ private:
+  std::atomic<bool> cancelled_{false};
+  std::atomic<double> fraction_{0.0};
+  std::atomic<Phase> phase_{Phase::check};
+};
+
+}  // namespace fairing

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Long vectors in parallel: sums over fixed blocks, so that the number of threads leaves no trace in them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "execution/workers.h"
+
+namespace fairing {
+
+constexpr std::size_t vector_block = 4096;
+constexpr std::size_t vector_grain = 1 << 15;  // a part smaller than this is not worth waking a thread
+
+// body(i) for i in [0, size)
+template <class Body>
+void for_each_index(Workers& workers, std::size_t size, Body&& body) {
+  workers.for_parts(size, vector_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+// Σ term(i), in double, block by block.
+template <class Term>
+double sum(Workers& workers, std::size_t size, Term&& term) {
+  const std::size_t blocks = (size + vector_block - 1) / vector_block;
+  std::vector<double> partial(blocks);
+  workers.for_parts(blocks, vector_grain / vector_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t last = std::min(size, (b + 1) * vector_block);
+      double lane[4] = {0, 0, 0, 0};  // four running sums let the compiler vectorize without reordering
+      std::size_t i = b * vector_block;
+      for (; i + 4 <= last; i += 4)
+        for (std::size_t k = 0; k < 4; ++k) lane[k] += term(i + k);
+      for (; i < last; ++i) lane[0] += term(i);
+      partial[b] = (lane[0] + lane[1]) + (lane[2] + lane[3]);
+    }
+  });
+  double total = 0;
+  for (const double p : partial) total += p;
+  return total;
+}
+
+}  // namespace fairing

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fair/check_options.h"
+
+#include <cmath>
+#include <string>
+
+#include "check/error.h"
+
+namespace fairing {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message, std::vector<std::int64_t> elements = {}) {
+  throw FairingError(ErrorCode::bad_option, message, std::move(elements));
+}
+
+void in_range(const char* option, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(std::string(option) + " is " + std::to_string(value) + "; it must be from " + std::to_string(low) +
+           " to " + std::to_string(high) + ".");
+}
+
+}  // namespace
+
+void check_options(const PolygonMesh& mesh, const FairOptions& o) {
+  if (o.levels < 0 || o.levels > 15)
+    refuse("levels is " + std::to_string(o.levels) + "; it must be from 0 to 15.");
+  in_range("metric_exponent", o.chart.exponent, 0, 1);
+  in_range("chart_blend", o.chart.blend, 0, 1);
+  in_range("tolerance", o.tolerance, 0, 1e300);
+  in_range("epsilon", o.epsilon, 0, 1e300);
+  in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
+  if (o.max_iterations < 1) refuse("max_iterations must be at least 1.");
+  if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
+  if (o.weights.empty()) return;
+  if (o.interpolation != Interpolation::approximate)
+    refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");
+  if (std::int64_t(o.weights.size()) != mesh.vertex_count())
+    refuse("weights has " + std::to_string(o.weights.size()) + " entries for " +
+           std::to_string(mesh.vertex_count()) + " vertices; give one a vertex.");
+  std::vector<std::int64_t> bad;
+  for (std::size_t v = 0; v < o.weights.size(); ++v)
+    if (!(o.weights[v] >= 0) || std::isnan(o.weights[v])) bad.push_back(std::int64_t(v));
+  if (!bad.empty())
+    refuse("weights must be zero or positive; see vertex " + std::to_string(bad[0]) + ".", bad);
+}
+
+}  // namespace fairing

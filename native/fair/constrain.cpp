@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fair/constrain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fairing {
+namespace {
+
+constexpr double aim = 0.9999;   // of the tolerance: rounding must not carry a vertex over it
+constexpr double slack = 1.001;  // a fixed point within this is as good as there
+constexpr double gap_wanted = 1e-3;
+constexpr int most_rounds = 40;
+constexpr double largest_change = 10;
+
+constexpr int release_rounds = 3;
+
+Vec3 point(const Array<double>& x, std::size_t v) { return {x[3 * v], x[3 * v + 1], x[3 * v + 2]}; }
+
+void put(Array<double>& x, std::size_t v, const Vec3& p) {
+  for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = p[Eigen::Index(a)];
+}
+
+}  // namespace
+
+bool control_vertex_moves(const FairOptions& options, Index v) {
+  if (options.interpolation == Interpolation::exact) return false;
+  if (options.weights.empty()) return options.tolerance > 0;
+  return std::isfinite(options.weights[std::size_t(v)]);
+}
+
+double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const double l = edge_length(mesh, flat, Index(e));
+    sum += l * l;
+  }
+  return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
+}
+
+ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, const Unknowns& unknowns,
+                                         const FairOptions& options, double unit, double tolerance)
+    : mesh_(mesh), unknowns_(unknowns), tolerance_(tolerance * aim), unit_(unit) {
+  if (!unknowns.any_vertex || options.interpolation == Interpolation::exact) {
+    tolerance_ = 0;
+    return;
+  }
+  base_.assign(std::size_t(mesh.vertex_count()), 0.0);
+  for (std::size_t v = 0; v < options.weights.size(); ++v)
+    if (unknowns.vertex[v]) base_[v] = unit * options.weights[v];
+  weights_ = base_;
+  if (!active()) return;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
+    if (unknowns.vertex[v]) weights_[v] = std::max(base_[v], unit);
+}
+
+double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) const {
+  return (point(x, v) - mesh_.positions[v]).norm();
+}
+
+bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
+  double gap = 0, farthest = 0;
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
+    if (!unknowns_.vertex[v]) continue;
+    const double d = distance(x, v);
+    gap += (weights_[v] - base_[v]) * std::abs(tolerance_ * tolerance_ - d * d);
+    farthest = std::max(farthest, d);
+  }
+  gap_ = energy > 0 ? gap / energy : 0.0;
+  return farthest <= slack * tolerance_ && gap_ <= gap_wanted;
+}
+
+void ToleranceConstraint::adapt(const Array<double>& x) {
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
+    if (!unknowns_.vertex[v]) continue;
+    const double factor = std::clamp(distance(x, v) / tolerance_, 1 / largest_change, largest_change);
+    weights_[v] = std::max({base_[v], factor * weights_[v], 1e-10 * unit_});
+  }
+}
+
+void ToleranceConstraint::settle(SurfaceSystem& system, int level, Array<double>& x) {
+  if (!active()) return;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (settled(system.energy(level, x.data()), x)) return;
+    adapt(x);
+    system.set_weights(weights_, level);
+    system.solve_again(level, mesh_.positions, x, 1e-5);
+    ++rounds_;
+  }
+}
+
+void ToleranceConstraint::clamp(Array<double>& x) const {
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices) && active(); ++v) {
+    const double d = unknowns_.vertex[v] ? distance(x, v) : 0.0;
+    if (d > tolerance_) put(x, v, mesh_.positions[v] + (tolerance_ / d) * (point(x, v) - mesh_.positions[v]));
+  }
+}
+
+int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, double epsilon,
+                             Array<double>& x) {
+  Unknowns freed = system.shared().unknowns;
+  bool any = false;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.ring(Index(v)).empty();
+    freed.vertex[v] = released;
+    any |= released;
+  }
+  if (!any) return 0;
+  freed.any_vertex = true;
+  ThinPlateShared& shared = system.shared();
+  const Lattice& lattice = system.lattice(system.top());
+  const VertexWeights none;
+  const Array<float> diagonal =
+      thin_plate_diagonal(lattice, shared.fine_rows, freed, none, shared.workers, shared.fine_exchange);
+  // Neighbouring control vertices share fits on the coarsest lattices: step half as far there.
+  const double damping = lattice.level() >= 2 ? 1.0 : 0.5;
+  std::vector<Vec3> targets = mesh.positions;
+  Array<double> gradient(x.size());
+  for (int round = 0; round < release_rounds; ++round) {
+    apply_thin_plate(lattice, shared.fine_rows, freed, none, shared.workers, shared.fine_exchange, x.data(),
+                     gradient.data());
+    for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+      if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
+      // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in it.
+      Vec3 offset = targets[v] - damping / double(diagonal[v]) * point(gradient, v) - mesh.positions[v];
+      const double length = offset.norm();
+      if (length > aim * epsilon) offset *= aim * epsilon / length;
+      targets[v] = mesh.positions[v] + offset;
+      put(x, v, targets[v]);
+    }
+    system.solve_again(system.top(), targets, x, 1e-8);
+  }
+  return release_rounds;
+}
+
+}  // namespace fairing

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Control vertices that may move: within a tolerance, against weights, or by the paper's epsilon afterwards.
+#pragma once
+
+#include "fair/frame.h"
+#include "fair/surface.h"
+
+namespace fairing {
+
+// Whether input vertex v is an unknown of the solve.
+bool control_vertex_moves(const FairOptions& options, Index v);
+
+// Unit of the caller's weights: 1 balances the bending of one control edge, whatever the mesh's size.
+double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
+
+// Keeps weighted control vertices within a tolerance of their places, with the energy as low as that allows. The
+// weights are the multipliers of |p - c|^2 <= tolerance^2, found by a fixed point: a vertex held with force
+// w |p - c| needs the weight w |p - c| / tolerance.
+class ToleranceConstraint {
+ public:
+  // tolerance in working coordinates; <= 0: the caller's weights alone, nothing to find.
+  ToleranceConstraint(const ControlMesh& mesh, const Unknowns& unknowns, const FairOptions& options,
+                      double unit, double tolerance);
+
+  VertexWeights start_weights() const { return weights_; }
+  bool active() const { return tolerance_ > 0; }
+
+  // Adapts the weights on one level until the constraint holds and the duality gap is closed; x follows.
+  void settle(SurfaceSystem& system, int level, Array<double>& x);
+
+  // Exactly within the tolerance: what the fixed point leaves over by its last digits.
+  void clamp(Array<double>& x) const;
+
+  int rounds() const { return rounds_; }
+  // How far the energy may still be over the least possible one, relative.
+  double gap() const { return gap_; }
+
+ private:
+  double distance(const Array<double>& x, std::size_t v) const;
+  bool settled(double energy, const Array<double>& x);
+  void adapt(const Array<double>& x);
+
+  const ControlMesh& mesh_;
+  const Unknowns& unknowns_;
+  double tolerance_, unit_;
+  std::vector<double> base_;  // the caller's own weights
+  VertexWeights weights_;
+  int rounds_ = 0;
+  double gap_ = 0;
+};
+
+// The epsilon post-process of [Kobbelt 1997a, §5]: interpolated control vertices step to where the energy wants them,
+// at most epsilon (working units) away, and the surface follows; this takes the cusps off. Returns the solves taken.
+int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, double epsilon,
+                             Array<double>& x);
+
+}  // namespace fairing

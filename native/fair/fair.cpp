@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fair/fair.h"
+
+#include <cmath>
+#include <new>
+#include <string>
+
+#include "check/check.h"
+#include "energy/total_curvature.h"
+#include "execution/vectors.h"
+#include "fair/check_options.h"
+#include "fair/constrain.h"
+#include "fair/frame.h"
+#include "fair/memory_plan.h"
+#include "fair/output.h"
+#include "fair/stopwatch.h"
+#include "fair/surface.h"
+#include "lattice/linear.h"
+
+namespace fairing {
+namespace {
+
+// Everything that moves: control vertices that are free or weighted, points off the curves.
+Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
+  Unknowns u;
+  u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
+    const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
+    u.vertex[std::size_t(v)] = moves && !on_curve;
+    u.any_vertex |= bool(u.vertex[std::size_t(v)]);
+  }
+  u.edge.resize(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) u.edge[e] = !mesh.feature_edge[e];
+  return u;
+}
+
+// The surface leaves in the caller's coordinates; whatever has not moved comes back to the last bit.
+void to_world(const ControlMesh& mesh, const std::vector<Vec3>& given, const FeatureCurves& world_curves,
+              const Lattice& lattice, const Frame& frame, Workers& workers, Array<double>& x) {
+  std::vector<std::uint8_t> kept(given.size());
+  for (std::size_t v = 0; v < given.size(); ++v)
+    kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == mesh.positions[v];
+  for_each_index(workers, x.size(),
+                 [&](std::size_t i) { x[i] = frame.centre[Eigen::Index(i % 3)] + frame.scale * x[i]; });
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (kept[v])
+      for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = given[v][Eigen::Index(a)];
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (world_curves.run[e] < 0) continue;
+    const auto points = world_curves.of(Index(e));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      for (std::size_t a = 0; a < 3; ++a)
+        x[3 * (std::size_t(lattice.edge_base(Index(e))) + k) + a] = points[k][Eigen::Index(a)];
+  }
+}
+
+double largest_deviation(const std::vector<Vec3>& given, Index input_vertices, const Array<double>& x) {
+  double largest = 0;
+  for (std::size_t v = 0; v < std::size_t(input_vertices); ++v)
+    largest = std::max(largest, (Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) - given[v]).norm());
+  return largest;
+}
+
+void warn_unconverged(const LevelReport& level, const FairOptions& options, Report& report) {
+  if (level.converged) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "The solver stopped after %d iterations at a relative residual of %.1e (asked: %.1e). The surface is "
+      "usable; very thin faces are the usual cause.",
+      level.iterations, level.residual, options.relative_residual);
+  report.warnings.push_back({"NOT_CONVERGED", text, {}});
+}
+
+FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
+  MemoryLedger ledger;
+  FairResult result;
+  Report& report = result.report;
+  Stopwatch watch(report, monitor);
+
+  watch.enter(Phase::check, 0);
+  check_options(input, options);
+  CheckResult checked = check(input, {options.repair_orientation});
+  report.warnings = std::move(checked.warnings);
+  report.flipped_faces = checked.flipped_faces;
+  require_fit(predict_size(input, options.levels), options);
+
+  watch.enter(Phase::hierarchy, 0);
+  Workers workers(options.threads);
+  report.threads = workers.count();
+  ControlMesh mesh = make_control_mesh(input, options.features, checked.flipped_faces);
+  const RunSize size = predict_size(mesh, options.levels);
+  require_fit(size, options);
+  report.predicted_bytes = std::size_t(size.bytes);
+
+  watch.enter(Phase::curves, 0);
+  const double exponent = options.chart.kind == ChartKind::tangent ? 1.0 : options.chart.exponent;
+  const FeatureCurves world_curves = refine_feature_edges(mesh, 1 << options.levels, exponent);
+
+  watch.enter(Phase::hierarchy, 0);
+  const std::vector<Vec3> given = mesh.positions;
+  const Frame frame = frame_of(mesh);
+  FeatureCurves curves = world_curves;
+  for (Vec3& p : mesh.positions) p = frame.to_working(p);
+  for (Vec3& p : curves.points) p = frame.to_working(p);
+  const Stencils stencils = make_stencils(mesh, options.chart, workers);
+  const double energy_unit = std::pow(frame.scale, 2 - 2 * exponent);
+
+  Array<double> x;
+  {
+    const Unknowns unknowns = choose_unknowns(mesh, options);
+    ToleranceConstraint constraint(mesh, unknowns, options, weight_unit(mesh, flatten(mesh, exponent)),
+                                   options.tolerance / frame.scale);
+    SurfaceSystem system(mesh, curves, stencils, unknowns, constraint.start_weights(), options, workers,
+                         monitor);
+    const Lattice& finest = system.lattice(options.levels);
+    const auto energies = [&](const double* points) {
+      SurfaceEnergies e;
+      e.thin_plate = energy_unit * system.energy(options.levels, points);
+      e.total_curvature = options.measure ? total_curvature(finest, workers, points) : NAN;
+      return e;
+    };
+
+    watch.enter(Phase::solve, 0);
+    const auto on_prediction = [&](const double* start) {
+      watch.enter(Phase::measure, 0.2);
+      report.prediction = energies(start);
+      watch.enter(Phase::solve, 0.25);
+    };
+    const auto on_level = [&](int level, Array<double>& points) {
+      if (!constraint.active()) return;
+      watch.enter(Phase::constrain, 0.5);
+      constraint.settle(system, level, points);
+      watch.enter(Phase::solve, 0.5);
+    };
+    system.solve_nested(mesh.positions, x, report.levels, on_prediction, on_level);
+    warn_unconverged(report.levels.back(), options, report);
+    constraint.clamp(x);
+    report.constraint_rounds = constraint.rounds();
+    report.constraint_gap = constraint.gap();
+    if (options.epsilon > 0) {
+      watch.enter(Phase::constrain, 0.8);
+      report.constraint_rounds += release_control_vertices(system, mesh, options.epsilon / frame.scale, x);
+    }
+
+    watch.enter(Phase::measure, 0.9);
+    report.result = energies(x.data());
+    {
+      Array<double> polyhedron(x.size());
+      refine_linearly(finest, mesh.positions, polyhedron.data());
+      report.polyhedron = energies(polyhedron.data());
+    }
+
+    watch.enter(Phase::output, 0.95);
+    to_world(mesh, given, world_curves, finest, frame, workers, x);
+    report.largest_deviation = largest_deviation(given, mesh.input_vertices, x);
+  }
+  const Lattice finest(mesh, options.levels);
+  OutputFaces faces = make_faces(finest, workers);
+  result.vertices = std::move(x);
+  result.triangles = std::move(faces.triangles);
+  result.quads = std::move(faces.quads);
+  result.triangle_polygon = std::move(faces.triangle_polygon);
+  result.quad_polygon = std::move(faces.quad_polygon);
+  report.peak_bytes = ledger.peak();
+  watch.leave();
+  monitor.report(Phase::done, 1);
+  return result;
+}
+
+}  // namespace
+
+FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
+  try {
+    return run(mesh, options, monitor);
+  } catch (const std::bad_alloc&) {
+    throw FairingError(ErrorCode::out_of_memory, "Out of memory. Use fewer levels, or close other programs.");
+  }
+}
+
+}  // namespace fairing

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How large a run will be, before anything is allocated.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "control_mesh/control_mesh.h"
+#include "fair/options.h"
+
+namespace fairing {
+
+struct RunSize {
+  std::int64_t points = 0;
+  std::int64_t triangles = 0;  // the whole surface as triangles
+  std::int64_t bytes = 0;      // peak of the run's own arrays
+};
+
+// From the plain arrays alone (an upper bound; polygons count as if split around a centre).
+RunSize predict_size(const PolygonMesh& mesh, int levels);
+// Exact counts.
+RunSize predict_size(const ControlMesh& mesh, int levels);
+
+// Throws FairingError(too_large) with the figures when the run does not fit in the limit or in 32-bit ids.
+void require_fit(const RunSize& size, const FairOptions& options);
+
+}  // namespace fairing

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "check/error.h"
+
+namespace fairing {
+
+struct SurfaceEnergies {
+  double thin_plate = 0;       // in the control metric, on the finest level; mesh units^(2 - 2 exponent)
+  double total_curvature = 0;  // integral of k1^2 + k2^2 over the surface; a pure number
+};
+
+struct LevelReport {
+  int level = 0;
+  std::size_t points = 0;
+  std::size_t unknowns = 0;
+  int iterations = 0;
+  double residual = 0;      // relative to the residual of the control polyhedron on that level
+  double energy_error = 0;  // estimate of |error| over the solution, both in the energy norm
+  double largest_eigenvalue = 0;
+  int smoother_degree = 0;
+  bool direct = false;
+  bool converged = false;
+  std::vector<double> residuals;  // after 0, 1, … iterations
+};
+
+struct PhaseSeconds {
+  std::string phase;
+  double seconds;
+};
+
+struct Report {
+  SurfaceEnergies result, polyhedron, prediction;
+  std::vector<LevelReport> levels;
+  std::vector<PhaseSeconds> seconds;
+  std::size_t predicted_bytes = 0, peak_bytes = 0;
+  double largest_deviation = 0;  // of an input vertex from its place, in mesh units
+  int constraint_rounds = 0;     // solves that tolerance or epsilon took
+  double constraint_gap = 0;     // tolerance: how far the energy may be over the least possible one, relative
+  int threads = 1;
+  std::vector<Warning> warnings;
+  std::vector<std::int64_t> flipped_faces;
+};
+
+}  // namespace fairing

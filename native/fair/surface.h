@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One run's surface and everything that the solver needs to move it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "curve/feature_curves.h"
+#include "energy/thin_plate_level.h"
+#include "fair/options.h"
+#include "fair/report.h"
+#include "solver/pcg.h"
+
+namespace fairing {
+
+// The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every level once; solves as
+// often as weights or control positions change.
+class SurfaceSystem {
+ public:
+  // `curves` are in working coordinates, on the finest level.
+  SurfaceSystem(const ControlMesh& mesh, const FeatureCurves& curves, const Stencils& stencils,
+                Unknowns unknowns, VertexWeights weights, const FairOptions& options, Workers& workers,
+                Monitor& monitor);
+  ~SurfaceSystem();
+
+  int top() const { return int(lattices_.size()) - 1; }
+  const Lattice& lattice(int level) const { return *lattices_[std::size_t(level)]; }
+  ThinPlateShared& shared() { return shared_; }
+
+  // Full multigrid: from the control polyhedron to the solution on the finest level.
+  // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
+  // `on_prediction` sees the finest level's start; `on_level` may change weights, and x, after each level's solve.
+  void solve_nested(std::span<const Vec3> targets, Array<double>& x, std::vector<LevelReport>& reports,
+                    const std::function<void(const double*)>& on_prediction,
+                    const std::function<void(int, Array<double>&)>& on_level);
+
+  // A level again, from x as it is.
+  LevelReport solve_again(int level, std::span<const Vec3> targets, Array<double>& x, double tolerance);
+
+  // New weights on all levels up to `level`.
+  void set_weights(const VertexWeights& weights, int level);
+
+  // residual <- W c - (K + W) x on the level's unknowns.
+  void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
+
+  // Puts control vertices that are no unknowns and curve points in their places.
+  void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
+
+  double energy(int level, const double* x);
+
+ private:
+  struct Scales {
+    double residual, noise;
+  };
+  Scales scales(int level, std::span<const Vec3> targets);
+  LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
+                          double* x);
+  void solve_direct(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
+                    double* x, LevelReport& report);
+  void promote_to_coarsest(std::size_t index);
+  void raise_degree(const PcgResult& result, double tolerance);
+  void choose_degree(const LevelReport& report, double tolerance, double next_tolerance);
+
+  const ControlMesh& mesh_;
+  const FeatureCurves& curves_;
+  const FairOptions& options_;
+  Workers& workers_;
+  Monitor& monitor_;
+  int weighted_up_to_ = -1;  // the finest level that knows the present weights; -1: all do
+  int base_ = 0;             // the coarsest level with unknowns worth a solve
+  std::vector<std::unique_ptr<Lattice>> lattices_;
+  ThinPlateShared shared_;
+  std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
+  std::vector<std::unique_ptr<ThinPlateTransfer>> transfers_;
+  std::unique_ptr<CoarseSolver> coarse_;
+  std::unique_ptr<VCycle> cycle_;
+  PcgState pcg_;
+};
+
+}  // namespace fairing

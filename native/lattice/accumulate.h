@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sums of local contributions over a level, in parallel and bit-identical for any number of threads: every
+// contribution that leaves the element where it was computed is put down in a slot of its own, and picked up by the
+// element that it belongs to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "execution/memory.h"
+#include "execution/workers.h"
+#include "lattice/closed_face.h"
+
+namespace fairing {
+
+// Which points are unknowns. Interior points of faces always are.
+struct Unknowns {
+  std::vector<std::uint8_t> vertex, edge;  // per control vertex, per control edge
+  bool any_vertex = false;
+};
+
+// The slots of one level. May serve smaller levels too (`fit` grows them).
+template <class T>
+struct Exchange {
+  Array<T> row;    // per side: what the edge adds to the face's first row, stride n + 1
+  Array<T> side;   // per side: what the face adds to its points 0 … n - 1
+  Array<T> end;    // per edge: what it adds to its two ends
+  Array<T> spoke;  // per spoke: what the vertex adds to the point along it, and across the quad behind it
+
+  void fit(const Lattice& lattice) {
+    const auto& mesh = lattice.mesh();
+    const std::size_t n = std::size_t(lattice.n()), sides = mesh.sides.size();
+    grow(row, 3 * sides * (n + 1));
+    grow(side, 3 * sides * n);
+    grow(end, 6 * mesh.edges.size());
+    grow(spoke, 6 * mesh.spokes.size());
+  }
+
+ private:
+  static void grow(Array<T>& a, std::size_t size) {
+    if (a.size() < size) a.resize(size);
+  }
+};
+
+// Elements worth a thread of their own.
+inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 2048 / (n * n))); }
+
+// out <- the sum of what the three bodies contribute; zero on points that are not unknowns (all points count when
+// `unknowns` is null). Bodies add to zeroed targets:
+//   vertex_body(v, centre, spokes, scratch)   centre: one point; spokes: two points a spoke of v's ring
+//   edge_body(e, run, left, right, scratch)   run: points 0 … n of the edge; left, right: the rows next to its sides,
+//                                             in side coordinates (null without a face)
+//   face_body(f, closed, scratch)             closed: the closed face, row by row
+// `scratch` is a vector of the calling thread's to work in.
+template <class T, class VertexBody, class EdgeBody, class FaceBody>
+void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange, const Unknowns* unknowns,
+                T* out, VertexBody&& vertex_body, EdgeBody&& edge_body, FaceBody&& face_body) {
+  const ControlMesh& mesh = lattice.mesh();
+  const int n = lattice.n();
+  const std::size_t un = std::size_t(n), row_stride = 3 * (un + 1), side_stride = 3 * un;
+  exchange.fit(lattice);
+
+  workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<T> scratch;
+    for (std::size_t v = begin; v < end; ++v) {
+      T* spokes = exchange.spoke.data() + 6 * std::size_t(mesh.ring_offset[v]);
+      std::fill(spokes, exchange.spoke.data() + 6 * std::size_t(mesh.ring_offset[v + 1]), T(0));
+      std::fill(out + 3 * v, out + 3 * v + 3, T(0));
+      vertex_body(Index(v), out + 3 * v, spokes, scratch);
+    }
+  });
+
+  workers.for_parts(mesh.edges.size(), element_grain(n) * un, [&](std::size_t begin, std::size_t end) {
+    std::vector<T> run(row_stride), scratch;
+    for (std::size_t e = begin; e < end; ++e) {
+      const Edge& edge = mesh.edges[e];
+      T* rows[2];
+      for (std::size_t h = 0; h < 2; ++h) {
+        rows[h] = edge.side[h] < 0 ? nullptr : exchange.row.data() + row_stride * std::size_t(edge.side[h]);
+        if (rows[h]) std::fill(rows[h], rows[h] + row_stride, T(0));
+      }
+      std::fill(run.begin(), run.end(), T(0));
+      edge_body(Index(e), run.data(), rows[0], rows[1], scratch);
+      T* end_slot = exchange.end.data() + 6 * e;
+      copy_point(end_slot, run.data());
+      copy_point(end_slot + 3, run.data() + 3 * n);
+      std::copy(run.begin() + 3, run.begin() + 3 * n, out + 3 * std::size_t(lattice.edge_base(Index(e))));
+    }
+  });
+
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    std::vector<T> closed(3 * closed_size(true, un)), scratch;
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& face = mesh.faces[f];
+      const bool quad = face.quad();
+      std::fill(closed.begin(), closed.begin() + std::ptrdiff_t(3 * closed_size(quad, un)), T(0));
+      for (int s = 0; s < face.size && n > 1; ++s) {
+        const T* row = exchange.row.data() + row_stride * std::size_t(face.first_side + s);
+        SideWalk walk = side_walk(quad, n, s, 0, 1);
+        for (int k = 0; k < row_size(quad, n); ++k, walk.next())
+          add_point(&closed[std::size_t(3 * walk.offset)], row + 3 * k);
+      }
+      for (int c = 0; c < 4 && quad; ++c) {
+        const Index spoke = mesh.spoke_of_side[std::size_t(face.first_side + c)];
+        add_point(&closed[3 * side_offset(true, n, c, 1, 1)],
+                  exchange.spoke.data() + 6 * std::size_t(spoke) + 3);
+      }
+      face_body(Index(f), closed.data(), scratch);
+      scatter_interior(lattice, closed.data(), Index(f), out);
+      for (int s = 0; s < face.size; ++s) {
+        T* side = exchange.side.data() + side_stride * std::size_t(face.first_side + s);
+        SideWalk walk = side_walk(quad, n, s, 0, 0);
+        for (int k = 0; k < n; ++k, walk.next())
+          copy_point(side + 3 * k, &closed[std::size_t(3 * walk.offset)]);
+      }
+    }
+  });
+
+  workers.for_parts(mesh.edges.size(), element_grain(n) * un, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end && n > 1; ++e) {
+      const Edge& edge = mesh.edges[e];
+      T* run = out + 3 * std::size_t(lattice.edge_base(Index(e)));
+      if (unknowns && !unknowns->edge[e]) {
+        std::fill(run, run + 3 * (n - 1), T(0));
+        continue;
+      }
+      if (edge.side[0] >= 0) {
+        const T* side = exchange.side.data() + side_stride * std::size_t(edge.side[0]);
+        for (int k = 3; k < 3 * n; ++k) run[k - 3] += side[k];
+      }
+      if (edge.side[1] >= 0) {
+        const T* side = exchange.side.data() + side_stride * std::size_t(edge.side[1]);
+        for (int k = 1; k < n; ++k) add_point(run + 3 * (k - 1), side + 3 * (n - k));
+      }
+      for (std::size_t h = 0; h < 2; ++h)
+        add_point(run + (h == 0 ? 0 : 3 * (n - 2)),
+                  exchange.spoke.data() + 6 * std::size_t(mesh.spoke_of_edge[2 * e + h]));
+    }
+  });
+
+  if (unknowns && !unknowns->any_vertex) {
+    std::fill(out, out + 3 * std::size_t(mesh.vertex_count()), T(0));
+    return;
+  }
+  workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      T* centre = out + 3 * v;
+      if (unknowns && !unknowns->vertex[v]) {
+        std::fill(centre, centre + 3, T(0));
+        continue;
+      }
+      for (const Spoke& spoke : mesh.ring(Index(v))) {
+        add_point(centre, exchange.end.data() + 6 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 3));
+        if (spoke.face >= 0) {
+          const Face& face = mesh.faces[std::size_t(spoke.face)];
+          add_point(centre, exchange.side.data() + side_stride * std::size_t(face.first_side + spoke.corner));
+        }
+        if (n == 1)
+          add_point(
+              centre,
+              exchange.spoke.data() +
+                  6 * std::size_t(mesh.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 1 : 0)]));
+      }
+    }
+  });
+}
+
+}  // namespace fairing

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A closed face as one padded buffer, and the row next to a side: what the branch-free loops run on.
+// Vectors hold three interleaved coordinates a point.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "lattice/lattice.h"
+
+namespace fairing {
+
+template <class T>
+inline void copy_point(T* to, const T* from) {
+  to[0] = from[0];
+  to[1] = from[1];
+  to[2] = from[2];
+}
+
+template <class T>
+inline void add_point(T* to, const T* from) {
+  to[0] += from[0];
+  to[1] += from[1];
+  to[2] += from[2];
+}
+
+// Offset in a closed face of point k of side s.
+inline std::size_t side_offset(bool quad, int n, int s, int k, int r = 0) {
+  const LatticePoint p = closed_point(quad, n, s, k, r);
+  return closed_row(quad, std::size_t(n), std::size_t(p.j)) + std::size_t(p.i);
+}
+
+// Number of points in the row next to a side, its two ends (on other sides) included.
+constexpr int row_size(bool quad, int n) { return quad ? n + 1 : n; }
+
+// Walks point k = first … last of side coordinates (k, r) in closed storage: offset of the first, then steps. In a
+// triangle the steps along sides 1 and 2 change by one each time.
+struct SideWalk {
+  std::ptrdiff_t offset, step, change;
+  void next() {
+    offset += step;
+    step += change;
+  }
+};
+
+inline SideWalk side_walk(bool quad, int n, int s, int k, int r) {
+  SideWalk walk{std::ptrdiff_t(side_offset(quad, n, s, k, r)), 0, 0};
+  const std::ptrdiff_t m = n, j = closed_point(quad, n, s, k, r).j;
+  if (quad) {
+    const std::ptrdiff_t steps[4] = {1, m + 1, -1, -(m + 1)};
+    walk.step = steps[s];
+  } else if (s == 0) {
+    walk.step = 1;
+  } else if (s == 1) {  // (i - 1, j + 1)
+    walk.step = m - j;
+    walk.change = -1;
+  } else {  // (i, j - 1)
+    walk.step = -(m + 2 - j);
+    walk.change = -1;
+  }
+  return walk;
+}
+
+// The same among a face's interior points (first row 1), for the row r = 1.
+inline SideWalk interior_walk(bool quad, int n, int s, int k) {
+  const LatticePoint p = closed_point(quad, n, s, k, 1);
+  const std::ptrdiff_t m = n, j = p.j;
+  SideWalk walk{std::ptrdiff_t(interior_row(quad, std::size_t(n), std::size_t(p.j))) + p.i - 1, 0, 0};
+  if (quad) {
+    const std::ptrdiff_t steps[4] = {1, m - 1, -1, -(m - 1)};
+    walk.step = steps[s];
+  } else if (s == 0) {
+    walk.step = 1;
+  } else if (s == 1) {
+    walk.step = m - j - 2;
+    walk.change = -1;
+  } else {
+    walk.step = -(m - j);
+    walk.change = -1;
+  }
+  return walk;
+}
+
+// x on the edge's points 0 … n.
+template <class T>
+void gather_edge(const Lattice& lattice, const T* x, Index e, T* run) {
+  const Edge& edge = lattice.mesh().edges[std::size_t(e)];
+  const int n = lattice.n();
+  copy_point(run, x + 3 * std::size_t(edge.vertex[0]));
+  std::memcpy(run + 3, x + 3 * std::size_t(lattice.edge_base(e)), std::size_t(3 * (n - 1)) * sizeof(T));
+  copy_point(run + 3 * n, x + 3 * std::size_t(edge.vertex[1]));
+}
+
+// x on the row next to a side (side coordinates (0 … , 1)).
+template <class T>
+void gather_row(const Lattice& lattice, const T* x, const Side& side, T* row) {
+  const Face& face = lattice.mesh().faces[std::size_t(side.face)];
+  const int n = lattice.n(), size = row_size(face.quad(), n), sides = face.size;
+  const auto side_at = [&](int s) -> const Side& {
+    return lattice.mesh().sides[std::size_t(face.first_side + s)];
+  };
+  copy_point(row, x + 3 * std::size_t(lattice.side_point(side_at((side.local + sides - 1) % sides), n - 1)));
+  if (size > 2) {
+    const T* inside = x + 3 * std::size_t(lattice.face_base(side.face));
+    SideWalk walk = interior_walk(face.quad(), n, side.local, 1);
+    for (int k = 1; k < size - 1; ++k, walk.next()) copy_point(row + 3 * k, inside + 3 * walk.offset);
+  }
+  copy_point(row + 3 * (size - 1),
+             x + 3 * std::size_t(lattice.side_point(side_at((side.local + 1) % sides), 1)));
+}
+
+// x on the whole closed face, row by row.
+template <class T>
+void gather_face(const Lattice& lattice, const T* x, Index f, T* closed) {
+  const Face& face = lattice.mesh().faces[std::size_t(f)];
+  const int n = lattice.n();
+  const bool quad = face.quad();
+  for (int s = 0; s < face.size; ++s) {
+    const Side& side = lattice.mesh().sides[std::size_t(face.first_side + s)];
+    SideWalk walk = side_walk(quad, n, s, 0, 0);
+    copy_point(closed + 3 * walk.offset, x + 3 * std::size_t(face.vertex[std::size_t(s)]));
+    walk.next();
+    const T* run = x + 3 * std::size_t(lattice.edge_base(side.edge));
+    if (side.reversed) {
+      for (int k = 1; k < n; ++k, walk.next()) copy_point(closed + 3 * walk.offset, run + 3 * (n - k - 1));
+    } else {
+      for (int k = 1; k < n; ++k, walk.next()) copy_point(closed + 3 * walk.offset, run + 3 * (k - 1));
+    }
+  }
+  const T* inside = x + 3 * std::size_t(lattice.face_base(f));
+  for (int j = 1; j < n; ++j) {
+    const int width = quad ? n - 1 : n - 1 - j;
+    if (width <= 0) break;
+    std::memcpy(closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + 1), inside,
+                std::size_t(3 * width) * sizeof(T));
+    inside += 3 * width;
+  }
+}
+
+// Writes the interior points of a closed face back.
+template <class T>
+void scatter_interior(const Lattice& lattice, const T* closed, Index f, T* x) {
+  const int n = lattice.n();
+  const bool quad = lattice.mesh().faces[std::size_t(f)].quad();
+  T* inside = x + 3 * std::size_t(lattice.face_base(f));
+  for (int j = 1; j < n; ++j) {
+    const int width = quad ? n - 1 : n - 1 - j;
+    if (width <= 0) break;
+    std::memcpy(inside, closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + 1),
+                std::size_t(3 * width) * sizeof(T));
+    inside += 3 * width;
+  }
+}
+
+}  // namespace fairing

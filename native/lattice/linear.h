@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "lattice/lattice.h"
+
+namespace fairing {
+
+// The control polyhedron on a level: flat triangles, bilinear quads. 3 numbers a point.
+void refine_linearly(const Lattice& lattice, std::span<const Vec3> control, double* x);
+
+}  // namespace fairing

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one-rings of control vertices and edge points, in the order of their charts.
+#pragma once
+
+#include "lattice/closed_face.h"
+
+namespace fairing {
+
+// Calls visit(point, slot) for the ring of control vertex v; `slot` is the place of that neighbour among the two
+// points a spoke that accumulate() hands to its vertex body.
+template <class Visit>
+void visit_ring(const Lattice& lattice, Index v, Visit&& visit) {
+  std::size_t slot = 0;
+  for (const Spoke& spoke : lattice.mesh().ring(v)) {
+    visit(lattice.spoke_point(spoke), slot);
+    if (spoke.face >= 0 && lattice.mesh().faces[std::size_t(spoke.face)].quad())
+      visit(lattice.diagonal_point(spoke), slot + 1);
+    slot += 2;
+  }
+}
+
+// Where the neighbours of an edge's points are: neighbour j of point k is in lane[j] at place at[j] + step[j] * k,
+// with lanes 0: the edge itself, 1: the left face's first row, 2: the right face's.
+struct EdgeRingLanes {
+  int size = 0;
+  int lane[8], at[8], step[8];
+  bool far[8];  // the corner across a quad
+
+  EdgeRingLanes(const ControlMesh& mesh, Index e, int n) {
+    const Edge& edge = mesh.edges[std::size_t(e)];
+    for (int h = 0; h < 2; ++h) {
+      const int step_h = h == 0 ? 1 : -1,
+                start = h == 0 ? 0 : n;  // side coordinate of point k: start + step_h k
+      push(0, step_h, 1, false);
+      if (edge.side[std::size_t(h)] < 0) continue;
+      const Side& side = mesh.sides[std::size_t(edge.side[std::size_t(h)])];
+      const bool quad = mesh.faces[std::size_t(side.face)].quad();
+      if (quad) push(1 + h, start + 1, step_h, true);
+      push(1 + h, start, step_h, false);
+      push(1 + h, start - 1, step_h, quad);
+    }
+  }
+
+ private:
+  void push(int l, int a, int s, bool f) {
+    far[size] = f;
+    lane[size] = l;
+    at[size] = a;
+    step[size] = s;
+    ++size;
+  }
+};
+
+// The edge and the rows beside it, gathered into scratch.
+template <class T>
+struct EdgeLanes {
+  T* lane[3];
+
+  EdgeLanes(const Lattice& lattice, const T* x, Index e, std::vector<T>& scratch) {
+    const ControlMesh& mesh = lattice.mesh();
+    const std::size_t stride = 3 * std::size_t(lattice.n() + 1);
+    scratch.resize(3 * stride);
+    for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch.data() + l * stride;
+    gather_edge(lattice, x, e, lane[0]);
+    for (std::size_t h = 0; h < 2; ++h) {
+      const Index side = mesh.edges[std::size_t(e)].side[h];
+      if (side >= 0) gather_row(lattice, x, mesh.sides[std::size_t(side)], lane[1 + h]);
+    }
+  }
+};
+
+}  // namespace fairing

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the solver asks of an energy on one level: the action of its matrix and the diagonal. A new energy is a new
+// LevelOperator; the solver knows nothing else of it.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <vector>
+
+#include "control_mesh/control_mesh.h"
+#include "execution/memory.h"
+
+namespace fairing {
+
+struct AssembledSystem;
+
+// A symmetric positive definite operator on the unknown points of a level, the same for x, y and z. Vectors hold three
+// interleaved numbers a point; results are zero on points that are not unknowns.
+class LevelOperator {
+ public:
+  virtual ~LevelOperator() = default;
+  virtual std::size_t points() const = 0;
+  virtual void apply(const double* x, double* y) = 0;
+  virtual void apply(const float* x, float* y) = 0;  // inside the preconditioner
+  virtual const Array<float>& inverse_diagonal() const = 0;
+  virtual AssembledSystem assemble() const = 0;  // small levels only
+};
+
+// Moves vectors between a level and the next coarser one; the two are transposes of one another.
+class LevelTransfer {
+ public:
+  virtual ~LevelTransfer() = default;
+  virtual void prolong(const float* coarse, float* fine) = 0;
+  virtual void restrict_to(const float* fine, float* coarse) = 0;
+};
+
+}  // namespace fairing

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/pcg.h"
+
+#include <cmath>
+
+#include "execution/vectors.h"
+
+namespace fairing {
+
+// The energy norm sees the smooth part of an error, which residuals of fourth order hide; there ten times the tolerance
+// is still far below what the discretization leaves.
+constexpr double energy_slack = 10;
+
+PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
+                              PcgState& s, double* x, const std::function<void(int, double)>& each) {
+  CycleLevel& level = cycle.levels[top];
+  const std::size_t size = 3 * level.op->points();
+  double *r = s.residual.data(), *p = s.direction.data(), *q = s.image.data();
+  const float* z = level.state.x.data();
+
+  PcgResult result;
+  const auto residual_norm = [&] {
+    return std::sqrt(sum(workers, size, [&](std::size_t i) { return r[i] * r[i]; }));
+  };
+  const auto relative = [&](double norm) {
+    return limits.residual_scale > 0 ? norm / limits.residual_scale : 0.0;
+  };
+  double norm = residual_norm(), rz = 0, step = 0;
+  result.residual = relative(norm);
+  result.history.push_back(result.residual);
+  if (norm <= limits.noise) {
+    result.converged = true;
+    return result;
+  }
+  for (;;) {
+    // The preconditioner works on a residual of order one: single precision has no room for tiny units.
+    const double unit = norm;
+    for_each_index(workers, size, [&](std::size_t i) { level.state.residual[i] = float(r[i] / unit); });
+    cycle.run(top);
+    const double rz_new = unit * sum(workers, size, [&](std::size_t i) { return r[i] * double(z[i]); });
+    result.energy_error =
+        limits.energy_scale > 0 ? std::sqrt(std::max(0.0, rz_new)) / limits.energy_scale : 0.0;
+    result.converged = (result.residual <= limits.tolerance || norm <= limits.noise) &&
+                       (result.energy_error <= energy_slack * limits.tolerance || norm <= limits.noise);
+    if (result.converged || result.iterations >= limits.max_iterations) return result;
+    // Flexible beta: z.(r - r_old) / (z_old.r_old), and r - r_old is -step q.
+    const double beta = result.iterations == 0 ? 0.0 : -step * unit * sum(workers, size, [&](std::size_t i) {
+      return double(z[i]) * q[i];
+    }) / rz;
+    for_each_index(workers, size,
+                   [&](std::size_t i) { p[i] = unit * double(z[i]) + (beta != 0 ? beta * p[i] : 0.0); });
+    rz = rz_new;
+    level.op->apply(p, q);
+    const double pq = sum(workers, size, [&](std::size_t i) { return p[i] * q[i]; });
+    if (!(pq > 0) || !std::isfinite(pq)) {
+      result.stalled = true;
+      return result;
+    }
+    step = sum(workers, size, [&](std::size_t i) { return p[i] * r[i]; }) / pq;
+    for_each_index(workers, size, [&](std::size_t i) {
+      x[i] += step * p[i];
+      r[i] -= step * q[i];
+    });
+    norm = residual_norm();
+    ++result.iterations;
+    result.residual = relative(norm);
+    result.history.push_back(result.residual);
+    if (each) each(result.iterations, result.residual);
+  }
+}
+
+}  // namespace fairing

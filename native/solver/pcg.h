@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solver/multigrid.h"
+
+namespace fairing {
+
+struct PcgLimits {
+  double tolerance = 1e-8;  // of the residual, relative to `residual_scale`; a tenth of what the error may be
+                            // in the energy norm, relative to `energy_scale`
+  double residual_scale = 0;  // the residual of the control polyhedron on this level
+  double energy_scale = 0;    // sqrt(energy)
+  double noise = 0;           // a residual below this is rounding
+  int max_iterations = 200;
+};
+
+struct PcgResult {
+  int iterations = 0;
+  double residual = 0;      // relative to the scale, at the end
+  double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
+  bool converged = false;
+  bool stalled = false;         // rounding leaves nothing to gain
+  std::vector<double> history;  // relative residual, the start's first
+};
+
+// Work vectors of the conjugate gradients, kept between levels.
+struct PcgState {
+  Array<double> residual, direction, image;
+};
+
+// Preconditioned conjugate gradients on all three coordinates at once (one scalar system, so the iterates turn with the
+// mesh), with the flexible beta that a single-precision preconditioner wants. On entry state.residual is b - K x;
+// x is updated in place. `each` is called after every iteration.
+PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
+                              PcgState& state, double* x, const std::function<void(int, double)>& each = {});
+
+}  // namespace fairing

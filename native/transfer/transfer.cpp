@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transfer/transfer.h"
+
+#include "lattice/ring.h"
+
+namespace fairing {
+namespace {
+
+// Half-way to a neighbour, the parabola through f(-1), f(0), f(1) is 3/8 f(1) + 3/4 f(0) - 1/8 f(-1).
+constexpr double ahead = 0.375, here = 0.75, behind = -0.125;
+
+// What a fit's value half-way to a neighbour counts for: half of an edge's midpoint, a quarter of a quad's centre.
+constexpr double of_midpoint = 0.5, of_centre = 0.25;
+
+struct Direction {
+  int i, j;
+  double weight;
+};
+
+// The lattice neighbours of an interior point.
+struct Directions {
+  int size;
+  Direction at[8];
+};
+constexpr Directions triangle_directions{6,
+                                         {{1, 0, of_midpoint},
+                                          {0, 1, of_midpoint},
+                                          {-1, 1, of_midpoint},
+                                          {-1, 0, of_midpoint},
+                                          {0, -1, of_midpoint},
+                                          {1, -1, of_midpoint}}};
+constexpr Directions quad_directions{8,
+                                     {{1, 0, of_midpoint},
+                                      {1, 1, of_centre},
+                                      {0, 1, of_midpoint},
+                                      {-1, 1, of_centre},
+                                      {-1, 0, of_midpoint},
+                                      {-1, -1, of_centre},
+                                      {0, -1, of_midpoint},
+                                      {1, -1, of_centre}}};
+
+// Where the point half-way to ring neighbour j of coarse edge point k is among the fine lanes: `at` + `step` * k.
+struct HalfWay {
+  int at[8], step[8];
+  HalfWay(const EdgeRingLanes& ring, int n) {
+    for (int j = 0; j < ring.size; ++j) {
+      // The middle of side coordinates (s k + o, 0) and (s k + o', 1) is (2 s k + o + o', 1) in the finer ones.
+      const int own = ring.lane[j] == 2 ? n : 0, own_step = ring.lane[j] == 2 ? -1 : 1;
+      at[j] = ring.at[j] + own;
+      step[j] = ring.step[j] + own_step;
+    }
+  }
+};
+
+// Linear values half-way to the ring of a control vertex without a fit: visit(slot, weight, neighbours, count).
+template <class T, class Visit>
+void linear_halves(const ControlMesh& mesh, Index v, Visit&& visit) {
+  const auto ring = mesh.ring(v);
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const std::size_t along[1] = {2 * k};
+    visit(2 * k, of_midpoint, T(0.5), along, std::size_t(1));
+    if (ring[k].face < 0 || !mesh.faces[std::size_t(ring[k].face)].quad()) continue;
+    const std::size_t cell[3] = {2 * k + 1, 2 * k, 2 * ((k + 1) % ring.size())};
+    visit(2 * k + 1, of_centre, T(0.25), cell, std::size_t(3));
+  }
+}
+
+}  // namespace
+
+template <class T>
+void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, const Unknowns* unknowns,
+             Workers& workers, Exchange<T>& exchange, const T* x, T* y) {
+  const ControlMesh& mesh = coarse.mesh();
+  const int n = coarse.n();
+
+  const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>& scratch) {
+    const T* origin = x + 3 * std::size_t(v);
+    copy_point(centre, origin);
+    scratch.assign(6 * mesh.ring(v).size(), T(0));
+    visit_ring(coarse, v, [&](Index point, std::size_t slot) {
+      for (std::size_t a = 0; a < 3; ++a) scratch[3 * slot + a] = x[3 * std::size_t(point) + a] - origin[a];
+    });
+    if (!st.vertex_fit[std::size_t(v)]) {
+      linear_halves<T>(
+          mesh, v, [&](std::size_t slot, double weight, T share, const std::size_t* from, std::size_t count) {
+            for (std::size_t a = 0; a < 3; ++a) {
+              T value = origin[a];
+              for (std::size_t m = 0; m < count; ++m) value += share * scratch[3 * from[m] + a];
+              spokes[3 * slot + a] += T(weight) * value;
+            }
+          });
+      return;
+    }
+    const auto first = 5 * std::size_t(st.ring_offset[std::size_t(v)]);
+    T c[5][3] = {};
+    const float* row = st.vertex_rows.data() + first;
+    visit_ring(coarse, v, [&](Index, std::size_t slot) {
+      for (std::size_t m = 0; m < 5; ++m)
+        for (std::size_t a = 0; a < 3; ++a) c[m][a] += T(row[m]) * scratch[3 * slot + a];
+      row += 5;
+    });
+    const float* half = st.vertex_half.data() + first;
+    visit_ring(coarse, v, [&](Index, std::size_t slot) {
+      const T weight = T(slot % 2 == 0 ? of_midpoint : of_centre);
+      for (std::size_t a = 0; a < 3; ++a) {
+        T value = origin[a];
+        for (std::size_t m = 0; m < 5; ++m) value += T(half[m]) * c[m][a];
+        spokes[3 * slot + a] += weight * value;
+      }
+      half += 5;
+    });
+  };
+
+  const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
+    if (n == 1) return;
+    const EdgeRingLanes ring(mesh, e, n);
+    const HalfWay middle(ring, n);
+    const EdgeLanes<T> lanes(coarse, x, e, scratch);
+    T* const target[3] = {run, left, right};
+    const float* half = st.edge_half.data() + 64 * std::size_t(e);
+    for (int k = 1; k < n; ++k) {
+      const T* origin = lanes.lane[0] + 3 * k;
+      copy_point(run + 6 * k, origin);
+      T d[8][3];
+      for (int j = 0; j < ring.size; ++j)
+        for (int a = 0; a < 3; ++a)
+          d[j][a] = lanes.lane[ring.lane[j]][3 * (ring.at[j] + ring.step[j] * k) + a] - origin[a];
+      for (int j = 0; j < ring.size; ++j) {
+        T* to = target[ring.lane[j]] + 3 * (middle.at[j] + middle.step[j] * k);
+        const T weight = T(ring.far[j] ? of_centre : of_midpoint);
+        for (int a = 0; a < 3; ++a) {
+          T value = origin[a];
+          for (int m = 0; m < ring.size; ++m) value += T(half[8 * j + m]) * d[m][a];
+          to[a] += weight * value;
+        }
+      }
+    }
+  };
+
+  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
+    const bool quad = mesh.faces[std::size_t(f)].quad();
+    if (n < (quad ? 2 : 3)) return;
+    scratch.resize(3 * closed_size(true, std::size_t(n)));
+    gather_face(coarse, x, f, scratch.data());
+    const Directions& directions = quad ? quad_directions : triangle_directions;
+    const auto from = [&](int i, int j) {
+      return scratch.data() + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+    };
+    const auto to = [&](int i, int j) {
+      return closed + 3 * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
+    };
+    for (int j = 1; j < n; ++j) {
+      const int width = quad ? n - 1 : n - 1 - j;
+      for (int i = 1; i <= width; ++i) add_point(to(2 * i, 2 * j), from(i, j));
+      for (int k = 0; k < directions.size; ++k) {
+        const Direction& d = directions.at[k];
+        const T wa = T(d.weight * ahead), wh = T(d.weight * here), wb = T(d.weight * behind);
+        const T *p = from(1, j), *q = from(1 + d.i, j + d.j), *r = from(1 - d.i, j - d.j);
+        T* out = to(2 + d.i, 2 * j + d.j);
+        for (int i = 0; i < width; ++i)
+          for (int a = 0; a < 3; ++a)
+            out[6 * i + a] += wa * q[3 * i + a] + wh * p[3 * i + a] + wb * r[3 * i + a];
+      }
+    }
+  };
+
+  accumulate(fine, workers, exchange, unknowns, y, vertex_body, edge_body, face_body);
+}
+
+template <class T>
+void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st, const Unknowns& unknowns,
+                 Workers& workers, Exchange<T>& exchange, const T* x, T* y) {
+  const ControlMesh& mesh = coarse.mesh();
+  const int n = coarse.n();
+
+  const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>& scratch) {
+    add_point(centre, x + 3 * std::size_t(v));
+    scratch.assign(6 * mesh.ring(v).size(), T(0));
+    visit_ring(fine, v, [&](Index point, std::size_t slot) {
+      copy_point(&scratch[3 * slot], x + 3 * std::size_t(point));
+    });
+    // What lands on a neighbour's difference is taken from the centre.
+    const auto give = [&](std::size_t slot, const T* z) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        spokes[3 * slot + a] += z[a];
+        centre[a] -= z[a];
+      }
+    };
+    if (!st.vertex_fit[std::size_t(v)]) {
+      linear_halves<T>(
+          mesh, v, [&](std::size_t slot, double weight, T share, const std::size_t* from, std::size_t count) {
+            T z[3];
+            for (std::size_t a = 0; a < 3; ++a) {
+              const T w = T(weight) * scratch[3 * slot + a];
+              centre[a] += w;
+              z[a] = share * w;
+            }
+            for (std::size_t m = 0; m < count; ++m) give(from[m], z);
+          });
+      return;
+    }
+    const auto first = 5 * std::size_t(st.ring_offset[std::size_t(v)]);
+    T c[5][3] = {};
+    const float* half = st.vertex_half.data() + first;
+    visit_ring(coarse, v, [&](Index, std::size_t slot) {
+      const T weight = T(slot % 2 == 0 ? of_midpoint : of_centre);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const T w = weight * scratch[3 * slot + a];
+        centre[a] += w;
+        for (std::size_t m = 0; m < 5; ++m) c[m][a] += T(half[m]) * w;
+      }
+      half += 5;
+    });
+    const float* row = st.vertex_rows.data() + first;
+    visit_ring(coarse, v, [&](Index, std::size_t slot) {
+      T z[3] = {};
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t m = 0; m < 5; ++m) z[a] += T(row[m]) * c[m][a];
+      give(slot, z);
+      row += 5;
+    });
+  };
+
+  const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
+    if (n == 1) return;
+    const EdgeRingLanes ring(mesh, e, n);
+    const HalfWay middle(ring, n);
+    const EdgeLanes<T> lanes(fine, x, e, scratch);
+    T* const target[3] = {run, left, right};
+    const float* half = st.edge_half.data() + 64 * std::size_t(e);
+    for (int k = 1; k < n; ++k) {
+      T* own = run + 3 * k;
+      add_point(own, lanes.lane[0] + 6 * k);
+      T w[8][3];
+      for (int j = 0; j < ring.size; ++j) {
+        const T weight = T(ring.far[j] ? of_centre : of_midpoint);
+        for (int a = 0; a < 3; ++a) {
+          w[j][a] = weight * lanes.lane[ring.lane[j]][3 * (middle.at[j] + middle.step[j] * k) + a];
+          own[a] += w[j][a];
+        }
+      }
+      for (int m = 0; m < ring.size; ++m) {
+        T* to = target[ring.lane[m]] + 3 * (ring.at[m] + ring.step[m] * k);
+        for (int a = 0; a < 3; ++a) {
+          T z = 0;
+          for (int j = 0; j < ring.size; ++j) z += T(half[8 * j + m]) * w[j][a];
+          to[a] += z;
+          own[a] -= z;
+        }
+      }
+    }
+  };
+
+  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
+    const bool quad = mesh.faces[std::size_t(f)].quad();
+    if (n < (quad ? 2 : 3)) return;
+    scratch.resize(3 * closed_size(true, std::size_t(2 * n)));
+    gather_face(fine, x, f, scratch.data());
+    const Directions& directions = quad ? quad_directions : triangle_directions;
+    const auto from = [&](int i, int j) {
+      return scratch.data() + 3 * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
+    };
+    const auto to = [&](int i, int j) {
+      return closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+    };
+    for (int j = 1; j < n; ++j) {
+      const int width = quad ? n - 1 : n - 1 - j;
+      for (int i = 1; i <= width; ++i) add_point(to(i, j), from(2 * i, 2 * j));
+      for (int k = 0; k < directions.size; ++k) {
+        const Direction& d = directions.at[k];
+        const T wa = T(d.weight * ahead), wh = T(d.weight * here), wb = T(d.weight * behind);
+        T *p = to(1, j), *q = to(1 + d.i, j + d.j), *r = to(1 - d.i, j - d.j);
+        const T* in = from(2 + d.i, 2 * j + d.j);
+        for (int i = 0; i < width; ++i)
+          for (int a = 0; a < 3; ++a) {
+            const T w = in[6 * i + a];
+            q[3 * i + a] += wa * w;
+            p[3 * i + a] += wh * w;
+            r[3 * i + a] += wb * w;
+          }
+      }
+    }
+  };
+
+  accumulate(coarse, workers, exchange, &unknowns, y, vertex_body, edge_body, face_body);
+}
+
+template void prolong<float>(const Lattice&, const Lattice&, const Stencils&, const Unknowns*, Workers&,
+                             Exchange<float>&, const float*, float*);
+template void prolong<double>(const Lattice&, const Lattice&, const Stencils&, const Unknowns*, Workers&,
+                              Exchange<double>&, const double*, double*);
+template void restrict_to<float>(const Lattice&, const Lattice&, const Stencils&, const Unknowns&, Workers&,
+                                 Exchange<float>&, const float*, float*);
+template void restrict_to<double>(const Lattice&, const Lattice&, const Stencils&, const Unknowns&, Workers&,
+                                  Exchange<double>&, const double*, double*);
+
+}  // namespace fairing
