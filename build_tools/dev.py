@@ -11,21 +11,19 @@ python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
 import argparse
-import fcntl
 import sys
 
 import native_wheel
 import python_environment
 import system_packages
-from layout import CACHE, OUT, ROOT, VENV_PYTHON
+from layout import OUT, ROOT, VENV_PYTHON
 from shell import DevError, fail, run, say
+from stamp import alone
 
 
 def setup_tools() -> None:
     """System packages and .venv; quick when nothing changed."""
-    CACHE.mkdir(exist_ok=True)
-    with (CACHE / "setup.lock").open("w") as lock:  # two at once would spoil .venv
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with alone("tools"):
         system_packages.install()
         python_environment.install()
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from layout import BUILD, MANIFEST, ROOT, VENV
 from python_environment import pip
 from shell import DevError, output, say
-from stamp import files_under, fingerprint, is_fresh, leave
+from stamp import alone, files_under, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART, manifest_version
 
 WHEELS = BUILD / "wheels"
@@ -59,11 +59,12 @@ def build() -> Path:
 
 def install() -> Path:
     """Builds the wheel and installs it into .venv; returns at once when nothing changed."""
-    value = fingerprint(inputs(), local_version())
-    if is_fresh(STAMP, value):
-        return only_wheel(WHEELS / "venv")
-    say("native build: the wheel of discrete_fairing")
-    wheel = build()
-    pip("install", "--no-deps", "--force-reinstall", wheel)
-    leave(STAMP, value)
-    return wheel
+    with alone("wheel"):
+        value = fingerprint(inputs(), local_version())
+        if is_fresh(STAMP, value):
+            return only_wheel(WHEELS / "venv")
+        say("native build: the wheel of discrete_fairing")
+        wheel = build()
+        pip("install", "--no-deps", "--force-reinstall", wheel)
+        leave(STAMP, value)
+        return wheel

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Skipping work whose inputs are the same as last time, by their content."""
+"""Skipping work whose inputs are the same as last time, by their content; doing it once at a time."""
 
+import fcntl
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from layout import ROOT
+from layout import CACHE, ROOT
 
 
 def files_under(*tops: Path) -> list[Path]:
@@ -34,3 +36,12 @@ def leave(stamp: Path, value: str) -> None:
     """Notes that the work is done."""
     stamp.parent.mkdir(parents=True, exist_ok=True)
     stamp.write_text(value)
+
+
+@contextmanager
+def alone(work: str) -> Iterator[None]:
+    """Waits until no other process does the same work, which would spoil it."""
+    CACHE.mkdir(exist_ok=True)
+    with (CACHE / f"{work}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
