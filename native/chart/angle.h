@@ -7,10 +7,11 @@
 
 namespace fairing {
 
-// The angle in [0, pi] whose sine and cosine, times `length` > 0, are given (sine >= 0), to 2e-15.
+// The angle in [0, pi] whose sine and cosine, times `length` > 0, are given (sine >= 0), to 2e-15 (near pi,
+// where the cosine says little, to 1e-14).
 inline double angle_of(double sine, double cosine, double length) {
-  // Half the angle is an arctangent in [0, pi/2]: folded to [0, pi/4], turned to [-pi/8, pi/8], then a polynomial
-  // through Chebyshev points.
+  // Half the angle is an arctangent in [0, pi/2]: folded to [0, pi/4], turned to [-pi/8, pi/8], then a
+  // polynomial through Chebyshev points.
   constexpr double k = 0.41421356237309503;  // tan(pi/8)
   constexpr double eighth = std::numbers::pi / 8;
   const double n = sine, d = length + cosine;

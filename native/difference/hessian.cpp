@@ -16,8 +16,9 @@ Vec3 orthonormal(double uu, double uv, double vv) {
   return {root_half * (uu + vv), root_half * (uu - vv), std::numbers::sqrt2 * uv};
 }
 
-// Least squares after the ring has been made round (x, y have unit covariance and no correlation): the linear terms
-// then drop out of the normal equations by division, and a 3 x 3 system is left. False when undetermined.
+// Least squares after the ring has been made round (x, y have unit covariance and no correlation): the linear
+// terms then drop out of the normal equations by division, and a 3 x 3 system is left. False when
+// undetermined.
 bool round_hessian(std::span<const Vec2> ring, std::span<const double> f, Vec3& hessian) {
   const std::size_t size = ring.size();
   const double n = double(size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The divided differences of one function at one point, where writing the rows of fit() would cost too much: on the
-// stack, in closed form.
+// The divided differences of one function at one point, where writing the rows of fit() would cost too much:
+// on the stack, in closed form.
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@
 namespace fairing {
 
 // The last three of fit()'s coefficients, ((f_uu + f_vv)/sqrt 2, (f_uu - f_vv)/sqrt 2, sqrt 2 f_uv), from the
-// differences f_j - f_0 over a closed ring. The same rules hold where the ring does not determine a quadratic:
-// valence 4 gives the trace and the trace-free part of least norm, valence 3 the trace alone. Zero for a ring without
-// any extent.
+// differences f_j - f_0 over a closed ring. The same rules hold where the ring does not determine a
+// quadratic: valence 4 gives the trace and the trace-free part of least norm, valence 3 the trace alone. Zero
+// for a ring without any extent.
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference);
 
 }  // namespace fairing

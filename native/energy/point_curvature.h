@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The second fundamental form M of a surface at one of its points, from the point's one-ring in space alone: what total
-// curvature, the integral of k1^2 + k2^2, is measured with and minimized by.
+// The second fundamental form M of a surface at one of its points, from the point's one-ring in space alone:
+// what total curvature, the integral of k1^2 + k2^2, is measured with and minimized by.
 //
-// On a mesh inscribed in a sphere of radius R, M is exactly -I/R for any valence and any shape of triangles: chart
-// radii are edge lengths, the normal is exact there, and so the heights n . (p_j - p_i) = -|p_j - p_i|^2 / 2R are a
-// quadratic of the chart. The trace comes from the cotangent Laplacian over the circumcentric area, which takes the
-// same squares to the same value and, unlike least squares, is symmetric: so these meshes are critical points of the
-// discrete energy as well.
+// On a mesh inscribed in a sphere of radius R, M is exactly -I/R for any valence and any shape of triangles:
+// chart radii are edge lengths, the normal is exact there, and so the heights n . (p_j - p_i) = -|p_j -
+// p_i|^2 / 2R are a quadratic of the chart. The trace comes from the cotangent Laplacian over the
+// circumcentric area, which takes the same squares to the same value and, unlike least squares, is symmetric:
+// so these meshes are critical points of the discrete energy as well.
 //
-// A quad counts as the mean of its two triangulations; its far corner is a neighbour like any other, at its own
-// distance and between its own angles (rather than where a flattened quad would have it): so it stays exact too.
+// A quad counts as the mean of its two triangulations; its far corner is a neighbour like any other, at its
+// own distance and between its own angles (rather than where a flattened quad would have it): so it stays
+// exact too.
 #pragma once
 
 #include <array>
@@ -35,10 +36,14 @@ struct SurfaceChart {
 };
 
 struct PointCurvature {
-  Vec3 normal = Vec3::Zero();  // of unit length; weighted as by Max (1999), exact on spheres
-  double trace = 0;            // M_uu + M_vv = k1 + k2: negative where the surface bends away from its normal
-  std::array<double, 2> trace_free{};  // ((M_uu - M_vv)/sqrt 2, sqrt 2 M_uv) in the chart
-  double area = 0;  // the point's share: circumcentric, but at least a tenth of the barycentric
+  // Of unit length; weighted as by Max (1999), so exact on spheres.
+  Vec3 normal = Vec3::Zero();
+  // M_uu + M_vv = k1 + k2: negative where the surface bends away from its normal.
+  double trace = 0;
+  // ((M_uu - M_vv)/sqrt 2, sqrt 2 M_uv) in the chart.
+  std::array<double, 2> trace_free{};
+  // The point's share: circumcentric, but at least a tenth of the barycentric one.
+  double area = 0;
 
   // k1^2 + k2^2
   double density() const {
@@ -46,9 +51,10 @@ struct PointCurvature {
   }
 };
 
-// `chart` is written, and takes no new memory once it has held a ring of that size. Where the floor replaces the area
-// (obtuse triangles around an irregular vertex can make it negative), the trace comes from the fit as well, so that
-// the sphere stays exact. A ring that has a neighbour at the point itself, or no normal, has no curvature and no area.
+// `chart` is written, and takes no new memory once it has held a ring of that size. Where the floor replaces
+// the area (obtuse triangles around an irregular vertex can make it negative), the trace comes from the fit
+// as well, so that the sphere stays exact. A ring that has a neighbour at the point itself, or no normal, has
+// no curvature and no area.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
 
 }  // namespace fairing

@@ -342,7 +342,8 @@ Dense written_prolongation(const Setting& coarse, const Lattice& fine) {
   const auto size = Eigen::Index(lattice.size());
   Dense p = Dense::Zero(Eigen::Index(fine.size()), size);
   const RingWalker walker(cells(lattice));
-  // Where the fine points are: over coarse points, half-way along coarse edges, and in the middle of quad cells.
+  // Where the fine points are: over coarse points, half-way along coarse edges, and in the middle of quad
+  // cells.
   std::vector<Index> over(lattice.size(), -1);
   std::map<std::pair<Index, Index>, Index> along;
   std::vector<Index> middle;
@@ -468,7 +469,8 @@ TEST(Transfer, KeepsConstants) {
 double quadratic(double u, double v) { return 0.3 + u - 2 * v + 0.7 * u * u - 1.3 * u * v + 0.4 * v * v; }
 
 TEST(Transfer, KeepsQuadraticsInThePlane) {
-  // Sheared squares (quads), and the same cut along their diagonals: charts of exponent 1 are the plane itself.
+  // Sheared squares (quads), and the same cut along their diagonals: charts of exponent 1 are the plane
+  // itself.
   Workers workers(1);
   for (const bool cut : {false, true}) {
     OwnedPolygonMesh mesh = grid(4, 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The passes' reference: a level's cells and one-rings written out as lists, found by walking around the cells rather
-// than by lattice arithmetic.
+// The passes' reference: a level's cells and one-rings written out as lists, found by walking around the
+// cells rather than by lattice arithmetic.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ class RingWalker {
  public:
   explicit RingWalker(std::vector<Cell> all);
 
-  // The ring of `centre`, counter-clockwise from its neighbour `first`; an open ring that has an end there goes on at
-  // its other end.
+  // The ring of `centre`, counter-clockwise from its neighbour `first`; an open ring that has an end there
+  // goes on at its other end.
   std::vector<RingNeighbour> ring(Index centre, Index first) const;
   const std::vector<Cell>& all() const { return cells_; }
 
@@ -50,7 +50,8 @@ struct WrittenFit {
   bool in_face;  // the point lies inside a control face
 };
 
-// Calls visit(const WrittenFit&) for every point of a level, with an empty chart where the point carries no fit.
+// Calls visit(const WrittenFit&) for every point of a level, with an empty chart where the point carries no
+// fit.
 template <class Visit>
 void visit_fits(const Lattice& lattice, const RingWalker& walker, const ChartMaker& charts, Visit&& visit) {
   const ControlMesh& mesh = lattice.mesh();

@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy/total_curvature.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "chart/angle.h"
+#include "difference/hessian.h"
+#include "energy/point_curvature.h"
+#include "lattice/linear.h"
+#include "meshes.h"
+#include "written_rings.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+ControlMesh control(const OwnedPolygonMesh& mesh, const FeatureOptions& features = {}) {
+  return make_control_mesh(mesh.view(), features);
+}
+
+OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads) {
+  OwnedPolygonMesh mesh{quads.coordinates, {}, {0}};
+  for (std::int64_t f = 0; f < quads.view().face_count(); ++f) {
+    const auto q = quads.view().face(f);
+    mesh.corners.insert(mesh.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+    mesh.offsets.push_back(mesh.offsets.back() + 3);
+    mesh.offsets.push_back(mesh.offsets.back() + 3);
+  }
+  return mesh;
+}
+
+// The convex hull of random points on the unit sphere.
+OwnedPolygonMesh random_hull(int points, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> p;
+  for (int i = 0; i < points; ++i)
+    p.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
+  std::vector<Point> corners;
+  for (const Vec3& q : p) corners.push_back({q.x(), q.y(), q.z()});
+  std::vector<Polygon> faces;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t j = 0; j < p.size(); ++j)
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        if (i == j || k == j || i > j || i > k || k == i) continue;  // the lowest corner first
+        const Vec3 outwards = (p[j] - p[i]).cross(p[k] - p[i]);
+        bool hull = true;
+        for (std::size_t m = 0; m < p.size() && hull; ++m)
+          hull = m == i || m == j || m == k || outwards.dot(p[m] - p[i]) < 0;
+        if (hull) faces.push_back({std::int64_t(i), std::int64_t(j), std::int64_t(k)});
+      }
+  return make_mesh(corners, faces);
+}
+
+std::map<std::string, ControlMesh> inscribed() {
+  std::map<std::string, ControlMesh> all;
+  all["tetrahedron"] = control(tetrahedron());
+  all["cube"] = control(cube());
+  all["cube of triangles"] = control(cube_triangles());
+  all["octahedron"] = control(octahedron());
+  all["icosahedron"] = control(icosahedron());
+  all["dodecahedron"] = control(dodecahedron());
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    all["hull of 12, " + std::to_string(seed)] = control(random_hull(12, seed));
+  all["hull of 25"] = control(random_hull(25, 9));
+  return all;
+}
+
+// The refined control polyhedron, projected to a sphere.
+std::vector<double> on_sphere(const Lattice& lattice, double radius, const Vec3& centre = Vec3::Zero()) {
+  std::vector<double> x(3 * lattice.size());
+  refine_linearly(lattice, lattice.mesh().positions, x.data());
+  for (std::size_t i = 0; i < x.size(); i += 3) {
+    const Vec3 p(x[i], x[i + 1], x[i + 2]), q = centre + radius * p.normalized();
+    for (int a = 0; a < 3; ++a) x[i + std::size_t(a)] = q[a];
+  }
+  return x;
+}
+
+// point_curvature at every point that has a closed ring, found by walking around the cells.
+void visit_points(const Lattice& lattice, const std::vector<double>& x,
+                  const std::function<void(Index, const PointCurvature&)>& visit) {
+  const RingWalker walker(cells(lattice));
+  const ChartMaker charts(lattice.mesh(), {});
+  SurfaceChart chart;
+  const auto at = [&](Index p) { return Vec3(Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(p))); };
+  visit_fits(lattice, walker, charts, [&](const WrittenFit& fit) {
+    if (fit.chart.ring.empty() || !fit.chart.closed) return;
+    std::vector<Vec3> offset;
+    std::vector<std::uint8_t> far;
+    for (const RingNeighbour& r : fit.ring) {
+      offset.push_back(at(r.point) - at(fit.centre));
+      far.push_back(r.cell >= 0);
+    }
+    visit(fit.centre, point_curvature({offset, far}, chart));
+  });
+}
+
+double measured(const Lattice& lattice, const std::vector<double>& x) {
+  Workers workers(1);
+  return total_curvature(lattice, workers, x.data());
+}
+
+TEST(PointCurvature, IsExactOnSpheres) {
+  const Vec3 centre(0.2, -3, 1);
+  const double radius = 1.7;
+  for (const auto& [name, mesh] : inscribed())
+    for (int level = 0; level <= 3; ++level) {
+      SCOPED_TRACE(name + ", level " + std::to_string(level));
+      const Lattice lattice(mesh, level);
+      const std::vector<double> x = on_sphere(lattice, radius, centre);
+      std::size_t points = 0;
+      visit_points(lattice, x, [&](Index p, const PointCurvature& c) {
+        const Vec3 out = (Vec3(Eigen::Map<const Vec3>(x.data() + 3 * p)) - centre) / radius;
+        EXPECT_LT((c.normal - out).norm(), 1e-11) << p;
+        EXPECT_NEAR(c.trace, -2 / radius, 1e-9) << p;
+        EXPECT_NEAR(c.trace_free[0], 0, 1e-8) << p;
+        EXPECT_NEAR(c.trace_free[1], 0, 1e-8) << p;
+        EXPECT_GT(c.area, 0) << p;
+        ++points;
+      });
+      EXPECT_EQ(points, lattice.size());
+    }
+}
+
+TEST(TotalCurvature, SumsThePointsOfWalkedRings) {
+  std::map<std::string, ControlMesh> all = inscribed();
+  all["cylinder"] = control(open_cylinder(5));
+  all["cylinder, free"] = control(open_cylinder(5), {.boundary = BoundaryMode::free});
+  all["crease"] = control(icosahedron(), {.crease_edges = {{0, 11}, {11, 2}}});
+  all["roof"] = control(roof(), {.crease_edges = {{0, 1}}});
+  all["pyramid"] = control(square_pyramid());
+  std::mt19937 random(2);
+  for (const auto& [name, mesh] : all)
+    for (int level = 0; level <= 3; ++level) {
+      SCOPED_TRACE(name + ", level " + std::to_string(level));
+      const Lattice lattice(mesh, level);
+      std::vector<double> x(3 * lattice.size());
+      refine_linearly(lattice, mesh.positions, x.data());
+      std::uniform_real_distribution<double> move(-0.05 / lattice.n(), 0.05 / lattice.n());
+      for (double& c : x) c += move(random);
+      double sum = 0;
+      visit_points(lattice, x, [&](Index, const PointCurvature& c) { sum += c.area * c.density(); });
+      EXPECT_NEAR(measured(lattice, x), sum, 1e-10 * sum);
+    }
+}
+
+TEST(TotalCurvature, OfASphereIsEightPi) {
+  for (const auto& [name, mesh] : inscribed()) {
+    SCOPED_TRACE(name);
+    double before = 0;
+    for (int level = 2; level <= 5; ++level) {
+      const Lattice lattice(mesh, level);
+      const double error = 1 - measured(lattice, on_sphere(lattice, 0.3)) / (8 * pi);
+      EXPECT_NEAR(level > 3 ? before / error : 4, 4, 0.8) << level;
+      before = error;
+    }
+    EXPECT_NEAR(before, 0, 0.02);
+  }
+}
+
+// A function of plane coordinates that live on control vertices, sampled bilinearly in each control face.
+using Surface = std::function<Vec3(double, double)>;
+
+std::vector<double> sample(const Lattice& lattice, const std::vector<Vec2>& plane, const Surface& surface,
+                           const Vec2& period = Vec2::Zero()) {
+  std::vector<double> x(3 * lattice.size());
+  const int n = lattice.n();
+  for (Index f = 0; f < Index(lattice.mesh().faces.size()); ++f) {
+    const Face& face = lattice.mesh().faces[std::size_t(f)];
+    Vec2 corner[4];
+    for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
+      corner[c] = plane[std::size_t(face.vertex[c])];
+      for (int a = 0; a < 2; ++a)  // on the same sheet as the first
+        if (period[a] > 0) corner[c][a] -= period[a] * std::round((corner[c][a] - corner[0][a]) / period[a]);
+    }
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= (face.quad() ? n : n - j); ++i) {
+        const double u = double(i) / n, v = double(j) / n;
+        const Vec2 p = face.quad() ? Vec2((1 - u) * (1 - v) * corner[0] + u * (1 - v) * corner[1] +
+                                          u * v * corner[2] + (1 - u) * v * corner[3])
+                                   : Vec2((1 - u - v) * corner[0] + u * corner[1] + v * corner[2]);
+        const Vec3 q = surface(p.x(), p.y());
+        for (int a = 0; a < 3; ++a) x[3 * std::size_t(lattice.face_point(f, i, j)) + std::size_t(a)] = q[a];
+      }
+  }
+  return x;
+}
+
+TEST(TotalCurvature, OfATorusConvergesWithSecondOrder) {
+  constexpr int around = 7, across = 5;
+  const double ratio = std::numbers::sqrt2;
+  const Surface surface = [&](double u, double v) {
+    const double r = ratio + std::cos(v);
+    return Vec3(r * std::cos(u), r * std::sin(u), std::sin(v));
+  };
+  const double exact = 8 * pi * pi;  // Clifford's
+  for (const bool cut : {false, true}) {
+    SCOPED_TRACE(cut ? "triangles" : "quads");
+    const ControlMesh mesh = control(cut ? triangulated(torus(around, across)) : torus(around, across));
+    std::vector<Vec2> plane;
+    for (int i = 0; i < around; ++i)
+      for (int j = 0; j < across; ++j) plane.push_back({2 * pi * i / around, 2 * pi * j / across});
+    std::vector<double> errors;
+    for (int level = 2; level <= 5; ++level) {
+      const Lattice lattice(mesh, level);
+      errors.push_back(measured(lattice, sample(lattice, plane, surface, {2 * pi, 2 * pi})) / exact - 1);
+    }
+    for (std::size_t k = 1; k < errors.size(); ++k)
+      EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.75) << k;
+    EXPECT_GT(std::log2(errors[2] / errors[3]), 1.95);
+    EXPECT_NEAR(errors.back(), 0, 2e-3);
+  }
+}
+
+TEST(TotalCurvature, OfAnEllipsoidConvergesThoughTheSpacingHasKinks) {
+  const double exact = 27.949858858;  // semi-axes 1.4, 1, 1
+  for (const auto& [name, mesh] : inscribed()) {
+    SCOPED_TRACE(name);
+    double before = 0;
+    for (int level = 3; level <= 6; ++level) {
+      const Lattice lattice(mesh, level);
+      std::vector<double> x = on_sphere(lattice, 1);
+      for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
+      const double error = measured(lattice, x) / exact - 1;
+      EXPECT_GT(level > 4 ? std::log2(before / error) : 2, 1.75) << level;
+      before = error;
+    }
+    EXPECT_NEAR(before, 0, 2e-3);
+  }
+}
+
+TEST(TotalCurvature, OfACylinderPatchConvergesWithSecondOrder) {
+  constexpr int columns = 3, rows = 2;
+  const double radius = 1.5;
+  const Surface surface = [&](double u, double v) {
+    return Vec3(radius * std::cos(0.3 * u), radius * std::sin(0.3 * u), 0.4 * v);
+  };
+  for (const bool cut : {false, true}) {
+    SCOPED_TRACE(cut ? "triangles" : "quads");
+    const ControlMesh mesh = control(cut ? triangulated(grid(columns, rows)) : grid(columns, rows));
+    std::vector<Vec2> plane;
+    for (const Vec3& p : mesh.positions) plane.push_back(p.head<2>());
+    std::vector<double> errors;
+    for (int level = 2; level <= 5; ++level) {
+      const Lattice lattice(mesh, level);
+      const double n = lattice.n(),
+                   covered = (columns - 1 / n) * (rows - 1 / n);  // without half cells at the curve
+      const double exact = covered * 0.3 * radius * 0.4 / (radius * radius);
+      errors.push_back(measured(lattice, sample(lattice, plane, surface)) / exact - 1);
+    }
+    for (std::size_t k = 1; k < errors.size(); ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.8) << k;
+    EXPECT_NEAR(errors.back(), 0, 1e-3);
+  }
+}
+
+TEST(TotalCurvature, DoesNotDependOnScale) {
+  const ControlMesh mesh = control(random_hull(12, 3));
+  const Lattice lattice(mesh, 3);
+  std::vector<double> x = on_sphere(lattice, 1);
+  for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
+  const double reference = measured(lattice, x);
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+    std::vector<double> y = x;
+    for (double& c : y) c *= scale;
+    EXPECT_NEAR(measured(lattice, y), reference, 1e-9 * reference) << scale;
+  }
+}
+
+TEST(TotalCurvature, OfThePlaneIsNothing) {
+  for (const OwnedPolygonMesh& flat : {grid(4, 3), triangulated(grid(4, 3)), fan(9)}) {
+    const ControlMesh mesh = control(flat);
+    const Lattice lattice(mesh, 3);
+    std::vector<double> x(3 * lattice.size());
+    refine_linearly(lattice, mesh.positions, x.data());
+    for (std::size_t i = 0; i < x.size(); i += 3) x[i + 2] = 0.3 * x[i] - 0.7 * x[i + 1] + 5;
+    EXPECT_LT(measured(lattice, x), 1e-20);
+  }
+}
+
+TEST(TotalCurvature, LeavesOutCurves) {
+  // A cube with creases everywhere is six squares.
+  FeatureOptions creases;
+  creases.crease_angle = 0.5;
+  const ControlMesh mesh = control(cube(), creases);
+  const Lattice lattice(mesh, 3);
+  std::vector<double> x(3 * lattice.size());
+  refine_linearly(lattice, mesh.positions, x.data());
+  EXPECT_LT(measured(lattice, x), 1e-20);
+}
+
+TEST(TotalCurvature, AnyNumberOfThreadsGivesTheSameBits) {
+  const ControlMesh mesh = control(triangulated(torus(30, 24)));
+  const Lattice lattice(mesh, 2);
+  std::vector<double> x(3 * lattice.size());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (double& c : x) c = number(random);
+  const double one = measured(lattice, x);
+  EXPECT_GT(one, 0);
+  for (const int threads : {2, 4, 8}) {
+    Workers workers(threads);
+    EXPECT_EQ(total_curvature(lattice, workers, x.data()), one) << threads;
+  }
+}
+
+TEST(TotalCurvature, IsFiniteOnDegenerateSurfaces) {
+  for (const OwnedPolygonMesh& faces : {cube(), icosahedron(), square_pyramid(), grid(3, 3)}) {
+    const ControlMesh mesh = control(faces);
+    const Lattice lattice(mesh, 2);
+    std::vector<double> x(3 * lattice.size(), 0.25);
+    EXPECT_EQ(measured(lattice, x), 0);  // all in one point
+    for (std::size_t i = 0; i < x.size(); i += 3) x[i] = 0.1 * double(i % 7);
+    EXPECT_TRUE(std::isfinite(measured(lattice, x)));  // on a line
+    for (std::size_t i = 0; i < x.size(); i += 3) x[i + 1] = double(i % 5) * 1e-13;
+    EXPECT_TRUE(std::isfinite(measured(lattice, x)));
+    std::mt19937 random(1);
+    for (double& c : x) c = double(random() % 3);  // many zero-length edges, many folds
+    EXPECT_TRUE(std::isfinite(measured(lattice, x)));
+    for (double& c : x) c *= 1e-150;
+    EXPECT_TRUE(std::isfinite(measured(lattice, x)));
+    for (const double scale : {1e-60, 1e250, 1e100}) {  // 1e-210, 1e40, 1e140 in all
+      for (double& c : x) c *= scale;
+      EXPECT_TRUE(std::isfinite(measured(lattice, x)));
+    }
+  }
+}
+
+TEST(PointCurvature, StaysExactWhereTheAreaHasItsFloor) {
+  // A star: triangles obtuse at its near points, so that the circumcentric area is negative.
+  const double radius = 1.5;
+  SurfaceChart chart;
+  for (const bool cells : {false, true}) {  // near points as the far corners of quads, too
+    std::vector<Vec3> offset;
+    std::vector<std::uint8_t> far;
+    for (int j = 0; j < 10; ++j) {
+      const double turn = 2 * pi * j / 10, reach = j % 2 ? 0.05 : 0.7;
+      offset.push_back(radius * Vec3(std::sin(reach) * std::cos(turn), std::sin(reach) * std::sin(turn),
+                                     std::cos(reach) - 1));
+      far.push_back(cells && j % 2);
+    }
+    double barycentric = 0;
+    for (std::size_t j = 0; j < 10 && !cells; ++j)
+      barycentric += offset[j].cross(offset[(j + 1) % 10]).norm() / 6;
+    const PointCurvature c = point_curvature({offset, far}, chart);
+    EXPECT_NEAR(c.trace, -2 / radius, 1e-12);
+    EXPECT_NEAR(std::hypot(c.trace_free[0], c.trace_free[1]), 0, 1e-11);
+    EXPECT_LT((c.normal - Vec3::UnitZ()).norm(), 1e-13);
+    EXPECT_NEAR(c.area, cells ? c.area : 0.1 * barycentric, 1e-14);
+  }
+}
+
+TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
+  // Quads along and around; the first neighbour lies along the axis, then half-way between, then around.
+  const double radius = 2, step = 0.01;
+  const auto ring = [&](int first) {
+    std::vector<Vec3> offset;
+    for (int j = first; j < first + 8; ++j) {
+      const double along[] = {1, 1, 0, -1, -1, -1, 0, 1}, around[] = {0, 1, 1, 1, 0, -1, -1, -1};
+      const double angle = step * around[j % 8] / radius;
+      offset.push_back({radius * (std::cos(angle) - 1), -radius * std::sin(angle), step * along[j % 8]});
+    }
+    return offset;
+  };
+  SurfaceChart chart;
+  for (int first = 0; first < 3; ++first) {
+    std::vector<std::uint8_t> far;
+    for (int j = 0; j < 8; ++j) far.push_back((j + first) % 2);
+    const PointCurvature c = point_curvature({ring(first), far}, chart);
+    const double part = 1 / (radius * std::numbers::sqrt2);
+    EXPECT_NEAR(c.trace, -1 / radius, 1e-5);
+    EXPECT_NEAR(c.trace_free[0], first == 0 ? part : first == 1 ? 0 : -part, 1e-5) << first;
+    EXPECT_NEAR(std::abs(c.trace_free[1]), first == 1 ? part : 0, 1e-5) << first;
+    EXPECT_NEAR(std::abs(c.normal.x()), 1, 1e-6);
+    EXPECT_NEAR(c.area, step * step, 1e-6 * step);
+    EXPECT_NEAR(c.density(), 1 / (radius * radius), 1e-5);
+    EXPECT_NEAR(chart.ring[0].y(), 0, 1e-15);
+  }
+}
+
+TEST(PointCurvature, ChartIsTheExponentialMap) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> vary(-0.2, 0.2);
+  SurfaceChart chart;
+  for (int valence = 3; valence <= 12; ++valence) {
+    std::vector<Vec3> offset;
+    for (int j = 0; j < valence; ++j) {
+      const double angle = 2 * pi * (j + vary(random)) / valence;
+      offset.push_back((1 + vary(random)) * Vec3(std::cos(angle), std::sin(angle), 0.8 + vary(random)));
+    }
+    const std::vector<std::uint8_t> far(offset.size(), 0);
+    point_curvature({offset, far}, chart);
+    std::vector<double> before{0};
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+      const Vec3 &a = offset[j], &b = offset[(j + 1) % offset.size()];
+      before.push_back(before.back() + std::acos(a.dot(b) / (a.norm() * b.norm())));
+    }
+    ASSERT_EQ(chart.ring.size(), offset.size());
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+      const double angle = before[j] * 2 * pi / before.back();
+      EXPECT_LT((chart.ring[j] - offset[j].norm() * Vec2(std::cos(angle), std::sin(angle))).norm(), 1e-13)
+          << valence;
+    }
+  }
+}
+
+TEST(Hessian, IsTheFitsHessian) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> vary(-0.3, 0.3);
+  for (const double skew : {1.0, 0.1, 20.0})
+    for (int valence = 3; valence <= 40; ++valence)
+      for (int trial = 0; trial < 10; ++trial) {
+        Chart chart;
+        std::vector<double> f;
+        for (int j = 0; j < valence; ++j) {
+          const double angle = 2 * pi * (j + vary(random)) / valence, radius = 0.01 * (1 + vary(random));
+          chart.ring.push_back(Vec2(skew * radius * std::cos(angle), radius * std::sin(angle)));
+          f.push_back(vary(random));
+        }
+        Coefficients expected = Coefficients::Zero();
+        const FitRows rows = fit(chart);
+        for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
+        const Vec3 found = fitted_hessian(chart.ring, f);
+        EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * rows.bottomRows(3).norm())
+            << valence << " " << skew;
+      }
+}
+
+TEST(Hessian, IsTheFitsHessianOnConics) {
+  // Points on a conic through the origin, and regular rings, do not determine a quadratic, or only just.
+  for (const int valence : {3, 4, 5, 6, 8}) {
+    Chart chart;
+    std::vector<double> f;
+    for (int j = 0; j < valence; ++j) {
+      const double angle = 2 * pi * j / valence;
+      const Vec2 p(std::cos(angle), std::sin(angle));
+      chart.ring.push_back(valence < 6 ? p : Vec2(p.x(), 0.3 * p.x() * p.x() + (j % 2 ? 0.0 : p.x() * 0.5)));
+      f.push_back(std::sin(3.0 * j));
+    }
+    Coefficients expected = Coefficients::Zero();
+    const FitRows rows = fit(chart);
+    for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
+    const Vec3 found = fitted_hessian(chart.ring, f);
+    EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * (1 + expected.norm())) << valence;
+  }
+}
+
+TEST(Angle, AgreesWithTheLibrary) {
+  for (int k = 0; k <= 1000; ++k) {
+    const double angle = pi * k / 1000;
+    EXPECT_NEAR(angle_of(2.5 * std::sin(angle), 2.5 * std::cos(angle), 2.5), angle, 2e-14) << k;
+  }
+  for (int k = -300; k <= 300; ++k) {
+    double cosine, sine;
+    small_turn(0.01 * k, cosine, sine);
+    EXPECT_NEAR(cosine, std::cos(0.01 * k), 3e-16);
+    EXPECT_NEAR(sine, std::sin(0.01 * k), 3e-16);
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test
