@@ -8,10 +8,13 @@ namespace fairing {
 namespace {
 
 constexpr double aim = 0.9999;   // of the tolerance: rounding must not carry a vertex over it
-constexpr double slack = 1.001;  // a fixed point within this is as good as there
+constexpr double slack = 1.002;  // a fixed point within this is as good as there
 constexpr double gap_wanted = 1e-3;
-constexpr int most_rounds = 40;
+constexpr int most_rounds = 12;  // a level
+constexpr double pin = 1e4;      // stiffer than any surface: holds what is left over on the ball
+constexpr double round_tolerance = 1e-4;
 constexpr double largest_change = 10;
+constexpr double over_relaxation = 1.5;  // neighbours share the load, so weights answer less than one to one
 
 constexpr int release_rounds = 3;
 
@@ -73,7 +76,8 @@ bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
 void ToleranceConstraint::adapt(const Array<double>& x) {
   for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
     if (!unknowns_.vertex[v]) continue;
-    const double factor = std::clamp(distance(x, v) / tolerance_, 1 / largest_change, largest_change);
+    const double factor = std::clamp(std::pow(distance(x, v) / tolerance_, over_relaxation),
+                                     1 / largest_change, largest_change);
     weights_[v] = std::max({base_[v], factor * weights_[v], 1e-10 * unit_});
   }
 }
@@ -84,16 +88,29 @@ void ToleranceConstraint::settle(SurfaceSystem& system, int level, Array<double>
     if (settled(system.energy(level, x.data()), x)) return;
     adapt(x);
     system.set_weights(weights_, level);
-    system.solve_again(level, mesh_.positions, x, 1e-5);
+    system.solve_again(level, mesh_.positions, x, round_tolerance);
     ++rounds_;
   }
 }
 
-void ToleranceConstraint::clamp(Array<double>& x) const {
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices) && active(); ++v) {
-    const double d = unknowns_.vertex[v] ? distance(x, v) : 0.0;
-    if (d > tolerance_) put(x, v, mesh_.positions[v] + (tolerance_ / d) * (point(x, v) - mesh_.positions[v]));
+LevelReport ToleranceConstraint::finish(SurfaceSystem& system, double relative_residual, Array<double>& x) {
+  std::vector<Vec3> targets = mesh_.positions;
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
+    if (!unknowns_.vertex[v] || distance(x, v) <= tolerance_) continue;
+    targets[v] = nearest_allowed(x, v);
+    weights_[v] *= pin;
   }
+  system.set_weights(weights_, system.top());
+  const LevelReport report = system.solve_again(system.top(), targets, x, relative_residual);
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
+    if (unknowns_.vertex[v] && distance(x, v) > tolerance_) put(x, v, nearest_allowed(x, v));
+  ++rounds_;
+  return report;
+}
+
+Vec3 ToleranceConstraint::nearest_allowed(const Array<double>& x, std::size_t v) const {
+  const Vec3& place = mesh_.positions[v];
+  return place + (tolerance_ / distance(x, v)) * (point(x, v) - place);
 }
 
 int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, double epsilon,

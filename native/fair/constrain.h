@@ -28,8 +28,9 @@ class ToleranceConstraint {
   // Adapts the weights on one level until the constraint holds and the duality gap is closed; x follows.
   void settle(SurfaceSystem& system, int level, Array<double>& x);
 
-  // Exactly within the tolerance: what the fixed point leaves over by its last digits.
-  void clamp(Array<double>& x) const;
+  // The last solve on the finest level: vertices that the fixed point has left outside by their last digits are held
+  // on the ball. No control vertex is outside afterwards.
+  LevelReport finish(SurfaceSystem& system, double relative_residual, Array<double>& x);
 
   int rounds() const { return rounds_; }
   // How far the energy may still be over the least possible one, relative.
@@ -37,6 +38,7 @@ class ToleranceConstraint {
 
  private:
   double distance(const Array<double>& x, std::size_t v) const;
+  Vec3 nearest_allowed(const Array<double>& x, std::size_t v) const;
   bool settled(double energy, const Array<double>& x);
   void adapt(const Array<double>& x);
 

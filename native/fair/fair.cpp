@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "energy/total_curvature.h"
 #include "execution/vectors.h"
+#include "fair/back_leg.h"
 #include "fair/check_options.h"
 #include "fair/constrain.h"
 #include "fair/frame.h"
@@ -132,11 +133,15 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
       if (!constraint.active()) return;
       watch.enter(Phase::constrain, 0.5);
       constraint.settle(system, level, points);
+      if (level == options.levels)
+        report.levels.back() = constraint.finish(system, options.relative_residual, points);
       watch.enter(Phase::solve, 0.5);
     };
-    system.solve_nested(mesh.positions, x, report.levels, on_prediction, on_level);
+    if (options.method == Method::back_leg)
+      solve_back_leg(system, mesh.positions, options.sweeps, x, report.levels, on_prediction);
+    else
+      system.solve_nested(mesh.positions, x, report.levels, on_prediction, on_level);
     warn_unconverged(report.levels.back(), options, report);
-    constraint.clamp(x);
     report.constraint_rounds = constraint.rounds();
     report.constraint_gap = constraint.gap();
     if (options.epsilon > 0) {

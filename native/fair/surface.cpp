@@ -49,6 +49,8 @@ SurfaceSystem::SurfaceSystem(const ControlMesh& mesh, const FeatureCurves& curve
   }
   coarse_ = std::make_unique<CoarseSolver>(*operators_[0], workers,
                                            count_unknowns(lattice(base_), shared_.unknowns), base_ == 0);
+  for (Array<double>* a : {&pcg_.residual, &pcg_.direction, &pcg_.image})
+    a->resize(3 * lattice(top()).size());
   cycle_ = std::make_unique<VCycle>(workers, monitor);
   cycle_->coarse = coarse_.get();
   if (options.smoother_degree > 0) cycle_->degree = options.smoother_degree;
@@ -210,27 +212,28 @@ void SurfaceSystem::choose_degree(const LevelReport& report, double tolerance, d
   cycle_->degree = std::clamp(int(std::ceil(wanted)), cycle_->degree, most_degree);
 }
 
+void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, Array<double>& x) {
+  if (level == base_) {
+    x.resize(3 * lattice(top()).size());
+    refine_linearly(lattice(level), targets, x.data());
+  } else {
+    const Array<double> coarse(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(level - 1).size()));
+    prolong(lattice(level - 1), lattice(level), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
+            coarse.data(), x.data());
+  }
+  set_fixed(level, targets, x.data());
+}
+
 void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x,
                                  std::vector<LevelReport>& reports,
                                  const std::function<void(const double*)>& on_prediction,
                                  const std::function<void(int, Array<double>&)>& on_level) {
-  const std::size_t size = 3 * lattice(top()).size();
-  for (Array<double>* a : {&pcg_.residual, &pcg_.direction, &pcg_.image}) a->resize(size);
-  x.resize(size);
-  Array<double> coarse;
   for (int l = base_; l <= top(); ++l) {
     monitor_.report(Phase::solve, std::pow(0.25, top() - l));
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
     // Scales first: they borrow the vectors of the iteration.
     const Scales scale = scales(l, targets);
-    if (l == base_) {
-      refine_linearly(lattice(l), targets, x.data());
-    } else {
-      coarse.assign(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(l - 1).size()));
-      prolong(lattice(l - 1), lattice(l), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
-              coarse.data(), x.data());
-    }
-    set_fixed(l, targets, x.data());
+    start_level(l, targets, x);
     if (l == top() && on_prediction) on_prediction(x.data());
     const auto tolerance = [&](int level) {
       return level >= top() ? options_.relative_residual

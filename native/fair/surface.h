@@ -24,9 +24,11 @@ class SurfaceSystem {
                 Monitor& monitor);
   ~SurfaceSystem();
 
+  int base() const { return base_; }  // the coarsest level with unknowns worth a solve
   int top() const { return int(lattices_.size()) - 1; }
   const Lattice& lattice(int level) const { return *lattices_[std::size_t(level)]; }
   ThinPlateShared& shared() { return shared_; }
+  Monitor& monitor() { return monitor_; }
 
   // Full multigrid: from the control polyhedron to the solution on the finest level.
   // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
@@ -34,6 +36,9 @@ class SurfaceSystem {
   void solve_nested(std::span<const Vec3> targets, Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction,
                     const std::function<void(int, Array<double>&)>& on_level);
+
+  // x <- the start of a level: the control polyhedron on the coarsest, the prolongated x of the level below on others.
+  void start_level(int level, std::span<const Vec3> targets, Array<double>& x);
 
   // A level again, from x as it is.
   LevelReport solve_again(int level, std::span<const Vec3> targets, Array<double>& x, double tolerance);
@@ -48,6 +53,11 @@ class SurfaceSystem {
   void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
 
   double energy(int level, const double* x);
+
+  // The norm of the control polyhedron's residual on a level: what residuals are relative to.
+  double reference_residual(int level, std::span<const Vec3> targets) {
+    return scales(level, targets).residual;
+  }
 
  private:
   struct Scales {

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What tests ask of a refined surface."""
+
+from collections import Counter
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+
+def size_of(points) -> float:
+    """Diagonal of the bounding box."""
+    return float(np.linalg.norm(np.ptp(np.asarray(points), axis=0)))
+
+
+def as_lists(faces) -> list[list[int]]:
+    return [[int(v) for v in face] for face in faces]
+
+
+def output_faces(result) -> list[list[int]]:
+    """All faces of a result, triangles first."""
+    triangles, quads = result.faces
+    return triangles.tolist() + quads.tolist()
+
+
+def half_edges(faces) -> Counter:
+    """How often each directed edge comes."""
+    return Counter((a, b) for face in faces for a, b in zip(face, [*face[1:], face[0]]))
+
+
+def boundary_loops(faces) -> int:
+    """Number of boundary curves of a manifold."""
+    directed = half_edges(faces)
+    after = {b: a for a, b in directed if (b, a) not in directed}
+    loops = 0
+    while after:
+        v = next(iter(after))
+        while v in after:
+            v = after.pop(v)
+        loops += 1
+    return loops
+
+
+def assert_oriented_manifold(faces, vertex_count: int) -> None:
+    """No directed edge comes twice; every vertex has a single fan."""
+    directed = half_edges(faces)
+    assert max(directed.values()) == 1
+    corners = Counter(v for face in faces for v in face)
+    onward = {}
+    for face in faces:
+        for k, v in enumerate(face):
+            onward[v, face[k - 1]] = face[(k + 1) % len(face)]
+    starts = {}
+    for v, incoming in onward:
+        starts.setdefault(v, []).append(incoming)
+    assert set(corners) <= set(range(vertex_count))
+    for v, spokes in starts.items():
+        first = [w for w in spokes if (v, w) not in {(v, onward[v, s]) for s in spokes}]
+        w, length = (first or spokes)[0], 0
+        begin = w
+        while (v, w) in onward:
+            w, length = onward[v, w], length + 1
+            if w == begin:
+                break
+        assert length == corners[v], f"vertex {v} has more than one fan"
+
+
+def euler_characteristic(faces) -> int:
+    edges = {tuple(sorted(e)) for e in half_edges(faces)}
+    return len({v for face in faces for v in face}) - len(edges) + len(faces)
+
+
+def assert_same_positions(found: np.ndarray, expected: np.ndarray, tolerance: float) -> None:
+    """Every point of either has one of the other near by."""
+    for some, others in ((found, expected), (expected, found)):
+        distance, _ = cKDTree(others).query(some)
+        assert distance.max() <= tolerance, distance.max()
+
+
+def assert_same_points(found: np.ndarray, expected: np.ndarray, tolerance: float) -> None:
+    """The same set of points, each point once, whatever the order."""
+    assert found.shape == expected.shape
+    distance, partner = cKDTree(expected).query(found)
+    assert distance.max() <= tolerance, distance.max()
+    assert len(np.unique(partner)) == len(expected)
+
+
+def random_rotation(seed: int) -> np.ndarray:
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q *= np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Of triangles, or of quads by their diagonals."""
+    c = points[faces]
+    if faces.shape[1] == 4:
+        normal = np.cross(c[:, 2] - c[:, 0], c[:, 3] - c[:, 1])
+    else:
+        normal = np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0])
+    return normal / np.linalg.norm(normal, axis=1)[:, None]
+
+
+def dihedral_angles(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Interior edges (k, 2) and by how much, in radians, the faces turn across each."""
+    normal, owner = face_normals(points, faces), {}
+    edges, pairs = [], []
+    for f, face in enumerate(faces.tolist()):
+        for a, b in zip(face, [*face[1:], face[0]]):
+            if (b, a) in owner:
+                edges.append((a, b))
+                pairs.append((f, owner[b, a]))
+            owner[a, b] = f
+    pairs = np.array(pairs)
+    cosine = np.einsum("ei,ei->e", normal[pairs[:, 0]], normal[pairs[:, 1]])
+    sine = np.linalg.norm(np.cross(normal[pairs[:, 0]], normal[pairs[:, 1]]), axis=1)
+    return np.array(edges), np.arctan2(sine, cosine)
+
+
+def boundary_vertices(faces) -> np.ndarray:
+    directed = half_edges(faces)
+    return np.unique([v for e in directed if e[::-1] not in directed for v in e])

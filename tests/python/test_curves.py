@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Boundary and crease curves depend on their own vertices alone."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import (
+    as_lists,
+    boundary_vertices,
+    dihedral_angles,
+    output_faces,
+    random_rotation,
+    size_of,
+)
+
+MODES = ("curve", "linear", "free")
+
+
+def rows(points: np.ndarray) -> set:
+    """Points to the last bit."""
+    return {p.tobytes() for p in np.ascontiguousarray(points + 0.0)}
+
+
+def boundary_points(result) -> np.ndarray:
+    return result.vertices[boundary_vertices(output_faces(result))]
+
+
+def polygon(count: int = 9) -> np.ndarray:
+    """A closed polyline in space, of uneven steps."""
+    angle = 2 * np.pi * (np.arange(count) + 0.3 * np.sin(np.arange(count))) / count
+    return np.stack([np.cos(angle), np.sin(angle), 0.4 * np.sin(2 * angle)], -1) / 3 + 0.1
+
+
+def caps(rim: np.ndarray):
+    """Three surfaces of different faces, valences and order of vertices that end in the same polyline."""
+    n = len(rim)
+    k = np.arange(n)
+    after = (k + 1) % n
+    cone = np.concatenate([rim, [[0.1, 0.2, 0.9]]]), np.stack([k, after, 0 * k + n], -1)
+    inner = 0.5 * rim + [0.3, 0, 0.4]
+    frustum = np.stack([k, after, n + after, n + k], -1).tolist() + [list(range(n, 2 * n))]
+    other = np.concatenate([[[0.0, -0.3, -0.5]], rim[::-1]])
+    turned = np.stack([0 * k, k + 1, after + 1], -1)
+    return [cone, (np.concatenate([rim, inner]), frustum), (other, turned)]
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 0.0])
+@pytest.mark.parametrize("corners", [False, True])
+def test_the_same_polyline_gives_the_same_curve(exponent, corners):
+    """Bit for bit, whatever the interior, the numbering and the direction."""
+    rim = polygon()
+    found = []
+    for vertices, faces in caps(rim):
+        chosen = [int(np.argwhere((vertices == rim[k]).all(1))[0, 0]) for k in (2, 5)] if corners else None
+        result = df.fair(vertices, faces, 3, metric_exponent=exponent, corner_vertices=chosen)
+        found.append(rows(boundary_points(result)))
+        assert len(found[-1]) == 8 * len(rim)
+    assert found[0] == found[1] == found[2]
+
+
+@pytest.mark.parametrize(
+    "option", [{"corner_angle": 0.75}, {"corner_angle": 10.0}, {"boundary": "linear"}], ids=str
+)
+def test_the_same_polyline_under_other_rules(option):
+    found = [rows(boundary_points(df.fair(*cap, 2, **option))) for cap in caps(polygon())]
+    assert found[0] == found[1] == found[2]
+
+
+def test_a_crease_and_a_boundary_of_the_same_polyline_are_the_same_curve():
+    """The drum's rim as a crease, and as the boundary of its upper half."""
+    (vertices, faces), loop, above, _ = meshes.drum()
+    whole = df.fair(vertices, faces, 3, crease_edges=loop)
+    kept = np.append(np.unique(loop), above)
+    place = np.full(len(vertices), -1)
+    place[kept] = np.arange(len(kept))
+    upper = place[faces[np.isin(faces, kept).all(1)]]
+    half = df.fair(vertices[kept], upper, 3)
+    assert rows(boundary_points(half)) <= rows(whole.vertices)
+
+
+def test_linear_boundary_is_straight():
+    vertices, faces = meshes.wavy_patch()
+    found = boundary_points(df.fair(vertices, faces, 3, boundary="linear"))
+    rim = boundary_vertices(as_lists(faces))
+    edges = {tuple(sorted(e)) for f in as_lists(faces) for e in zip(f, [*f[1:], f[0]])}
+    edges = [e for e in edges if set(e) <= set(rim) and sum(set(e) <= set(f) for f in as_lists(faces)) == 1]
+    steps = np.arange(8)[:, None] / 8
+    expected = np.concatenate([vertices[a] * (1 - steps) + vertices[b] * steps for a, b in edges])
+    expected = np.unique(np.concatenate([expected, vertices[rim]]).round(12), axis=0)
+    assert np.abs(np.unique(found.round(12), axis=0) - expected).max() < 1e-11
+
+
+def test_curve_boundary_is_smooth_and_linear_is_not():
+    """The turn at a control vertex halves with each level on a curve, and stays on the polyline."""
+    vertices, faces = meshes.fan(8)
+
+    def turn(levels, boundary):
+        result = df.fair(vertices, faces, levels, boundary=boundary)
+        around = [w for f in result.triangles.tolist() if 1 in f for w in f if w != 1]
+        a, b = (w for w in set(around) if around.count(w) == 1)
+        before, after = result.vertices[1] - result.vertices[a], result.vertices[b] - result.vertices[1]
+        return np.arccos(before @ after / np.linalg.norm(before) / np.linalg.norm(after))
+
+    smooth = [turn(levels, "curve") for levels in (1, 2, 3, 4)]
+    assert all(0.4 < b / a < 0.6 for a, b in zip(smooth, smooth[1:]))
+    straight = [turn(levels, "linear") for levels in (1, 4)]
+    assert straight[0] == pytest.approx(straight[1], abs=1e-12)
+
+
+def test_free_boundary_is_the_surfaces_own():
+    vertices, faces = meshes.wavy_patch()
+    curve, linear, free = (df.fair(vertices, faces, 3, boundary=mode) for mode in MODES)
+    for other in (curve, linear):
+        assert np.abs(free.vertices - other.vertices).max() > 1e-3 * size_of(vertices)
+        assert free.report["energy"]["result"]["thin_plate"] < other.report["energy"]["result"]["thin_plate"]
+    assert np.array_equal(free.vertices[: len(vertices)], vertices)
+    moved = vertices.copy()
+    moved[12] += [0, 0, 0.5]
+    assert rows(boundary_points(df.fair(moved, faces, 3, boundary="free"))) != rows(boundary_points(free))
+    assert rows(boundary_points(df.fair(moved, faces, 3))) != rows(boundary_points(free))
+
+
+def test_interior_does_not_move_the_boundary():
+    vertices, faces = meshes.wavy_patch()
+    moved = vertices.copy()
+    moved[12] += [0.1, -0.2, 0.5]
+    for mode in ("curve", "linear"):
+        still, after = (df.fair(v, faces, 3, boundary=mode) for v in (vertices, moved))
+        rim = boundary_vertices(output_faces(still))
+        assert still.vertices[rim].tobytes() == after.vertices[rim].tobytes()
+        assert not np.array_equal(still.vertices, after.vertices)
+
+
+@pytest.mark.parametrize("ends", ["corner_angle", "corner_vertices"])
+def test_corners_split_a_curve(ends):
+    """A square's straight sides stay straight between corners, and bulge without."""
+    vertices, faces = meshes.grid(3, 3)
+    vertices[5] += [0, 0, 1]
+    corners = {"corner_angle": 1.0} if ends == "corner_angle" else {"corner_vertices": [0, 3, 12, 15]}
+
+    def off_the_square(**options):
+        points = boundary_points(df.fair(vertices, faces, 3, **options))
+        return np.abs(np.abs(points[:, :2] - 1.5).max(1) - 1.5).max()
+
+    assert off_the_square(**corners) < 1e-12
+    assert off_the_square() > 0.01
+    assert off_the_square(corner_angle=1.6) > 0.01
+
+
+def test_a_side_depends_on_nothing_beyond_its_corners():
+    vertices, faces = meshes.wavy_patch()
+    corners = [0, 4, 20, 24]
+    moved = vertices.copy()
+    moved[22] += [0.2, 0.5, 0.3]
+    still, after = (df.fair(v, faces, 3, corner_vertices=corners) for v in (vertices, moved))
+    bottom = [v for v in boundary_vertices(output_faces(still)) if still.vertices[v, 1] < 0.05]
+    assert len(bottom) >= 33 - 4
+    assert still.vertices[bottom].tobytes() == after.vertices[bottom].tobytes()
+    loop = df.fair(moved, faces, 3)
+    assert loop.vertices[bottom].tobytes() != df.fair(vertices, faces, 3).vertices[bottom].tobytes()
+
+
+@pytest.mark.parametrize("flip", [False, True])
+def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
+    """To the last bit."""
+    (vertices, faces), loop, above, below = meshes.drum()
+    here, there = (below, above) if flip else (above, below)
+    moved = vertices.copy()
+    moved[here[1]] += [0.2, 0.1, 0.15 if not flip else -0.15]
+    options = {"crease_edges": loop, "relative_residual": 1e-11}
+    still, after = (df.fair(v, faces, 3, **options) for v in (vertices, moved))
+    control = np.append(np.unique(loop), there)
+    cells = np.isin(still.triangle_polygon, np.nonzero(np.isin(faces, control).all(1))[0])
+    side = np.unique(still.faces[0][cells])
+    assert len(side) > 500
+    difference = np.abs(still.vertices[side] - after.vertices[side]).max()
+    assert difference <= 1e-9 * size_of(vertices)
+    curve = np.intersect1d(side, still.faces[0][~cells])
+    assert still.vertices[curve].tobytes() == after.vertices[curve].tobytes()
+    smooth, other = (df.fair(v, faces, 3, relative_residual=1e-11).vertices for v in (vertices, moved))
+    assert np.abs(smooth[side] - other[side]).max() > 1e-4
+
+
+def crease_and_inner_angles(result, on_crease):
+    faces = result.faces[1]
+    edges, angle = dihedral_angles(result.vertices, faces)
+    crease = on_crease(result.vertices[edges]).all(1)
+    return angle[crease], angle[~crease]
+
+
+def test_a_roof_keeps_its_ridge_and_smooths_its_slopes():
+    (vertices, faces), ridge = meshes.roof()
+    sharp, inside = [], []
+    for levels in (2, 3, 4):
+        result = df.fair(vertices, faces, levels, crease_edges=ridge)
+        at_ridge, elsewhere = crease_and_inner_angles(result, lambda p: np.abs(p[..., 0]) < 1e-12)
+        assert len(at_ridge) == 4 * 2**levels
+        sharp.append(at_ridge.min())
+        inside.append(elsewhere.max())
+    assert min(sharp) > 1.0 and max(sharp) - min(sharp) < 0.03
+    assert all(fine < 0.7 * coarse for coarse, fine in zip(inside, inside[1:]))
+    smooth = df.fair(vertices, faces, 3)
+    assert crease_and_inner_angles(smooth, lambda p: np.abs(p[..., 0]) < 1e-3)[0].max() < 0.6
+
+
+def test_a_box_with_creases_stays_a_box():
+    """Every side is flat, every edge straight: the surface is the box itself."""
+    (vertices, faces), creases = meshes.box_with_creases()
+    rotation = random_rotation(3)
+    result = df.fair(vertices @ rotation.T, faces, 3, crease_edges=creases)
+    assert np.abs(np.abs(result.vertices @ rotation).max(1) - 1).max() < 1e-9
+    assert result.report["energy"]["result"]["thin_plate"] < 1e-9
+
+
+def test_crease_angle_finds_the_same_creases():
+    (vertices, faces), creases = meshes.box_with_creases()
+    vertices = vertices + 0.02 * np.random.default_rng(0).normal(size=vertices.shape)
+    given = df.fair(vertices, faces, 2, crease_edges=creases)
+    found = df.fair(vertices, faces, 2, crease_angle=0.8)
+    assert np.array_equal(given.vertices, found.vertices)
+    assert not np.allclose(found.vertices, df.fair(vertices, faces, 2, crease_angle=2.0).vertices)
+    assert np.array_equal(
+        df.fair(vertices, faces, 2, crease_angle=2.0).vertices, df.fair(vertices, faces, 2).vertices
+    )
+
+
+def test_all_vertices_on_creases():
+    """Every edge a crease: each face knows its three or four curves alone."""
+    for mesh in (meshes.icosahedron, meshes.cube, meshes.torus):
+        vertices, faces = mesh()
+        edges = np.concatenate([faces[:, [k, (k + 1) % faces.shape[1]]] for k in range(faces.shape[1])])
+        result = df.fair(vertices, faces, 3, crease_edges=edges)
+        assert np.isfinite(result.vertices).all()
+        assert np.array_equal(result.vertices[: len(vertices)], vertices)
+        assert result.report["converged"]
+
+
+def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
+    """The surface may come to a point there, at lower energy, and elsewhere it does not."""
+    vertices, faces = meshes.closed_pole(12)
+    smooth, tip = (df.fair(vertices, faces, 3, corner_vertices=c) for c in (None, [12]))
+    assert tip.report["energy"]["result"]["thin_plate"] < smooth.report["energy"]["result"]["thin_plate"]
+    assert np.array_equal(tip.vertices[:14], vertices)
+
+
+@pytest.mark.parametrize("boundary", MODES)
+@pytest.mark.parametrize("levels", [0, 1, 2, 3])
+def test_a_single_triangle(boundary, levels):
+    vertices, faces = meshes.single_triangle()
+    result = df.fair(vertices, faces, levels, boundary=boundary)
+    assert len(result.triangles) == 4**levels
+    assert result.vertices[:3].tobytes() == vertices.tobytes()
+    normal = np.cross(*(vertices[1:] - vertices[0]))
+    assert np.abs((result.vertices - vertices[0]) @ normal).max() < 1e-9
+    assert np.abs(result.vertices).max() < 2
+    if boundary != "curve":
+        area = 0.5 * np.linalg.norm(
+            np.cross(
+                result.vertices[result.triangles[:, 1]] - result.vertices[result.triangles[:, 0]],
+                result.vertices[result.triangles[:, 2]] - result.vertices[result.triangles[:, 0]],
+            ),
+            axis=1,
+        )
+        assert area.sum() == pytest.approx(0.5 * np.linalg.norm(normal), rel=1e-6)
