@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clay: matte, slightly warm, no texture to hide behind. Control meshes get a thin wire, their creases a red one."""
+
+import bpy
+from render_studio import dress
+
+CLAY = (0.50, 0.405, 0.325)
+WIRE = (0.055, 0.06, 0.07)
+CREASE = (0.62, 0.07, 0.025)
+
+
+def dress_in_clay(control, result):
+    for target in (control, result):
+        dress(target, _matte("Clay", CLAY, roughness=0.5))
+    wires = [_wire(control, "Wire", WIRE, 0.0055, creased=False)]
+    if "crease_edge" in control.data.attributes:
+        wires.append(_wire(control, "Crease", CREASE, 0.012, creased=True))
+    return wires
+
+
+def _matte(name, colour, roughness):
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    shader = material.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Base Color"].default_value = (*colour, 1)
+    shader.inputs["Roughness"].default_value = roughness
+    shader.inputs["Specular IOR Level"].default_value = 0.35
+    return material
+
+
+def _wire(source, name, colour, thickness, creased):
+    """The edges of `source` (or its creases alone) as thin round bars, `thickness` across in the picture's units."""
+    mesh = source.data
+    creases = mesh.attributes.get("crease_edge")
+    curve = bpy.data.curves.new(name, "CURVE")
+    curve.dimensions = "3D"
+    curve.bevel_depth = thickness / 2 / source.scale[0]
+    curve.bevel_resolution = 2
+    for edge in mesh.edges:
+        if (creases is not None and creases.data[edge.index].value > 0) != creased:
+            continue
+        spline = curve.splines.new("POLY")
+        spline.points.add(1)
+        for point, vertex in zip(spline.points, edge.vertices, strict=True):
+            point.co = (*mesh.vertices[vertex].co, 1)
+    curve.materials.append(_matte(name, colour, roughness=0.8))
+    wire = bpy.data.objects.new(name, curve)
+    bpy.context.scene.collection.objects.link(wire)
+    wire.matrix_world = source.matrix_world
+    return wire
