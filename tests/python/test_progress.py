@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Progress, cancelling, and runs beside each other and beside Python."""
+
+import threading
+import time
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+PHASES = ["check", "hierarchy", "curves", "solve", "constrain", "measure", "output", "done"]
+
+
+def long_run():
+    """Takes long enough to be watched."""
+    return meshes.torus(40, 30)
+
+
+def cancelled(**options) -> float:
+    """Seconds that a run took until it ended as cancelled."""
+    start = time.monotonic()
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(*long_run(), 5, **options)
+    assert caught.value.code == "CANCELLED" and list(caught.value.elements) == []
+    return time.monotonic() - start
+
+
+def test_progress_grows_and_ends_with_one():
+    calls = []
+    df.fair(*meshes.creature(), 4, progress=lambda fraction, phase: calls.append((fraction, phase)))
+    fractions = [fraction for fraction, _ in calls]
+    assert len(calls) >= 3
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] == 1
+    assert {phase for _, phase in calls} <= set(PHASES) and calls[-1][1] == "done"
+    assert all(type(fraction) is float and type(phase) is str for fraction, phase in calls)
+
+
+def test_progress_does_not_change_the_result():
+    vertices, faces = meshes.creature()
+    watched = df.fair(vertices, faces, 3, progress=lambda fraction, phase: None)
+    assert np.array_equal(watched.vertices, df.fair(vertices, faces, 3).vertices)
+
+
+@pytest.mark.parametrize("answer", [None, True, 0, "False"])
+def test_only_false_cancels(answer):
+    assert df.fair(*meshes.creature(), 2, progress=lambda fraction, phase: answer).report["converged"]
+
+
+def test_returning_false_cancels():
+    assert cancelled(progress=lambda fraction, phase: False) < 5
+
+
+def test_cancelling_midway():
+    assert cancelled(progress=lambda fraction, phase: phase != "solve") < 10
+
+
+def test_an_exception_in_progress_comes_out():
+    class Own(Exception):
+        pass
+
+    def fail(fraction, phase):
+        raise Own("mine")
+
+    with pytest.raises(Own, match="mine"):
+        df.fair(*long_run(), 5, progress=fail)
+    assert df.fair(*meshes.icosahedron(), 2).report["converged"]
+
+
+def test_an_exception_at_the_very_last_call_comes_out():
+    def fail_at_the_end(fraction, phase):
+        if fraction == 1:
+            raise KeyError(phase)
+
+    with pytest.raises(KeyError):
+        df.fair(*meshes.icosahedron(), 2, progress=fail_at_the_end)
+
+
+def test_monitor_cancels_from_another_thread():
+    monitor = df.Monitor()
+    threading.Timer(0.1, monitor.cancel).start()
+    assert cancelled(monitor=monitor) < 10
+
+
+def test_monitor_cancelled_before():
+    monitor = df.Monitor()
+    monitor.cancel()
+    assert cancelled(monitor=monitor) < 5
+
+
+def test_monitor_is_watched_from_another_thread():
+    """Python runs while the core does: another thread counts and sees fractions between nought and one."""
+    monitor, seen, stop = df.Monitor(), [], threading.Event()
+
+    def watch():
+        while not stop.is_set():
+            seen.append((monitor.fraction, monitor.phase))
+            time.sleep(0.002)
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    df.fair(*meshes.creature(), 4, monitor=monitor)
+    stop.set()
+    watcher.join()
+    assert len(seen) > 10 and {phase for _, phase in seen} >= {"solve"}
+    assert any(0 < fraction < 1 for fraction, _ in seen)
+    assert monitor.fraction == 1 and monitor.phase == "done"
+
+
+def test_runs_beside_each_other():
+    """Several threads, each its own mesh: every one gets what it gets alone."""
+    jobs = {
+        name: (*meshes.ALL[name](), 3)
+        for name in ("creature", "torus_quads", "random_hull", "wavy_patch", "house")
+    }
+    alone = {name: df.fair(*job).vertices for name, job in jobs.items()}
+    together = {}
+
+    def run(name):
+        together[name] = [df.fair(*jobs[name], threads=2).vertices for _ in range(2)]
+
+    threads = [threading.Thread(target=run, args=[name]) for name in jobs]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for name in jobs:
+        assert all(np.array_equal(vertices, alone[name]) for vertices in together[name]), name
+
+
+def test_an_error_in_one_run_is_none_in_another():
+    outcomes = {}
+
+    def run(name, faces):
+        try:
+            outcomes[name] = df.fair(meshes.icosahedron()[0], faces, 3).report["converged"]
+        except df.FairingError as error:
+            outcomes[name] = error.code
+
+    good = meshes.icosahedron()[1]
+    bad = good.copy()
+    bad[3, 1] = 99
+    threads = [threading.Thread(target=run, args=[k, bad if k % 2 else good]) for k in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert outcomes == {k: "INDEX_OUT_OF_RANGE" if k % 2 else True for k in range(6)}
+
+
+def test_a_run_from_within_progress():
+    """The callback may fair another mesh."""
+    inner = []
+
+    def nest(fraction, phase):
+        if not inner:
+            inner.append(df.fair(*meshes.octahedron(), 2).vertices)
+
+    df.fair(*meshes.creature(), 3, progress=nest)
+    assert np.array_equal(inner[0], df.fair(*meshes.octahedron(), 2).vertices)
