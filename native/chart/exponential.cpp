@@ -16,11 +16,15 @@ Vec2 polar(double radius, double angle) { return {radius * std::cos(angle), radi
 // A point's share of the face's area at unit spacing, for one corner of one cell.
 double corner_share(const Face& face, const FlatFace& flat) { return flat.area / face.size; }
 
-// The row of the face on one side of an edge point, front to back, in a frame whose x axis runs along the side.
-void append_row(const Face& face, const FlatFace& flat, int s, bool turned, std::vector<Vec2>& ring) {
-  const Vec2 along(flat.length[std::size_t(s)], 0);
+// The row of the face on one side of an edge point, front to back, in a frame whose x axis runs along the side. The face
+// is stretched along the edge until its side is as long as the edge: were the two rows and the edge spaced differently,
+// every function with a slope along the edge would seem to twist, the more the finer the lattice.
+void append_row(const Face& face, const FlatFace& flat, int s, double length, bool turned,
+                std::vector<Vec2>& ring) {
   const auto previous = std::size_t((s + face.size - 1) % face.size);
-  const Vec2 up = polar(flat.length[previous], flat.angle[std::size_t(s)]);
+  Vec2 up = polar(flat.length[previous], flat.angle[std::size_t(s)]);
+  up.x() *= length / flat.length[std::size_t(s)];
+  const Vec2 along(length, 0);
   const double sign = turned ? -1 : 1;
   if (face.quad()) ring.push_back(sign * (up + along));
   ring.push_back(sign * up);
@@ -67,7 +71,7 @@ Chart ChartMaker::exponential_edge(Index e, const std::vector<FlatFace>& flat) c
     const Side& side = mesh_.sides[std::size_t(edge.side[std::size_t(h)])];
     const Face& face = mesh_.faces[std::size_t(side.face)];
     const FlatFace& shape = flat[std::size_t(side.face)];
-    append_row(face, shape, side.local, h == 1, chart.ring);
+    append_row(face, shape, side.local, length, h == 1, chart.ring);
     chart.area += (face.quad() ? 2 : 3) * corner_share(face, shape);
   }
   return chart;

@@ -88,10 +88,11 @@ Chart ChartMaker::tangent_edge(Index e) const {
     if (edge.side[std::size_t(h)] < 0) continue;
     const Side& side = mesh_.sides[std::size_t(edge.side[std::size_t(h)])];
     const Face& face = mesh_.faces[std::size_t(side.face)];
-    const Corner m = middle(mesh_, face, side.local);
-    if (face.quad()) chart.ring.push_back(frame.project(m.up + m.along));
-    chart.ring.push_back(frame.project(m.up));
-    chart.ring.push_back(frame.project(m.up - m.along));
+    const Vec2 up = frame.project(middle(mesh_, face, side.local).up),
+               along = h == 0 ? forward : Vec2(-forward);
+    if (face.quad()) chart.ring.push_back(up + along);
+    chart.ring.push_back(up);
+    chart.ring.push_back(up - along);
   }
   return chart;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/thin_plate.h"
 
+#include "energy/edge_pass.h"
 #include "energy/face_passes.h"
 #include "lattice/ring.h"
 
@@ -104,21 +105,27 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
     if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) return;
     const EdgeRingLanes ring(mesh, e, n);
-    const EdgeLanes<T> lanes(lattice, x, e, scratch);
+    // The edge, its rows, and the right row once more, turned to run with the edge; then what goes to each neighbour.
+    const std::size_t stride = 3 * std::size_t(n + 1), count = 3 * std::size_t(n - 1);
+    scratch.resize(4 * stride + max_edge_ring * count);
+    const EdgeLanes<T> lanes(lattice, x, e, scratch.data());
+    T* turned = scratch.data() + 3 * stride;
+    if (right)
+      for (int k = 0; k <= n; ++k) copy_point(turned + 3 * (n - k), lanes.lane[2] + 3 * k);
+    const T* in[max_edge_ring];
+    for (int j = 0; j < ring.size; ++j)
+      in[j] = ring.lane[j] == 2 ? turned + 3 * (n - ring.at[j] + 1)
+                                : lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + 1);
+    T* z = scratch.data() + 4 * stride;
+    edge_pass(ring.size, count, in, lanes.lane[0] + 3, rows.edge.data() + 24 * std::size_t(e), scale, z,
+              run + 3);
     T* const target[3] = {run, left, right};
-    const T* row = rows.edge.data() + 24 * std::size_t(e);
-    for (int k = 1; k < n; ++k) {
-      const Moment<T> moment = edge_moment(ring, lanes, row, k);
-      T* own = run + 3 * k;
-      for (int j = 0; j < ring.size; ++j) {
-        T z[3];
-        moment.transposed(row + j, 8, z);
-        T* other = target[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j] * k);
-        for (std::size_t a = 0; a < 3; ++a) {
-          other[a] += scale * z[a];
-          own[a] -= scale * z[a];
-        }
-      }
+    for (int j = 0; j < ring.size; ++j, z += count) {
+      T* to = target[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j]);
+      if (ring.step[j] > 0)
+        for (std::size_t i = 0; i < count; ++i) to[i] += z[i];
+      else
+        for (std::size_t k = 0; k < count; k += 3) add_point(to - k, z + k);
     }
   };
 
@@ -126,7 +133,7 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
     const bool quad = mesh.faces[std::size_t(f)].quad();
     if (n < (quad ? 2 : 3)) return;
     const std::size_t size = 3 * closed_size(quad, std::size_t(n));
-    const std::size_t moments = passes::Moments<T>::size(n, 4);
+    const std::size_t moments = face_pass_scratch(n);
     if (scratch.size() < moments + size) scratch.resize(moments + size);
     T* gathered = scratch.data() + moments;
     gather_face(lattice, x, f, gathered);
@@ -234,7 +241,8 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                       for (std::size_t e = begin; e < end; ++e) {
                         if (!rows.stencils.edge_fit[e]) continue;
                         const EdgeRingLanes ring(mesh, Index(e), n);
-                        const EdgeLanes<double> lanes(lattice, x, Index(e), scratch);
+                        scratch.resize(9 * std::size_t(n + 1));
+                        const EdgeLanes<double> lanes(lattice, x, Index(e), scratch.data());
                         for (int k = 1; k < n; ++k)
                           edge[e] += edge_moment(ring, lanes, rows.edge.data() + 24 * e, k).square();
                       }

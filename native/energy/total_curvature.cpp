@@ -42,7 +42,8 @@ double vertex_energy(const Lattice& lattice, Index v, const double* x, Measure& 
 double edge_energy(const Lattice& lattice, Index e, const double* x, Measure& measure,
                    std::vector<double>& scratch) {
   const EdgeRingLanes ring(lattice.mesh(), e, lattice.n());
-  const EdgeLanes<double> lanes(lattice, x, e, scratch);
+  scratch.resize(9 * std::size_t(lattice.n() + 1));
+  const EdgeLanes<double> lanes(lattice, x, e, scratch.data());
   double sum = 0;
   for (int k = 1; k < lattice.n(); ++k) {
     measure.start(lanes.lane[0] + 3 * k);

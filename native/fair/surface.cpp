@@ -131,8 +131,7 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   }
 
   CycleLevel& cycle_level = cycle_->levels[index];
-  if (cycle_level.largest_eigenvalue == 0)
-    cycle_level.largest_eigenvalue = largest_eigenvalue(*cycle_level.op, workers_, pcg_.residual.data());
+  if (cycle_level.largest_eigenvalue == 0) cycle_level.largest_eigenvalue = estimate_eigenvalue(index);
   PcgLimits limits;
   limits.tolerance = tolerance;
   limits.residual_scale = scale.residual;
@@ -182,6 +181,13 @@ void SurfaceSystem::solve_direct(int level, std::span<const Vec3> targets, doubl
     report.residual = scale.residual > 0 ? now / scale.residual : 0;
     report.converged = report.residual <= tolerance || now <= scale.noise;
   }
+}
+
+// Stencils repeat from level to level, and from some fineness on so does the spectrum's upper end.
+double SurfaceSystem::estimate_eigenvalue(std::size_t index) {
+  const double below = index > 0 ? cycle_->levels[index - 1].largest_eigenvalue : 0;
+  if (below > 0 && lattice(base_ + int(index) - 1).n() >= 8) return 1.03 * below;
+  return largest_eigenvalue(*cycle_->levels[index].op, workers_, pcg_.residual.data());
 }
 
 // From here on this level is the coarsest, solved directly.

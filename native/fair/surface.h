@@ -68,6 +68,7 @@ class SurfaceSystem {
                           double* x);
   void solve_direct(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
                     double* x, LevelReport& report);
+  double estimate_eigenvalue(std::size_t index);
   void promote_to_coarsest(std::size_t index);
   void raise_degree(const PcgResult& result, double tolerance);
   void choose_degree(const LevelReport& report, double tolerance, double next_tolerance);

@@ -51,16 +51,15 @@ struct EdgeRingLanes {
   }
 };
 
-// The edge and the rows beside it, gathered into scratch.
+// The edge and the rows beside it, gathered into scratch of 9 (n + 1) numbers.
 template <class T>
 struct EdgeLanes {
   T* lane[3];
 
-  EdgeLanes(const Lattice& lattice, const T* x, Index e, std::vector<T>& scratch) {
+  EdgeLanes(const Lattice& lattice, const T* x, Index e, T* scratch) {
     const ControlMesh& mesh = lattice.mesh();
     const std::size_t stride = 3 * std::size_t(lattice.n() + 1);
-    scratch.resize(3 * stride);
-    for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch.data() + l * stride;
+    for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch + l * stride;
     gather_edge(lattice, x, e, lane[0]);
     for (std::size_t h = 0; h < 2; ++h) {
       const Index side = mesh.edges[std::size_t(e)].side[h];

@@ -115,7 +115,8 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
     if (n == 1) return;
     const EdgeRingLanes ring(mesh, e, n);
     const HalfWay middle(ring, n);
-    const EdgeLanes<T> lanes(coarse, x, e, scratch);
+    scratch.resize(9 * std::size_t(n + 1));
+    const EdgeLanes<T> lanes(coarse, x, e, scratch.data());
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
@@ -225,7 +226,8 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
     if (n == 1) return;
     const EdgeRingLanes ring(mesh, e, n);
     const HalfWay middle(ring, n);
-    const EdgeLanes<T> lanes(fine, x, e, scratch);
+    scratch.resize(9 * std::size_t(2 * n + 1));
+    const EdgeLanes<T> lanes(fine, x, e, scratch.data());
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
