@@ -13,11 +13,13 @@ namespace {
 // Coarse levels are only starts for finer ones: solving them further than their own error is waste.
 constexpr double coarse_tolerance = 1e-4;
 
-constexpr int first_probe = 6, probe_iterations = 10;
+constexpr int first_probe = 6, probe_interval = 10;  // iterations
 constexpr double iterations_wanted = 14;
 constexpr int most_degree = 96;
-constexpr int degree_of_hard = 24;  // from here on a direct solve is cheaper, where it fits
 constexpr int refinement_steps = 3;
+
+// The smoother's degree from which on factoring a level is cheaper than smoothing it.
+int degree_of_hard(std::size_t unknowns) { return 10 + int(unknowns / 5000); }
 
 std::size_t count_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
   const ControlMesh& mesh = lattice.mesh();
@@ -139,23 +141,22 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   limits.energy_scale = std::sqrt(energy(level, x));
   limits.max_iterations = options_.max_iterations;
   const bool adapt = options_.smoother_degree == 0 && !report.direct;
-  PcgResult result;
-  for (int left = options_.max_iterations; left > 0 && !result.converged;
-       left = options_.max_iterations - report.iterations) {
-    limits.max_iterations =
-        adapt ? std::min(left, report.iterations == 0 ? first_probe : probe_iterations) : left;
-    result = conjugate_gradients(*cycle_, index, workers_, limits, pcg_, x);
+  const bool may_factor = adapt && report.unknowns <= direct_limit_of_hard;
+  const auto too_hard = [&] { return may_factor && cycle_->degree >= degree_of_hard(report.unknowns); };
+  PcgResult result =
+      conjugate_gradients(*cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
+        if (adapt && so_far.iterations % probe_interval == first_probe) raise_degree(so_far, tolerance);
+        return !too_hard();
+      });
+  report.iterations = result.iterations;
+  report.residuals = result.history;
+  if (!result.converged && too_hard()) {
+    promote_to_coarsest(index);
+    solve_direct(level, targets, tolerance, scale, x, report);
+    if (report.converged) return report;
+    result =
+        conjugate_gradients(*cycle_, index, workers_, limits, pcg_, x, [](const PcgResult&) { return true; });
     report.iterations += result.iterations;
-    const auto begin = result.history.begin() + (report.residuals.empty() ? 0 : 1);
-    report.residuals.insert(report.residuals.end(), begin, result.history.end());
-    if (result.stalled) break;
-    if (!adapt || report.direct || result.converged) continue;
-    raise_degree(result, tolerance);
-    if (cycle_->degree >= degree_of_hard && report.unknowns <= direct_limit_of_hard) {
-      promote_to_coarsest(index);
-      solve_direct(level, targets, tolerance, scale, x, report);
-      if (report.converged) return report;
-    }
   }
   report.smoother_degree = cycle_->degree;
   report.residual = result.residual;
@@ -195,7 +196,7 @@ void SurfaceSystem::promote_to_coarsest(std::size_t index) {
   coarse_ = std::make_unique<CoarseSolver>(*operators_[index], workers_, 0, true);
   cycle_->coarse = coarse_.get();
   cycle_->base = index;
-  cycle_->degree = degree_of_hard / 2;
+  cycle_->degree = std::min(cycle_->degree, 12);
 }
 
 // Skew makes a mesh hard, on all levels alike. What the iterations so far have gained tells how hard; the smoother's

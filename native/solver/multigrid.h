@@ -25,7 +25,7 @@ class VCycle {
   std::vector<CycleLevel> levels;  // coarsest first
   CoarseSolver* coarse = nullptr;  // of levels[base]
   std::size_t base = 0;
-  int degree = 4;  // of the smoother, before and after
+  int degree = 6;  // of the smoother, before and after
 
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten.
   void run(std::size_t top);

@@ -12,7 +12,7 @@ namespace fairing {
 constexpr double energy_slack = 10;
 
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
-                              PcgState& s, double* x, const std::function<void(int, double)>& each) {
+                              PcgState& s, double* x, const std::function<bool(const PcgResult&)>& each) {
   CycleLevel& level = cycle.levels[top];
   const std::size_t size = 3 * level.op->points();
   double *r = s.residual.data(), *p = s.direction.data(), *q = s.image.data();
@@ -26,6 +26,7 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
     return limits.residual_scale > 0 ? norm / limits.residual_scale : 0.0;
   };
   double norm = residual_norm(), rz = 0, step = 0;
+  int degree = cycle.degree;
   result.residual = relative(norm);
   result.history.push_back(result.residual);
   if (norm <= limits.noise) {
@@ -43,10 +44,13 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
     result.converged = (result.residual <= limits.tolerance || norm <= limits.noise) &&
                        (result.energy_error <= energy_slack * limits.tolerance || norm <= limits.noise);
     if (result.converged || result.iterations >= limits.max_iterations) return result;
+    // A new preconditioner starts a new sequence of conjugate directions.
+    const bool fresh = result.iterations == 0 || cycle.degree != degree;
+    degree = cycle.degree;
     // Flexible beta: z.(r - r_old) / (z_old.r_old), and r - r_old is -step q.
-    const double beta = result.iterations == 0 ? 0.0 : -step * unit * sum(workers, size, [&](std::size_t i) {
-      return double(z[i]) * q[i];
-    }) / rz;
+    const double beta =
+        fresh ? 0.0
+              : -step * unit * sum(workers, size, [&](std::size_t i) { return double(z[i]) * q[i]; }) / rz;
     for_each_index(workers, size,
                    [&](std::size_t i) { p[i] = unit * double(z[i]) + (beta != 0 ? beta * p[i] : 0.0); });
     rz = rz_new;
@@ -65,7 +69,7 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
     ++result.iterations;
     result.residual = relative(norm);
     result.history.push_back(result.residual);
-    if (each) each(result.iterations, result.residual);
+    if (!each(result)) return result;
   }
 }
 

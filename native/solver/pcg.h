@@ -32,9 +32,10 @@ struct PcgState {
 };
 
 // Preconditioned conjugate gradients on all three coordinates at once (one scalar system, so the iterates turn with the
-// mesh), with the flexible beta that a single-precision preconditioner wants. On entry state.residual is b - K x;
-// x is updated in place. `each` is called after every iteration.
+// mesh). The flexible beta allows for a preconditioner of single precision, and for one that changes on the way: `each`
+// may raise cycle.degree after an iteration; it returns false to stop. On entry state.residual is b - K x; x is updated
+// in place.
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
-                              PcgState& state, double* x, const std::function<void(int, double)>& each = {});
+                              PcgState& state, double* x, const std::function<bool(const PcgResult&)>& each);
 
 }  // namespace fairing

@@ -136,7 +136,7 @@ def fair(
     o.memory_limit = whole("memory_limit", memory_limit)
     o.measure = bool(measure)
     if weights is not None:
-        o.weights = numbers(weights, "weights", "iuf").astype(float).reshape(-1)
+        o.weights = weight_array(weights)
     if crease_edges is not None:
         o.crease_edges = crease_pairs(crease_edges)
     if crease_angle is not None:
@@ -158,9 +158,16 @@ def crease_pairs(edges: ArrayLike):
     return pairs.reshape(-1, 2)
 
 
+def weight_array(weights: ArrayLike):
+    array = numbers(weights, "weights", "iuf").astype(float)
+    if array.ndim != 1 or not array.size:
+        raise fairing_error("BAD_SHAPE", f"weights has shape {array.shape}; it must be (n,), one a vertex.")
+    return array
+
+
 def choice(name: str, value: str, options):
     members = options.__members__
-    if value not in members:
+    if not isinstance(value, str) or value not in members:
         raise choice_error(name, value, tuple(members))
     return members[value]
 
