@@ -12,6 +12,7 @@ from render_zebra import dress_in_zebra
 TILE = (960, 480)  # pixels of one pair
 COLUMNS = 2
 CLAY_SAMPLES, ZEBRA_SAMPLES = 20, 10  # denoised; stripes light themselves and are clean early
+FADE = 0.05  # of a tile's width
 PAPER = (0.815, 0.812, 0.805)  # behind everything, as displayed; darker than the light stripes
 
 
@@ -44,7 +45,10 @@ def compose(pairs, path):
 
 
 def _lay(paper, tile):
-    alpha = tile[..., 3:]
+    """`tile` on `paper`; long shadows fade out towards its sides instead of being cut off there."""
+    across = np.linspace(0.0, 1.0, tile.shape[1], dtype=np.float32)
+    fade = np.clip(np.minimum(across, 1 - across) / FADE, 0, 1)
+    alpha = tile[..., 3:] * fade[:, None]
     paper[..., :3] = alpha * tile[..., :3] + (1 - alpha) * paper[..., :3]
 
 

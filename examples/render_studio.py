@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small photo studio: soft key, cool fill and a rim light, a floor that only takes shadows, a long lens."""
+"""A small photo studio: soft key, cool fill and a rim light, a floor that only takes shadows."""
 
 from math import cos, radians, sin
 
 import bpy
 from mathutils import Vector
 
-DISTANCE = 18.0  # far, with a long lens: two objects side by side are seen alike
+DISTANCE = 18.0
 ELEVATION = radians(17)
 SPACING = 2.35  # between the middles of the two objects, which are two units across
 
@@ -124,8 +124,7 @@ def _light(name, location, size, watts, colour, shadow=True):
 
 def _camera(scene):
     camera = bpy.data.cameras.new("Camera")
-    camera.sensor_fit = "HORIZONTAL"
-    view_width = 2 * SPACING + 0.45
-    camera.lens = camera.sensor_width * DISTANCE / view_width
+    camera.type = "ORTHO"  # both objects are seen from the very same direction
+    camera.ortho_scale = 2 * SPACING + 0.55
     scene.camera = bpy.data.objects.new("Camera", camera)
     scene.collection.objects.link(scene.camera)
