@@ -14,6 +14,7 @@
 #include "energy/assemble.h"
 #include "energy/thin_plate.h"
 #include "lattice/linear.h"
+#include "lattice/ring.h"
 #include "meshes.h"
 #include "transfer/transfer.h"
 #include "written_rings.h"
@@ -682,6 +683,29 @@ TEST(Charts, SharesAddUpToTheArea) {
       EXPECT_NEAR(area / n / n, expected, 1e-12 * expected) << n;
     }
   }
+}
+
+TEST(Charts, SpaceTheRowsOfAnEdgeAlike) {
+  // Else a function with a slope along the edge has a twist that grows with the level.
+  for (const ChartKind kind : {ChartKind::exponential, ChartKind::tangent})
+    for (const double blend : {1.0, 0.3})
+      for (const auto& [name, mesh] : meshes()) {
+        SCOPED_TRACE(name);
+        const ChartMaker charts(mesh, {.kind = kind, .exponent = 0.5, .blend = blend});
+        for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
+          const Chart chart = charts.edge(e);
+          const EdgeRingLanes ring(mesh, e, 1);
+          for (int lane = 0; lane < 3; ++lane)
+            for (int j = 0; j < ring.size; ++j)
+              for (int k = 0; k < ring.size; ++k) {
+                if (ring.lane[j] != lane || ring.lane[k] != lane) continue;
+                // Steps forward along the edge; a right row runs against it.
+                const int steps = (ring.at[j] - ring.at[k]) * (lane == 2 ? -1 : 1);
+                const Vec2 moved = chart.ring[std::size_t(j)] - chart.ring[std::size_t(k)];
+                EXPECT_LT((moved - steps * chart.ring[0]).norm(), 1e-13) << e << " lane " << lane;
+              }
+        }
+      }
 }
 
 TEST(Charts, UniformChartIsRegular) {
