@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arrays of any layout, type and protection just work, give the same result, and are not changed."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+POINTS, FACES = meshes.torus()
+EXPECTED = df.fair(POINTS, FACES, 2)
+
+
+def read_only(array):
+    array = array.copy()
+    array.flags.writeable = False
+    return array
+
+
+def strided(array):
+    """Every other element of a larger array, the rest NaN or a wrong index."""
+    wide = np.full(
+        (2 * array.shape[0], 3 * array.shape[1]), np.nan if array.dtype.kind == "f" else -9, array.dtype
+    )
+    wide[::2, 1::3] = array
+    view = wide[::2, 1::3]
+    assert not view.flags.c_contiguous
+    return view
+
+
+def backwards(array):
+    """Negative strides."""
+    return array[::-1, ::-1].copy()[::-1, ::-1]
+
+
+def unaligned(array):
+    raw = np.zeros(array.nbytes + 1, np.uint8)
+    view = raw[1:].view(array.dtype).reshape(array.shape)
+    view[...] = array
+    assert not view.flags.aligned
+    return view
+
+
+LAYOUTS = {
+    "read_only": read_only,
+    "fortran": np.asfortranarray,
+    "strided": strided,
+    "backwards": backwards,
+    "unaligned": unaligned,
+    "big_endian": lambda a: a.astype(a.dtype.newbyteorder(">")),
+    "list": np.ndarray.tolist,
+    "tuples": lambda a: tuple(map(tuple, a.tolist())),
+    "list_of_arrays": list,
+    "subclass": lambda a: np.ma.masked_array(a),
+}
+
+
+def assert_same(result, expected=EXPECTED):
+    assert result.vertices.tobytes() == expected.vertices.tobytes()
+    assert result.triangles.tobytes() == expected.triangles.tobytes()
+
+
+def snapshot(array):
+    return array.tobytes() if isinstance(array, np.ndarray) else repr(array)
+
+
+@pytest.mark.parametrize("layout", sorted(LAYOUTS))
+def test_any_layout(layout):
+    points, faces = LAYOUTS[layout](POINTS), LAYOUTS[layout](FACES)
+    before = snapshot(points), snapshot(faces)
+    assert_same(df.fair(points, faces, 2))
+    assert (snapshot(points), snapshot(faces)) == before
+
+
+@pytest.mark.parametrize("kind", ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64"])
+def test_any_integers(kind):
+    assert_same(df.fair(POINTS, FACES.astype(kind), 2))
+
+
+@pytest.mark.parametrize("kind", ["float16", "float32", "float64", "longdouble", "int16", "int64", "uint8"])
+def test_any_numbers(kind):
+    """The values as they are: a float32 is no other number as float64."""
+    points = (8 * (POINTS + 3)).astype(kind)
+    assert_same(df.fair(points, FACES, 2), df.fair(points.astype(float), FACES, 2))
+
+
+def test_flat_pair_of_corners_and_offsets():
+    offsets = np.arange(0, 4 * len(FACES) + 1, 4)
+    for kind in (np.int32, np.int64, np.uint32):
+        assert_same(df.fair(POINTS, (FACES.reshape(-1).astype(kind), offsets.astype(kind)), 2))
+
+
+def test_polygons_of_any_size_in_any_container():
+    points, faces = meshes.mixed_house()
+    expected = df.fair(points, faces, 2)
+    ragged = np.empty(len(faces), object)
+    ragged[:] = faces
+    flat = np.concatenate([np.array(f) for f in faces]), np.cumsum([0, *map(len, faces)])
+    for other in (ragged, [np.array(f, np.uint8) for f in faces], tuple(map(tuple, faces)), flat):
+        assert_same(df.fair(points, other, 2), expected)
+
+
+def test_two_triangles_in_a_tuple_are_two_triangles():
+    """And no pair of flat arrays."""
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.2]])
+    for faces in (((0, 1, 2), (2, 1, 3)), ((0, 3, 1), (0, 2, 3))):
+        assert_same(df.fair(points, faces, 2), df.fair(points, np.array(faces), 2))
+
+
+def test_numpy_scalars_as_options():
+    result = df.fair(POINTS, FACES, np.int8(2), metric_exponent=np.float32(0.5), threads=np.uint8(1))
+    assert_same(result)
+
+
+def test_features_and_weights_of_any_kind():
+    (points, faces), ridge = meshes.roof()
+    expected = df.fair(points, faces, 2, crease_edges=ridge, corner_vertices=[3])
+    for edges in (
+        ridge.tolist(),
+        ridge.astype(np.uint8),
+        np.asfortranarray(ridge),
+        ridge[::-1],
+        ridge[:, ::-1],
+    ):
+        result = df.fair(points, faces, 2, crease_edges=edges, corner_vertices=np.array([3], np.uint16))
+        assert_same(result, expected)
+    weights = np.arange(1, len(POINTS) + 1)
+    expected = df.fair(POINTS, FACES, 2, interpolation="approximate", weights=weights.astype(float))
+    for other in (weights, weights.tolist(), weights.astype(np.float32), strided(weights[:, None])[:, 0]):
+        assert_same(df.fair(POINTS, FACES, 2, interpolation="approximate", weights=other), expected)
+
+
+def test_results_are_the_callers_own():
+    """Writable, and alive after the result is gone."""
+    result = df.fair(POINTS, FACES, 1)
+    vertices, quads = result.vertices, result.faces[1]
+    del result
+    vertices += 1
+    assert np.array_equal(vertices[: len(POINTS)], POINTS + 1) and quads.max() == len(vertices) - 1
+    assert_same(df.fair(POINTS, FACES, 2))

@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every defect ends in a FairingError with its code and elements; nothing is changed, the process lives on."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import as_lists
+
+NAN, INF = float("nan"), float("inf")
+POINTS, FACES = meshes.icosahedron()
+
+
+def refusal(vertices, faces, *args, **options):
+    """The error; checks that neither array has changed."""
+    before = [np.array(a, copy=True) if isinstance(a, np.ndarray) else repr(a) for a in (vertices, faces)]
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, *args, **options)
+    for now, was in zip((vertices, faces), before):
+        same = now.tobytes() == was.tobytes() if isinstance(now, np.ndarray) else repr(now) == was
+        assert same
+    error = caught.value
+    assert isinstance(error, ValueError)
+    assert error.code.isupper() and len(str(error)) > 15 and str(error)[-1] in ".)"
+    return error
+
+
+def assert_refused(code, elements, *args, **options):
+    error = refusal(*args, **options)
+    assert (error.code, list(error.elements)) == (code, elements), str(error)
+
+
+def with_row(array, row, value):
+    changed = np.array(array)
+    changed[row] = value
+    return changed
+
+
+def test_empty_mesh():
+    assert_refused("EMPTY_MESH", [], np.empty((0, 3)), np.empty((0, 3), int))
+    assert_refused("EMPTY_MESH", [], [], [])
+    assert_refused("EMPTY_MESH", [], np.empty((0, 3)), FACES)
+
+
+def test_no_faces():
+    assert_refused("NO_FACES", [], POINTS, np.empty((0, 3), int))
+    assert_refused("NO_FACES", [], POINTS, [])
+
+
+@pytest.mark.parametrize("value", [NAN, INF, -INF, 1e200])
+def test_non_finite_coordinate(value):
+    vertices = with_row(with_row(POINTS, 4, [0, value, 0]), 9, [value, value, 1])
+    assert_refused("NON_FINITE", [4, 9], vertices, FACES)
+
+
+@pytest.mark.parametrize("index", [12, -1, 10**9, 2**31, 2**40, -(2**33), 2**62])
+def test_index_out_of_range(index):
+    assert_refused("INDEX_OUT_OF_RANGE", [3], POINTS, with_row(FACES.astype(np.int64), 3, [0, 1, index]))
+
+
+def test_unsigned_index_that_does_not_fit():
+    faces = FACES.astype(np.uint64)
+    faces[5, 2] = 2**64 - 1
+    assert_refused("INDEX_OUT_OF_RANGE", [5], POINTS, faces)
+
+
+def test_repeated_vertex_in_a_face():
+    assert_refused("REPEATED_VERTEX", [2], POINTS, with_row(FACES, 2, [1, 1, 5]))
+    assert_refused("REPEATED_VERTEX", [0], POINTS, [[0, 1, 2, 1], *as_lists(FACES)])
+
+
+def test_duplicate_face():
+    assert_refused("DUPLICATE_FACE", [4, 20], POINTS, np.concatenate([FACES, FACES[4:5]]))
+    turned = FACES[7:8, [1, 2, 0]]
+    assert_refused("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, turned]))
+    assert_refused("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, turned[:, ::-1]]))
+
+
+def test_edge_with_three_faces():
+    vertices = np.concatenate([POINTS, [[3.0, 3, 3]]])
+    a, b = FACES[0, :2]
+    error = refusal(vertices, np.concatenate([FACES, [[a, b, 12]]]))
+    assert error.code == "NONMANIFOLD_EDGE" and sorted(error.elements) == sorted([a, b])
+    assert f"{min(a, b)}-{max(a, b)}" in str(error)
+
+
+def test_two_fans_at_one_vertex():
+    vertices, faces = meshes.tetrahedron()
+    joined = np.where(faces == 2, 2, faces + 4)
+    vertices = np.concatenate([vertices, 2 * vertices[2] - vertices])
+    assert_refused("NONMANIFOLD_VERTEX", [2], vertices, np.concatenate([faces, joined[:, ::-1]]))
+
+
+def test_inconsistent_orientation():
+    faces = FACES.copy()
+    faces[[3, 11]] = faces[[3, 11], ::-1]
+    assert_refused("INCONSISTENT_ORIENTATION", [3, 11], POINTS, faces)
+
+
+def test_orientation_repaired_on_request():
+    faces = FACES.copy()
+    faces[[3, 11]] = faces[[3, 11], ::-1]
+    before = faces.copy()
+    result = df.fair(POINTS, faces, 2, repair_orientation=True)
+    assert list(result.report["flipped_faces"]) == [3, 11] and np.array_equal(faces, before)
+    corner = result.vertices[result.triangles]
+    volume = np.linalg.det(corner).sum() / 6
+    assert volume > 3
+    sound = df.fair(POINTS, FACES, 2, repair_orientation=True)
+    assert list(sound.report["flipped_faces"]) == []
+    assert np.abs(np.sort(sound.vertices, 0) - np.sort(result.vertices, 0)).max() < 1e-8
+
+
+@pytest.mark.parametrize("repair", [False, True])
+def test_a_moebius_strip_is_refused(repair):
+    assert_refused("NON_ORIENTABLE", list(range(7)), *meshes.moebius(), repair_orientation=repair)
+
+
+def test_zero_area_triangle():
+    vertices, faces = meshes.grid(2, 2)
+    cut = meshes.cut_quads((vertices, faces))[1]
+    flat = np.concatenate([vertices, [[0.5, 0.0, 0.0]]])
+    assert_refused("DEGENERATE_FACE", [8], flat, np.concatenate([cut, [[1, 0, 9]]]))
+
+
+def test_area_is_judged_by_shape_and_not_by_size():
+    assert df.fair(1e-30 * POINTS, FACES, 1).report["converged"]
+    assert df.fair(1e-7 * POINTS + 5.0, FACES, 1).report["converged"]
+    needle = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-14, 0]])
+    assert_refused("DEGENERATE_FACE", [0], needle, [[0, 1, 2]])
+
+
+def test_coincident_vertices_of_one_face():
+    a, b = sorted(FACES[6, :2].tolist())
+    error = refusal(with_row(POINTS, b, POINTS[a]), FACES)
+    assert (error.code, sorted(error.elements)) == ("COINCIDENT_VERTICES", [a, b])
+
+
+def test_coincident_vertices_apart_are_a_warning():
+    vertices, faces = meshes.single_triangle()
+    other = vertices * [1, -1, 1]
+    other[1, 1] -= 0.2
+    result = df.fair(np.concatenate([vertices, other]), np.array([[0, 1, 2], [3, 5, 4]]), 2)
+    (warning,) = result.report["warnings"]
+    assert (warning["code"], list(warning["elements"])) == ("COINCIDENT_VERTICES", [0, 3])
+
+
+@pytest.mark.parametrize(
+    "vertices, faces",
+    [
+        (POINTS[:, :2], FACES),
+        (POINTS.reshape(-1), FACES),
+        (POINTS[None], FACES),
+        (np.array(1.0), FACES),
+        (POINTS, FACES[:, :2]),
+        (POINTS, FACES.reshape(-1)),
+        (POINTS, FACES[None]),
+        (POINTS, [[0, 1]]),
+        (POINTS, [[0, 1, 2], [3]]),
+        (POINTS, [[0, 1, 2], []]),
+        (POINTS, [0, 1, 2]),
+        (POINTS, FACES.astype(float)),
+        (POINTS, [[0.0, 1.0, 2.0]]),
+        (POINTS, [["0", "1", "2"]]),
+        (POINTS, FACES.astype(bool)),
+        (POINTS + 1j, FACES),
+        (POINTS.astype(str), FACES),
+        (POINTS.astype(object), FACES),
+        ([[0, 0, 0], [1, 0], [0, 1, 0]], FACES),
+        (None, FACES),
+        (POINTS, (np.arange(6), np.array([0, 4, 2, 6]))),
+        (POINTS, None),
+        (POINTS, 7),
+        (POINTS, "012"),
+        (POINTS, [None, [0, 1, 2]]),
+    ],
+)
+def test_wrong_shape_or_type(vertices, faces):
+    assert refusal(vertices, faces).code == "BAD_SHAPE"
+
+
+@pytest.mark.parametrize("levels", [-1, -(2**40), 16, 10**6, 2**31, 2**70])
+def test_levels_out_of_range(levels):
+    assert_refused("BAD_OPTION", [], POINTS, FACES, levels)
+
+
+@pytest.mark.parametrize("levels", [2.5, 2.0, "3", None, [1], NAN])
+def test_levels_that_are_no_whole_number(levels):
+    assert_refused("BAD_OPTION", [], POINTS, FACES, levels)
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"energy": "cheap"},
+        {"energy": None},
+        {"energy": 7},
+        {"chart": "conformal"},
+        {"interpolation": "EXACT"},
+        {"boundary": ""},
+        {"boundary": ["curve"]},
+        {"method": 1},
+        {"metric_exponent": -0.01},
+        {"metric_exponent": 1.5},
+        {"metric_exponent": NAN},
+        {"metric_exponent": "half"},
+        {"chart_blend": 2},
+        {"chart_blend": INF},
+        {"tolerance": -1e-9, "interpolation": "approximate"},
+        {"tolerance": NAN, "interpolation": "approximate"},
+        {"epsilon": -1},
+        {"epsilon": INF},
+        {"epsilon": None},
+        {"relative_residual": 0},
+        {"relative_residual": -1},
+        {"relative_residual": 1},
+        {"max_iterations": 0},
+        {"max_iterations": -1},
+        {"threads": -1},
+        {"threads": 10**6},
+        {"threads": 1.5},
+        {"memory_limit": -1},
+        {"crease_angle": NAN},
+        {"crease_angle": "sharp"},
+        {"corner_angle": INF},
+        {"smoother_degree": -2},
+        {"sweeps": -1},
+        {"weights": np.ones(12)},
+    ],
+    ids=str,
+)
+def test_strange_options(option):
+    assert_refused("BAD_OPTION", [], POINTS, FACES, 1, **option)
+
+
+@pytest.mark.parametrize("value", [NAN, -1.0, -INF])
+def test_bad_weights(value):
+    weights = with_row(np.ones(12), [2, 7], value)
+    assert_refused("BAD_OPTION", [2, 7], POINTS, FACES, interpolation="approximate", weights=weights)
+
+
+@pytest.mark.parametrize(
+    "weights", [np.ones(11), np.ones(0), np.ones((12, 2)), ["a"] * 12, np.ones(12) * 1j, 5.0]
+)
+def test_weights_of_wrong_shape(weights):
+    error = refusal(POINTS, FACES, interpolation="approximate", weights=weights)
+    assert error.code in ("BAD_OPTION", "BAD_SHAPE")
+
+
+def test_creases_that_are_no_edges():
+    neighbours = {frozenset(e) for f in as_lists(FACES) for e in zip(f, [*f[1:], f[0]])}
+    far = next(v for v in range(1, 12) if frozenset((0, v)) not in neighbours)
+    good = sorted(next(iter(neighbours)))
+    assert_refused("BAD_FEATURE_EDGE", [0, far], POINTS, FACES, crease_edges=[good, [0, far]])
+    assert_refused("BAD_FEATURE_EDGE", [3, 3], POINTS, FACES, crease_edges=[[3, 3]])
+    quads = meshes.cube()
+    assert_refused("BAD_FEATURE_EDGE", [0, 3], *quads, crease_edges=[[0, 3]])
+
+
+def test_features_out_of_range():
+    assert_refused("INDEX_OUT_OF_RANGE", [99], POINTS, FACES, crease_edges=[[0, 99]])
+    assert_refused("INDEX_OUT_OF_RANGE", [-1, 12], POINTS, FACES, corner_vertices=[-1, 3, 12])
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"crease_edges": [0, 1, 2]},
+        {"crease_edges": [[0, 1, 2]]},
+        {"crease_edges": [[0.0, 1.0]]},
+        {"crease_edges": [[0], [1, 2]]},
+        {"corner_vertices": [0.5]},
+        {"corner_vertices": ["a"]},
+    ],
+    ids=str,
+)
+def test_features_of_wrong_shape(option):
+    assert refusal(POINTS, FACES, **option).code == "BAD_SHAPE"
+
+
+def test_no_features_are_no_error():
+    plain = df.fair(POINTS, FACES, 1).vertices
+    for none in ([], np.empty((0, 2), int), np.empty(0)):
+        assert np.array_equal(
+            df.fair(POINTS, FACES, 1, crease_edges=none, corner_vertices=[]).vertices, plain
+        )
+
+
+def test_too_large_for_the_limit():
+    """Refused with the figures, before anything large is allocated."""
+    error = refusal(POINTS, FACES, 5, memory_limit=10**6)
+    assert error.code == "TOO_LARGE"
+    assert "GB" in str(error) and str(20 * 4**5) in str(error)
+    assert (
+        df.fair(POINTS, FACES, 5, memory_limit=10**9, relative_residual=1e-2).report["predicted_bytes"]
+        > 10**6
+    )
+
+
+def test_too_large_for_this_machine():
+    error = refusal(POINTS, FACES, 15)
+    assert error.code == "TOO_LARGE" and str(20 * 4**15) in str(error)
+
+
+def test_too_large_for_32_bits():
+    error = refusal(POINTS, FACES, 14, memory_limit=2**50)
+    assert error.code == "TOO_LARGE" and "32" in str(error)
+
+
+def test_positional_misuse_is_pythons_own_error():
+    with pytest.raises(TypeError):
+        df.fair(POINTS)
+    with pytest.raises(TypeError):
+        df.fair(POINTS, FACES, 2, "thin_plate", 0.5)
+    with pytest.raises(TypeError):
+        df.fair(POINTS, FACES, colour="red")
+
+
+@pytest.mark.parametrize("boundary", ["curve", "linear", "free", "closed"])
+@pytest.mark.parametrize("levels", [0, 1, 2])
+def test_valence_360(boundary, levels):
+    vertices, faces = meshes.closed_pole(360) if boundary == "closed" else meshes.fan(360)
+    result = df.fair(vertices, faces, levels, boundary="curve" if boundary == "closed" else boundary)
+    assert np.isfinite(result.vertices).all() and np.abs(result.vertices).max() < 2
+    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+    assert result.report["converged"]
+
+
+def test_predicted_size_refuses_too():
+    for arguments in ((12, FACES[:, :2], 2), (12, FACES, -1), (12, FACES, 99), (-1, FACES, 2)):
+        with pytest.raises(df.FairingError):
+            df.predicted_size(*arguments)

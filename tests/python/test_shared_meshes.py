@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Real meshes: the good ones converge, the bad ones end in success or a named error."""
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from mesh_files import SUFFIXES, read_mesh
+from shared_data import creases_of, shared_files
+
+MOST_FACES = 2000
+CODES = {
+    "EMPTY_MESH",
+    "NO_FACES",
+    "BAD_SHAPE",
+    "NON_FINITE",
+    "INDEX_OUT_OF_RANGE",
+    "REPEATED_VERTEX",
+    "DUPLICATE_FACE",
+    "NONMANIFOLD_EDGE",
+    "NONMANIFOLD_VERTEX",
+    "INCONSISTENT_ORIENTATION",
+    "NON_ORIENTABLE",
+    "DEGENERATE_FACE",
+    "COINCIDENT_VERTICES",
+}
+
+
+def assert_sound(result, vertices):
+    assert np.isfinite(result.vertices).all()
+    assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
+
+
+def creases_in(path, faces):
+    """The listed ones that are there: some lists name an edge of a face that the file does not have."""
+    edges, corners = creases_of(path, sharper_than=2.0)
+    there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])}
+    return [e for e in edges.tolist() if frozenset(e) in there], corners
+
+
+@pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
+def test_good_meshes_converge(path):
+    vertices, faces = read_mesh(path)
+    if len(faces) > MOST_FACES:
+        pytest.skip("large")
+    edges, corners = creases_in(path, faces)
+    options = [{}]
+    if len(edges) + len(corners):
+        options.append({"crease_edges": edges, "corner_vertices": corners})
+    for option in options:
+        result = df.fair(vertices, faces, 2, threads=1, **option)
+        assert_sound(result, vertices)
+        assert result.report["converged"]
+        assert max(result.report["iterations"]) <= 40
+
+
+@pytest.mark.parametrize("path", shared_files("bad", *SUFFIXES))
+@pytest.mark.parametrize("repair", [False, True])
+def test_bad_meshes_end_well(path, repair):
+    try:
+        vertices, faces = read_mesh(path)
+    except ValueError as error:
+        pytest.skip(f"the reader refuses it: {error}")
+    try:
+        result = df.fair(vertices, faces, 1, repair_orientation=repair)
+    except df.FairingError as error:
+        assert error.code in CODES and len(str(error)) > 15
+        assert error.elements or error.code in ("EMPTY_MESH", "NO_FACES")
+        assert not repair or error.code != "INCONSISTENT_ORIENTATION"
+        return
+    assert_sound(result, vertices)
+    assert result.report["converged"]
