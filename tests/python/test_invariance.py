@@ -9,7 +9,6 @@ from surfaces import as_lists, assert_same_points, random_rotation, size_of
 
 TOLERANCE = 1e-9
 CASES = [(name, exponent) for name in sorted(meshes.ALL) for exponent in (0.5, 1.0, 0.0)]
-CASES.remove(("fan3", 1.0))  # so symmetric that the solver stops elsewhere: 5e-9 at the default residual
 OPTIONS = [
     {"chart": "tangent"},
     {"chart_blend": 0.5},

@@ -227,6 +227,18 @@ def test_nothing_to_solve():
         assert report["converged"] and report["residuals"] == [0.0] and report["iterations"] == [0]
 
 
+def test_residual_where_the_polyhedron_is_the_solution():
+    """A box whose every edge is a crease: flat sides, nothing to improve; the residual is no 2.7."""
+    vertices, faces = meshes.cube()
+    edges = np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)])
+    finest = df.fair(vertices, faces, 2, crease_edges=edges).report["levels"][-1]
+    assert finest["converged"] and finest["residual"] <= 1e-8
+
+
+def test_pole_of_360_in_forty_iterations():
+    assert df.fair(*meshes.closed_pole(360), 2).report["levels"][-1]["iterations"] <= 40
+
+
 def test_control_mesh_itself_is_the_polyhedron():
     for name in sorted(meshes.ALL):
         result = df.fair(*meshes.ALL[name](), 0)
