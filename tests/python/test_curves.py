@@ -163,7 +163,7 @@ def test_a_side_depends_on_nothing_beyond_its_corners():
 
 @pytest.mark.parametrize("flip", [False, True])
 def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
-    """To the last bit."""
+    """The curve to the last bit, the far side as far as it is solved: one system serves both sides."""
     (vertices, faces), loop, above, below = meshes.drum()
     here, there = (below, above) if flip else (above, below)
     moved = vertices.copy()
