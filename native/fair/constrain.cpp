@@ -10,8 +10,9 @@ namespace {
 constexpr double aim = 0.9999;   // of the tolerance: rounding must not carry a vertex over it
 constexpr double slack = 1.002;  // a fixed point within this is as good as there
 constexpr double gap_wanted = 1e-3;
-constexpr int most_rounds = 12;  // a level
-constexpr double pin = 1e4;      // stiffer than any surface: holds what is left over on the ball
+constexpr int most_rounds =
+    12;                      // on the finest level; those before, which cost little, take three times as many
+constexpr double pin = 1e4;  // stiffer than any surface: holds what is left over on the ball
 constexpr double round_tolerance = 1e-4;
 constexpr double largest_change = 10;
 constexpr double over_relaxation = 1.5;  // neighbours share the load, so weights answer less than one to one
@@ -69,7 +70,9 @@ bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
     gap += (weights_[v] - base_[v]) * std::abs(tolerance_ * tolerance_ - d * d);
     farthest = std::max(farthest, d);
   }
-  gap_ = energy > 0 ? gap / energy : 0.0;
+  start_energy_ = std::max(start_energy_, energy);
+  // A tolerance as large as the mesh leaves no energy to compare with.
+  gap_ = energy > 0 ? gap / std::max(energy, 1e-3 * start_energy_) : 0.0;
   return farthest <= slack * tolerance_ && gap_ <= gap_wanted;
 }
 
@@ -84,7 +87,8 @@ void ToleranceConstraint::adapt(const Array<double>& x) {
 
 void ToleranceConstraint::settle(SurfaceSystem& system, int level, Array<double>& x) {
   if (!active()) return;
-  for (int round = 0; round < most_rounds; ++round) {
+  const int rounds = level == system.top() ? most_rounds : 3 * most_rounds;
+  for (int round = 0; round < rounds; ++round) {
     if (settled(system.energy(level, x.data()), x)) return;
     adapt(x);
     system.set_weights(weights_, level);

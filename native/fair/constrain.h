@@ -48,7 +48,7 @@ class ToleranceConstraint {
   std::vector<double> base_;  // the caller's own weights
   VertexWeights weights_;
   int rounds_ = 0;
-  double gap_ = 0;
+  double gap_ = 0, start_energy_ = 0;
 };
 
 // The epsilon post-process of [Kobbelt 1997a, §5]: interpolated control vertices step to where the energy wants them,

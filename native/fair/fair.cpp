@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "energy/total_curvature.h"
 #include "execution/vectors.h"
+#include "fair/anchored.h"
 #include "fair/back_leg.h"
 #include "fair/check_options.h"
 #include "fair/constrain.h"
@@ -85,7 +86,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   CheckResult checked = check(input, {options.repair_orientation});
   report.warnings = std::move(checked.warnings);
   report.flipped_faces = checked.flipped_faces;
-  require_fit(predict_size(input, options.levels), options);
+  require_fit(least_size(input, options.levels), options);
 
   watch.enter(Phase::hierarchy, 0);
   Workers workers(options.threads);
@@ -113,6 +114,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
     const Unknowns unknowns = choose_unknowns(mesh, options);
     ToleranceConstraint constraint(mesh, unknowns, options, weight_unit(mesh, flatten(mesh, exponent)),
                                    options.tolerance / frame.scale);
+    require_anchored(mesh, unknowns, constraint.start_weights());
     SurfaceSystem system(mesh, curves, stencils, unknowns, constraint.start_weights(), options, workers,
                          monitor);
     const Lattice& finest = system.lattice(options.levels);

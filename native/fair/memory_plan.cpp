@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fair/memory_plan.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -8,6 +10,7 @@
 #include "check/error.h"
 #include "execution/memory.h"
 #include "lattice/lattice.h"
+#include "solver/coarse.h"
 
 namespace fairing {
 namespace {
@@ -17,21 +20,34 @@ struct Counts {
   std::int64_t sides() const { return 3 * triangles + 4 * quads; }
 };
 
-// What the driver, the solver and the passes hold at their peak, in numbers of bytes.
+// A sparse Cholesky factor of so many unknowns of a plate, as minimum degree leaves it.
+std::int64_t factor_bytes(std::int64_t unknowns) {
+  return 12 * unknowns * (40 + 4 * std::bit_width(std::uint64_t(unknowns)));
+}
+
+// What the driver, the solver and the passes hold at their peak. The factor of a level that proves hard on the way
+// (solver/coarse.h) comes on top.
 std::int64_t peak_bytes(const Counts& c, int levels) {
-  const std::int64_t n = std::int64_t(1) << levels;
-  const std::int64_t points = lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels);
-  const std::int64_t below =
-      levels > 0 ? lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels - 1) : 0;
-  const std::int64_t all_levels = points + below + below / 2;
-  const std::int64_t outer = points * 4 * 24;            // conjugate gradients in double: x, r, p, q
+  const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
+  const auto size = [&](int level) { return lattice_size(c.vertices, c.edges, c.triangles, c.quads, level); };
+  const std::int64_t points = size(levels), below = levels > 0 ? size(levels - 1) : 0;
+  constexpr std::int64_t tiny = 1600;  // as in surface.cpp, with the points that are no unknowns
+  std::int64_t all_levels = 0, factored = 0;
+  for (int l = 0; l <= levels; ++l) {
+    all_levels += size(l);
+    if (size(l) <= tiny) factored = size(l);
+  }
+  if (levels > 0) factored = std::max(factored, std::min<std::int64_t>(size(1), direct_limit));
+  const std::int64_t outer =
+      5 * 24 * points + 24 * below;  // in double: x, r, p, q, and one more to measure or diagonalize
   const std::int64_t inner = all_levels * (4 * 12 + 4);  // the cycle in float, and the diagonal
-  const std::int64_t exchange = (8 + 4) * (3 * c.sides() * (2 * n + 1) + 6 * c.edges + 6 * c.sides());
-  const std::int64_t rings = c.sides() * 2 * (40 + 2 * 36) / 2;
+  const std::int64_t exchange = 12 * (3 * c.sides() * (2 * n + 1) + 6 * c.edges + 6 * c.sides());
+  const std::int64_t rings = 2 * c.sides() * (5 * 4 + 5 * 4 + 3 * 8 + 3 * 8 + 3 * 4) / 2;
   const std::int64_t stencils =
-      rings + c.edges * (256 + 192 * 2 + 96) + (c.triangles + c.quads) * (96 + 128 + 64);
-  const std::int64_t output = n * n * (c.triangles + 2 * c.quads) * 12 + n * n * c.quads * 16;
-  return outer + inner + exchange + stencils + output;
+      rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
+  const std::int64_t output = n * n * (16 * c.triangles + 20 * c.quads);
+  return std::max(outer + inner + exchange + stencils + factor_bytes(factored), 24 * points + output) +
+         (1 << 14);
 }
 
 RunSize run_size(const Counts& c, int levels) {
@@ -48,10 +64,15 @@ RunSize run_size(const Counts& c, int levels) {
 RunSize predict_size(const PolygonMesh& mesh, int levels) {
   Counts c;
   c.vertices = mesh.vertex_count();
-  std::int64_t corners = 0;
+  std::vector<std::uint64_t> keys;
+  keys.reserve(mesh.corners.size());
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    const auto size = std::int64_t(mesh.face(f).size());
-    corners += size;
+    const auto face = mesh.face(f);
+    const auto size = std::int64_t(face.size());
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
+      keys.push_back(std::uint64_t(low) << 32 | std::uint64_t(high & 0xffffffff));
+    }
     if (size <= 3) {
       ++c.triangles;
     } else if (size == 4) {
@@ -62,9 +83,14 @@ RunSize predict_size(const PolygonMesh& mesh, int levels) {
       ++c.vertices;
     }
   }
-  c.edges += corners;  // as many as if no edge were shared
-  RunSize closed = run_size({c.vertices, c.edges - corners / 2, c.triangles, c.quads}, levels);
-  return closed;
+  std::sort(keys.begin(), keys.end());
+  c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
+  return run_size(c, levels);
+}
+
+RunSize least_size(const PolygonMesh& mesh, int levels) {
+  const auto corners = std::int64_t(mesh.corners.size());
+  return run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, levels);
 }
 
 RunSize predict_size(const ControlMesh& mesh, int levels) {

@@ -16,8 +16,11 @@ struct RunSize {
   std::int64_t bytes = 0;      // peak of the run's own arrays
 };
 
-// From the plain arrays alone (an upper bound; polygons count as if split around a centre).
+// From the plain arrays alone, checked or not (polygons count as if split around a centre; quads that will be split
+// count as quads).
 RunSize predict_size(const PolygonMesh& mesh, int levels);
+// The same at no cost, counting every edge as shared: no run is smaller.
+RunSize least_size(const PolygonMesh& mesh, int levels);
 // Exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels);
 

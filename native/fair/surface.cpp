@@ -18,8 +18,11 @@ constexpr double iterations_wanted = 14;
 constexpr int most_degree = 96;
 constexpr int refinement_steps = 3;
 
+// Levels up to so many unknowns are factored sooner than smoothed; the cycle ends on the finest of them.
+constexpr std::size_t tiny_level = 1200;
+
 // The smoother's degree from which on factoring a level is cheaper than smoothing it.
-int degree_of_hard(std::size_t unknowns) { return 10 + int(unknowns / 5000); }
+int degree_of_hard(std::size_t unknowns) { return 8 + int(unknowns / 5000); }
 
 std::size_t count_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
   const ControlMesh& mesh = lattice.mesh();
@@ -49,12 +52,18 @@ SurfaceSystem::SurfaceSystem(const ControlMesh& mesh, const FeatureCurves& curve
     if (l > base_)
       transfers_.push_back(std::make_unique<ThinPlateTransfer>(shared_, lattice(l - 1), lattice(l)));
   }
-  coarse_ = std::make_unique<CoarseSolver>(*operators_[0], workers,
-                                           count_unknowns(lattice(base_), shared_.unknowns), base_ == 0);
+  std::size_t end = 0;  // of the cycle
+  const auto unknowns_of = [&](std::size_t index) {
+    return count_unknowns(lattice(base_ + int(index)), shared_.unknowns);
+  };
+  while (base_ + int(end) < top() && unknowns_of(end + 1) <= tiny_level) ++end;
+  coarse_ = std::make_unique<CoarseSolver>(*operators_[end], workers, unknowns_of(end),
+                                           shared_.unknowns.any_vertex);
   for (Array<double>* a : {&pcg_.residual, &pcg_.direction, &pcg_.image})
     a->resize(3 * lattice(top()).size());
   cycle_ = std::make_unique<VCycle>(workers, monitor);
   cycle_->coarse = coarse_.get();
+  cycle_->base = end;
   if (options.smoother_degree > 0) cycle_->degree = options.smoother_degree;
   for (int l = base_; l <= top(); ++l) {
     CycleLevel level;
@@ -71,7 +80,7 @@ void SurfaceSystem::set_weights(const VertexWeights& weights, int level) {
   shared_.weights = weights;
   weighted_up_to_ = level;
   for (int l = base_; l <= level; ++l) operators_[std::size_t(l - base_)]->update();
-  if (coarse_->direct()) coarse_->refactor();
+  if (coarse_->direct() && level >= base_ + int(cycle_->base)) coarse_->refactor();
 }
 
 void SurfaceSystem::set_fixed(int level, std::span<const Vec3> targets, double* x) const {
@@ -115,7 +124,9 @@ SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> tar
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
-  return {norm, 2e-15 * terms};
+  // Where the polyhedron is the solution already, its residual is rounding and measures nothing.
+  const double noise = 2e-15 * terms;
+  return {std::max(norm, 1e8 * noise), noise};
 }
 
 LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets, double tolerance,
@@ -127,8 +138,13 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   report.unknowns = count_unknowns(lattice(level), shared_.unknowns);
   residual(level, targets, x, pcg_.residual.data());
 
+  if (index < cycle_->base) {  // beyond the cycle's end; met on the way up only
+    const CoarseSolver solver(*operators_[index], workers_, 0, true);
+    solve_direct(solver, level, targets, tolerance, scale, x, report);
+    return report;
+  }
   if (index == cycle_->base && coarse_->direct()) {
-    solve_direct(level, targets, tolerance, scale, x, report);
+    solve_direct(*coarse_, level, targets, tolerance, scale, x, report);
     if (report.converged) return report;
   }
 
@@ -152,7 +168,7 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   report.residuals = result.history;
   if (!result.converged && too_hard()) {
     promote_to_coarsest(index);
-    solve_direct(level, targets, tolerance, scale, x, report);
+    solve_direct(*coarse_, level, targets, tolerance, scale, x, report);
     if (report.converged) return report;
     result =
         conjugate_gradients(*cycle_, index, workers_, limits, pcg_, x, [](const PcgResult&) { return true; });
@@ -166,8 +182,8 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   return report;
 }
 
-void SurfaceSystem::solve_direct(int level, std::span<const Vec3> targets, double tolerance,
-                                 const Scales& scale, double* x, LevelReport& report) {
+void SurfaceSystem::solve_direct(const CoarseSolver& solver, int level, std::span<const Vec3> targets,
+                                 double tolerance, const Scales& scale, double* x, LevelReport& report) {
   const std::size_t size = 3 * lattice(level).size();
   const auto norm = [&] {
     return std::sqrt(sum(workers_, size, [&](std::size_t i) { return pcg_.residual[i] * pcg_.residual[i]; }));
@@ -175,7 +191,7 @@ void SurfaceSystem::solve_direct(int level, std::span<const Vec3> targets, doubl
   report.direct = true;
   report.smoother_degree = 0;
   for (int step = 0; step < refinement_steps && !report.converged; ++step) {
-    coarse_->solve(pcg_.residual.data(), pcg_.direction.data());
+    solver.solve(pcg_.residual.data(), pcg_.direction.data());
     for_each_index(workers_, size, [&](std::size_t i) { x[i] += pcg_.direction[i]; });
     residual(level, targets, x, pcg_.residual.data());
     const double now = norm();
@@ -202,10 +218,12 @@ void SurfaceSystem::promote_to_coarsest(std::size_t index) {
 // Skew makes a mesh hard, on all levels alike. What the iterations so far have gained tells how hard; the smoother's
 // degree follows, so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
 void SurfaceSystem::raise_degree(const PcgResult& result, double tolerance) {
-  const double gained = std::log(result.history.front() / result.residual);
-  const double missing =
-      std::log(std::max(result.residual / tolerance, result.energy_error / tolerance / 10));
-  const double ahead = gained > 0 ? result.iterations * missing / gained : 10.0 * iterations_wanted;
+  // The first iterations are the easy ones; the latest tell more.
+  const int window = std::min(result.iterations, probe_interval);
+  const double gained =
+      std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
+  const double missing = std::log(std::max(result.residual / tolerance, result.energy_error / tolerance));
+  const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
   if (ahead <= iterations_wanted) return;
   cycle_->degree =
       std::min(most_degree, int(std::ceil(cycle_->degree * std::min(8.0, ahead / iterations_wanted))));

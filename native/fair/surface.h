@@ -66,8 +66,8 @@ class SurfaceSystem {
   Scales scales(int level, std::span<const Vec3> targets);
   LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
                           double* x);
-  void solve_direct(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
-                    double* x, LevelReport& report);
+  void solve_direct(const CoarseSolver& solver, int level, std::span<const Vec3> targets, double tolerance,
+                    const Scales& scales, double* x, LevelReport& report);
   double estimate_eigenvalue(std::size_t index);
   void promote_to_coarsest(std::size_t index);
   void raise_degree(const PcgResult& result, double tolerance);

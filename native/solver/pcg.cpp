@@ -7,10 +7,6 @@
 
 namespace fairing {
 
-// The energy norm sees the smooth part of an error, which residuals of fourth order hide; there ten times the tolerance
-// is still far below what the discretization leaves.
-constexpr double energy_slack = 10;
-
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
                               PcgState& s, double* x, const std::function<bool(const PcgResult&)>& each) {
   CycleLevel& level = cycle.levels[top];
@@ -42,7 +38,7 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
     result.energy_error =
         limits.energy_scale > 0 ? std::sqrt(std::max(0.0, rz_new)) / limits.energy_scale : 0.0;
     result.converged = (result.residual <= limits.tolerance || norm <= limits.noise) &&
-                       (result.energy_error <= energy_slack * limits.tolerance || norm <= limits.noise);
+                       (result.energy_error <= limits.tolerance || norm <= limits.noise);
     if (result.converged || result.iterations >= limits.max_iterations) return result;
     // A new preconditioner starts a new sequence of conjugate directions.
     const bool fresh = result.iterations == 0 || cycle.degree != degree;

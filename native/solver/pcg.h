@@ -9,8 +9,9 @@
 namespace fairing {
 
 struct PcgLimits {
-  double tolerance = 1e-8;  // of the residual, relative to `residual_scale`; a tenth of what the error may be
-                            // in the energy norm, relative to `energy_scale`
+  double tolerance =
+      1e-8;  // of the residual, relative to `residual_scale`, and of the error in the energy norm,
+             // relative to `energy_scale`: residuals of fourth order hide the smooth part of an error
   double residual_scale = 0;  // the residual of the control polyhedron on this level
   double energy_scale = 0;    // sqrt(energy)
   double noise = 0;           // a residual below this is rounding
