@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Our solver beside sparse Cholesky factorizations of the very same system, in one process, in turns.
+//
+// fairing_bench_cholesky MESH LEVELS THREADS REPEATS [ldlt]
+//
+// MESH is a text file: vertices and faces counted, three coordinates a vertex, then a face a line, corners counted
+// first. Prints one JSON object. Seconds are of the wall clock and of the processor, lists in the order of the runs.
+//
+// What is timed on either side starts from the stencils and ends with all three coordinates:
+//   ours      levels, diagonals, full multigrid from the control polyhedron to a relative residual of 1e-8
+//   cholesky  ordering, factorization, three right-hand sides; the assembly of the matrix apart
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCholesky>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "check/check.h"
+#include "curve/feature_curves.h"
+#include "fair/frame.h"
+#include "fair/surface.h"
+#include "lattice/linear.h"
+
+namespace {
+
+using namespace fairing;
+using Three = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+OwnedPolygonMesh read_mesh(const char* path) {
+  std::ifstream in(path);
+  std::size_t vertices = 0, faces = 0;
+  in >> vertices >> faces;
+  OwnedPolygonMesh mesh;
+  mesh.coordinates.resize(3 * vertices);
+  for (double& c : mesh.coordinates) in >> c;
+  for (std::size_t f = 0; f < faces; ++f) {
+    int size = 0;
+    in >> size;
+    for (std::int64_t corner = 0; size > 0 && in >> corner; --size) mesh.corners.push_back(corner);
+    mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
+  }
+  if (!in) throw std::runtime_error(std::string("cannot read ") + path);
+  return mesh;
+}
+
+// Wall and processor seconds of one competitor, run by run.
+struct Times {
+  std::vector<double> wall, processor;
+
+  template <class Body>
+  void run(Body&& body) {
+    const auto start = std::chrono::steady_clock::now();
+    const double before = processor_now();
+    body();
+    processor.push_back(processor_now() - before);
+    wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+ private:
+  static double processor_now() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+  }
+};
+
+void print(const char* key, const std::vector<double>& values) {
+  std::printf("\"%s\": [", key);
+  for (std::size_t i = 0; i < values.size(); ++i) std::printf("%s%.6g", i ? ", " : "", values[i]);
+  std::printf("]");
+}
+
+void print(const char* key, const Times& times) {
+  std::printf(", \"%s\": {", key);
+  print("wall", times.wall);
+  std::printf(", ");
+  print("processor", times.processor);
+  std::printf("}");
+}
+
+// The race on one mesh: what both sides share.
+class Race {
+ public:
+  Race(const OwnedPolygonMesh& input, int levels, int threads) : workers_(threads) {
+    options_.levels = levels;
+    mesh_ = make_control_mesh(input.view(), options_.features, {});
+    const Frame frame = frame_of(mesh_);
+    for (Vec3& p : mesh_.positions) p = frame.to_working(p);
+    curves_ = refine_feature_edges(mesh_, 1 << levels, options_.chart.exponent);
+    stencils_ = make_stencils(mesh_, options_.chart, workers_);
+    unknowns_.vertex.assign(std::size_t(mesh_.vertex_count()), 0);
+    for (const auto feature : mesh_.feature_edge) unknowns_.edge.push_back(!feature);
+    lattice_ = std::make_unique<Lattice>(mesh_, levels);
+  }
+
+  const Lattice& lattice() const { return *lattice_; }
+
+  // Ours; returns the iterations on the finest level.
+  int multigrid(Array<double>& x) {
+    SurfaceSystem system(mesh_, curves_, stencils_, unknowns_, {}, options_, workers_, monitor_);
+    std::vector<LevelReport> reports;
+    system.solve_nested(mesh_.positions, x, reports, {}, [](int, Array<double>&) {});
+    return reports.back().iterations;
+  }
+
+  AssembledSystem assemble() const { return assemble_thin_plate(*lattice_, stencils_, unknowns_, {}); }
+
+  // The right-hand side of a correction to the control polyhedron, which goes into x.
+  Three right_hand_side(const AssembledSystem& system, Array<double>& x) {
+    x.resize(3 * lattice_->size());
+    Array<double> image(x.size());
+    refine_linearly(*lattice_, mesh_.positions, x.data());
+    const ThinPlateRows<double> rows(mesh_, stencils_);
+    Exchange<double> exchange;
+    apply_thin_plate(*lattice_, rows, unknowns_, {}, workers_, exchange, x.data(), image.data());
+    Three b(Eigen::Index(system.unknown_points.size()), 3);
+    for (std::size_t i = 0; i < system.unknown_points.size(); ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        b(Eigen::Index(i), Eigen::Index(a)) = -image[3 * std::size_t(system.unknown_points[i]) + a];
+    return b;
+  }
+
+ private:
+  FairOptions options_;
+  Workers workers_;
+  Monitor monitor_;
+  ControlMesh mesh_;
+  FeatureCurves curves_;
+  Stencils stencils_;
+  Unknowns unknowns_;
+  std::unique_ptr<Lattice> lattice_;
+};
+
+template <class Solver>
+Three factor_and_solve(const SparseMatrix& matrix, const Three& b) {
+  Solver solver;
+  solver.compute(matrix);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the factorization failed");
+  return solver.solve(b);
+}
+
+// The largest distance between two solutions: ours, and a start with its correction.
+double distance(const Array<double>& ours, const Array<double>& start, const AssembledSystem& system,
+                const Three& correction) {
+  double largest = 0;
+  for (std::size_t i = 0; i < system.unknown_points.size(); ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t at = 3 * std::size_t(system.unknown_points[i]) + a;
+      largest =
+          std::max(largest, std::abs(ours[at] - start[at] - correction(Eigen::Index(i), Eigen::Index(a))));
+    }
+  return largest;
+}
+
+void race(const char* path, int levels, int threads, int repeats, bool with_ldlt) {
+  const OwnedPolygonMesh input = read_mesh(path);
+  Race race(input, levels, threads);
+  Times multigrid, assembly, cholmod, ldlt;
+  AssembledSystem system;
+  assembly.run([&] { system = race.assemble(); });
+  Array<double> start, ours;
+  const Three b = race.right_hand_side(system, start);
+  Three correction;
+  int iterations = 0;
+  for (int r = 0; r < repeats; ++r) {
+    // a factorization warms or cools everything for the next run: ours goes before and after it
+    multigrid.run([&] { iterations = race.multigrid(ours); });
+    cholmod.run([&] {
+      correction = factor_and_solve<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
+    });
+  }
+  const double cholmod_distance = distance(ours, start, system, correction);
+  const double residual = (system.matrix * correction - b).norm() / b.norm();
+  double ldlt_distance = -1;
+  if (with_ldlt) {
+    ldlt.run([&] {
+      correction = factor_and_solve<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
+    });
+    ldlt_distance = distance(ours, start, system, correction);
+  }
+  std::printf("{\"points\": %zu, \"unknowns\": %zu, \"nonzeros\": %lld, \"iterations\": %d, \"threads\": %d",
+              race.lattice().size(), system.unknown_points.size(), (long long)system.matrix.nonZeros(),
+              iterations, threads);
+  std::printf(", \"cholmod_distance\": %.3g, \"cholmod_residual\": %.3g, \"ldlt_distance\": %.3g",
+              cholmod_distance, residual, ldlt_distance);
+  print("ours", multigrid);
+  print("assembly", assembly);
+  print("cholmod", cholmod);
+  print("ldlt", ldlt);
+  std::printf("}\n");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count < 5) {
+    std::fprintf(stderr, "usage: %s MESH LEVELS THREADS REPEATS [ldlt]\n", arguments[0]);
+    return 2;
+  }
+  try {
+    race(arguments[1], std::stoi(arguments[2]), std::stoi(arguments[3]), std::stoi(arguments[4]),
+         count > 5 && !std::strcmp(arguments[5], "ldlt"));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
