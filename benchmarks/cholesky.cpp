@@ -170,7 +170,8 @@ void race(const char* path, int levels, int threads, int repeats, bool with_ldlt
     // a factorization warms or cools everything for the next run: ours goes before and after it
     multigrid.run([&] { iterations = race.multigrid(ours); });
     cholmod.run([&] {
-      correction = factor_and_solve<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
+      correction =
+          factor_and_solve<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
     });
   }
   const double cholmod_distance = distance(ours, start, system, correction);

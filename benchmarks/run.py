@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The benchmarks: python3 build_tools/dev.py bench [NAME…]. Each prints a table and writes out/bench/NAME.json."""
+
+import argparse
+import json
+import os
+import platform
+import time
+from pathlib import Path
+
+import charts
+import cholesky
+import memory
+import million
+import paper
+import scaling
+import shared
+
+OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
+BENCHMARKS = {
+    "scaling": scaling.run,
+    "cholesky": cholesky.run,
+    "million": million.run,
+    "charts": charts.run,
+    "paper": paper.run,
+    "memory": memory.run,
+    "shared": shared.run,
+}
+
+
+def circumstances() -> dict:
+    """What the figures depend on besides the program."""
+    cpu = Path("/proc/cpuinfo")
+    names = (
+        [line.split(":")[1].strip() for line in cpu.read_text().splitlines() if "model name" in line]
+        if (cpu.exists())
+        else []
+    )
+    return {
+        "processor": names[0] if names else platform.processor(),
+        "cores": os.cpu_count(),
+        "load": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
+        "time": time.strftime("%Y-%m-%d %H:%M:%S"),
+    }
+
+
+def main() -> None:
+    """Runs the named benchmarks, all by default."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(BENCHMARKS))
+    names = parser.parse_args().names or list(BENCHMARKS)
+    unknown = [name for name in names if name not in BENCHMARKS]
+    if unknown:
+        parser.error(f"no such benchmark: {', '.join(unknown)}; there are {', '.join(BENCHMARKS)}.")
+    OUT.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        before = circumstances()
+        result = BENCHMARKS[name]()
+        text = json.dumps(
+            {"before": before, "load_after": circumstances()["load"], "result": result}, indent=1
+        )
+        (OUT / f"{name}.json").write_text(text + "\n")
+        print(f"{name}: {before['cores']} cores, load {before['load']} when it began", flush=True)
+
+
+if __name__ == "__main__":
+    main()
