@@ -89,7 +89,7 @@ class OBJECT_OT_fair_surface(FairingSettings, bpy.types.Operator):
             if result is None:
                 return {"CANCELLED"}
             faired.append(
-                (source, arrays, result, fine_edges(result.faces, arguments["crease_edges"], self.levels))
+                (source, arrays, result, fine_edges(result.faces, result.crease_edges, self.levels))
             )
 
         if context.mode == "EDIT_MESH":

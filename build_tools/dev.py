@@ -37,6 +37,10 @@ def setup() -> None:
 def demo(names: list[str]) -> int:
     """The main job, end to end."""
     setup()
+    if not python_environment.has_bpy():
+        fail(
+            "The demo runs Blender as a Python module, which exists for Python 3.11 only: run it with python3.11."
+        )
     OUT.mkdir(exist_ok=True)
     return run(VENV_PYTHON, ROOT / "examples" / "demo.py", *names, check=False)
 

@@ -174,6 +174,7 @@ py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
   d["quads"] = to_numpy(std::move(r.quads), 4);
   d["triangle_polygon"] = to_numpy(std::move(r.triangle_polygon), 1);
   d["quad_polygon"] = to_numpy(std::move(r.quad_polygon), 1);
+  d["crease_edges"] = to_numpy(std::move(r.crease_edges), 2);
   return d;
 }
 

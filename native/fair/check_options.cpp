@@ -31,6 +31,12 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   if (o.max_iterations < 1) refuse("max_iterations must be at least 1.");
   if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
+  if (o.method == Method::back_leg && (o.interpolation == Interpolation::approximate || o.epsilon > 0))
+    refuse(
+        "method=\"back_leg\" is the paper's own and interpolates; use multigrid for tolerance, weights or "
+        "epsilon.");
+  if (o.smoother_degree < 0 || o.smoother_degree > 1000) refuse("smoother_degree must be from 0 to 1000.");
+  if (o.sweeps < 0 || o.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)
     refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");

@@ -7,15 +7,17 @@
 namespace fairing {
 namespace {
 
-constexpr double aim = 0.9999;   // of the tolerance: rounding must not carry a vertex over it
-constexpr double slack = 1.002;  // a fixed point within this is as good as there
-constexpr double gap_wanted = 1e-3;
+constexpr double aim = 0.9999;  // of the tolerance: rounding must not carry a vertex over it
+constexpr double slack =
+    1.02;  // a fixed point within this is as good as there: finish() holds the rest on the ball
+constexpr double idle = 1e-9;  // of the tolerance: rounding
+constexpr double gap_wanted = 5e-4;
 constexpr int most_rounds =
     12;                      // on the finest level; those before, which cost little, take three times as many
 constexpr double pin = 1e4;  // stiffer than any surface: holds what is left over on the ball
 constexpr double round_tolerance = 1e-4;
 constexpr double largest_change = 10;
-constexpr double over_relaxation = 1.5;  // neighbours share the load, so weights answer less than one to one
+constexpr double largest_power = 6;
 
 constexpr int release_rounds = 3;
 
@@ -53,6 +55,8 @@ ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, const Unknowns
   for (std::size_t v = 0; v < options.weights.size(); ++v)
     if (unknowns.vertex[v]) base_[v] = unit * options.weights[v];
   weights_ = base_;
+  power_.assign(base_.size(), 1.0);
+  was_outside_.assign(base_.size(), 0);
   if (!active()) return;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
     if (unknowns.vertex[v]) weights_[v] = std::max(base_[v], unit);
@@ -62,25 +66,32 @@ double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) cons
   return (point(x, v) - mesh_.positions[v]).norm();
 }
 
+// The energy is convex, so the force 2 w d at each vertex bounds what the way to its ball's surface could still gain.
 bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
   double gap = 0, farthest = 0;
   for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
     if (!unknowns_.vertex[v]) continue;
     const double d = distance(x, v);
-    gap += (weights_[v] - base_[v]) * std::abs(tolerance_ * tolerance_ - d * d);
+    gap += 2 * (weights_[v] - base_[v]) * d * std::abs(tolerance_ - d);
     farthest = std::max(farthest, d);
   }
   start_energy_ = std::max(start_energy_, energy);
   // A tolerance as large as the mesh leaves no energy to compare with.
   gap_ = energy > 0 ? gap / std::max(energy, 1e-3 * start_energy_) : 0.0;
+  if (farthest <= idle * tolerance_) gap_ = 0;  // nothing pulls
   return farthest <= slack * tolerance_ && gap_ <= gap_wanted;
 }
 
 void ToleranceConstraint::adapt(const Array<double>& x) {
   for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
     if (!unknowns_.vertex[v]) continue;
-    const double factor = std::clamp(std::pow(distance(x, v) / tolerance_, over_relaxation),
-                                     1 / largest_change, largest_change);
+    const double ratio = distance(x, v) / tolerance_;
+    // Neighbours share the load, so weights answer less than one to one: press on where the error keeps its sign.
+    const bool outside = ratio > 1;
+    power_[v] = outside == bool(was_outside_[v]) ? std::min(largest_power, power_[v] * 1.4)
+                                                 : std::max(1.0, power_[v] / 2);
+    was_outside_[v] = outside;
+    const double factor = std::clamp(std::pow(ratio, power_[v]), 1 / largest_change, largest_change);
     weights_[v] = std::max({base_[v], factor * weights_[v], 1e-10 * unit_});
   }
 }

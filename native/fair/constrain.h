@@ -47,6 +47,8 @@ class ToleranceConstraint {
   double tolerance_, unit_;
   std::vector<double> base_;  // the caller's own weights
   VertexWeights weights_;
+  std::vector<double> power_;  // of the fixed point's step, per vertex
+  std::vector<std::uint8_t> was_outside_;
   int rounds_ = 0;
   double gap_ = 0, start_energy_ = 0;
 };

@@ -75,6 +75,14 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, Repo
   report.warnings.push_back({"NOT_CONVERGED", text, {}});
 }
 
+Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
+  Array<std::int32_t> pairs;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.feature_edge[e] && !mesh.edges[e].boundary())
+      pairs.insert(pairs.end(), mesh.edges[e].vertex.begin(), mesh.edges[e].vertex.end());
+  return pairs;
+}
+
 FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   MemoryLedger ledger;
   FairResult result;
@@ -86,7 +94,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   CheckResult checked = check(input, {options.repair_orientation});
   report.warnings = std::move(checked.warnings);
   report.flipped_faces = checked.flipped_faces;
-  require_fit(least_size(input, options.levels), options);
+  require_fit(input, options);
 
   watch.enter(Phase::hierarchy, 0);
   Workers workers(options.threads);
@@ -170,6 +178,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   result.quads = std::move(faces.quads);
   result.triangle_polygon = std::move(faces.triangle_polygon);
   result.quad_polygon = std::move(faces.quad_polygon);
+  result.crease_edges = crease_edges(mesh);
   report.peak_bytes = ledger.peak();
   watch.leave();
   monitor.report(Phase::done, 1);

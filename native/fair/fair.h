@@ -16,6 +16,7 @@ struct FairResult {
   Array<std::int32_t> quads;             // 4 a quad: of the control quads' lattices
   Array<std::int32_t> triangle_polygon;  // the input face that each comes from
   Array<std::int32_t> quad_polygon;
+  Array<std::int32_t> crease_edges;  // 2 an edge: the control edges that became creases, by whatever rule
   Report report;
 };
 

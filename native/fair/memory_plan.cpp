@@ -50,6 +50,10 @@ std::int64_t peak_bytes(const Counts& c, int levels) {
          (1 << 14);
 }
 
+std::size_t memory_limit(const FairOptions& options) {
+  return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
+}
+
 RunSize run_size(const Counts& c, int levels) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
@@ -88,11 +92,6 @@ RunSize predict_size(const PolygonMesh& mesh, int levels) {
   return run_size(c, levels);
 }
 
-RunSize least_size(const PolygonMesh& mesh, int levels) {
-  const auto corners = std::int64_t(mesh.corners.size());
-  return run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, levels);
-}
-
 RunSize predict_size(const ControlMesh& mesh, int levels) {
   Counts c;
   c.vertices = mesh.vertex_count();
@@ -102,7 +101,7 @@ RunSize predict_size(const ControlMesh& mesh, int levels) {
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {
-  const std::size_t limit = options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
+  const std::size_t limit = memory_limit(options);
   const auto gigabytes = [](double bytes) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g GB", bytes / 1e9);
@@ -118,6 +117,14 @@ void require_fit(const RunSize& size, const FairOptions& options) {
     throw FairingError(
         ErrorCode::too_large,
         std::to_string(size.triangles) + " triangles are more than 32-bit ids can name. Use fewer levels.");
+}
+
+void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
+  // Every edge shared, and no vertex more than there are: no run is smaller.
+  const auto corners = std::int64_t(mesh.corners.size());
+  const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels);
+  const std::size_t limit = memory_limit(options);
+  if (limit && least.bytes > std::int64_t(limit)) require_fit(predict_size(mesh, options.levels), options);
 }
 
 }  // namespace fairing

@@ -19,12 +19,12 @@ struct RunSize {
 // From the plain arrays alone, checked or not (polygons count as if split around a centre; quads that will be split
 // count as quads).
 RunSize predict_size(const PolygonMesh& mesh, int levels);
-// The same at no cost, counting every edge as shared: no run is smaller.
-RunSize least_size(const PolygonMesh& mesh, int levels);
 // Exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels);
 
-// Throws FairingError(too_large) with the figures when the run does not fit in the limit or in 32-bit ids.
+// Throws FairingError(too_large) with the figures when the run does not fit in the limit or in 32-bit ids; the first
+// costs nothing, and lets pass what only an exact count can tell.
+void require_fit(const PolygonMesh& mesh, const FairOptions& options);
 void require_fit(const RunSize& size, const FairOptions& options);
 
 }  // namespace fairing

@@ -1,14 +1,39 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Memory grows as the surface does."""
+"""Memory is predicted, and grows as the surface does."""
 
 import control_meshes as meshes
 import discrete_fairing as df
+import pytest
 
 
 def test_levels_quadruple_memory():
-    """A triangle costs no more on a finer level."""
+    """A triangle costs no more on a finer level; what the coarse levels cost shows less and less."""
     peaks = [
         df.fair(*meshes.cube(), levels, measure=False, relative_residual=1e-2).report["peak_bytes"]
         for levels in (5, 6, 7)
     ]
-    assert all(3.5 < fine / coarse < 4.2 for coarse, fine in zip(peaks, peaks[1:]))
+    assert all(3.0 < fine / coarse < 4.2 for coarse, fine in zip(peaks, peaks[1:]))
+
+
+@pytest.mark.parametrize("levels", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize(
+    "name", ["icosahedron", "random_hull", "torus_quads", "wavy_patch", "creature", "dodecahedron"]
+)
+def test_prediction_bounds_the_peak(name, levels):
+    report = df.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
+    assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
+
+
+@pytest.mark.parametrize(
+    "option", [{"tolerance": 0.02}, {"weights": [1.0] * 98}], ids=["tolerance", "weights"]
+)
+def test_prediction_bounds_the_peak_of_approximation(option):
+    report = df.fair(*meshes.creature(), 3, interpolation="approximate", **option).report
+    assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
+
+
+@pytest.mark.parametrize("name", sorted(meshes.OPEN))
+def test_predicted_size_counts_the_boundary(name):
+    vertices, faces = meshes.OPEN[name]()
+    result = df.fair(vertices, faces, 2)
+    assert len(result.vertices) <= df.predicted_size(len(vertices), faces, 2)["vertices"]

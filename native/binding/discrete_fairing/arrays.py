@@ -96,7 +96,7 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
 def predicted_size(
     vertex_count: int, faces: ArrayLike | Sequence[Sequence[int]], levels: int
 ) -> dict[str, int]:
-    """What a run would make and take, an upper bound, without running it.
+    """What a run would make and take, without running it (quads that will be split count as quads).
 
     Returns "vertices" and "triangles" of the refined surface, and "bytes", the peak of the run's own arrays.
     Raises FairingError BAD_SHAPE and BAD_OPTION.

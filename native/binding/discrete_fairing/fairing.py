@@ -183,7 +183,10 @@ def whole(name: str, value: object) -> int:
     except AttributeError:
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a whole number.") from None
     if not 0 <= number < 2**31 and not (name == "memory_limit" and 0 <= number < 2**63):
-        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must not be negative, nor over 2**31.")
+        raise fairing_error(
+            "BAD_OPTION",
+            f"{name} is {number}; it must be 0 or more" + (", and below 2**31." if number > 0 else "."),
+        )
     return number
 
 

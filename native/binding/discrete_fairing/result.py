@@ -15,6 +15,7 @@ class Result:
     vertices: (N, 3) float64; rows 0 .. n-1 are the control vertices, in the caller's order.
     faces: (triangles (T, 3), quads (Q, 4)) int32, counter-clockwise; a control quad stays quads.
     triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face that each output face comes from.
+    crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
     report: what the run did; see docs/numpy-api.md for its keys.
     """
 
@@ -23,6 +24,7 @@ class Result:
         self.faces: tuple[np.ndarray, np.ndarray] = (arrays["triangles"], arrays["quads"])
         self.triangle_polygon: np.ndarray = arrays["triangle_polygon"]
         self.quad_polygon: np.ndarray = arrays["quad_polygon"]
+        self.crease_edges: np.ndarray = arrays["crease_edges"]
         self.report: dict[str, Any] = arrays["report"]
 
     @cached_property
