@@ -3,14 +3,12 @@
 // to race the matrix-free passes. Never formed on fine levels otherwise.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <vector>
 
 #include "energy/thin_plate.h"
+#include "solver/assembled_system.h"
 
 namespace fairing {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // A divided difference written out: coefficients of the centre and of its ring, three rows each.
 struct WrittenStencil {
@@ -24,11 +22,6 @@ void visit_stencils(const Lattice& lattice, const Stencils& stencils, Visit&& vi
 
 // Numbers the unknown points of a level 0, 1, …; -1 for the others.
 std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unknowns);
-
-struct AssembledSystem {
-  SparseMatrix matrix;                // unknowns by unknowns, both triangles stored
-  std::vector<Index> unknown_points;  // row -> point of the lattice
-};
 
 AssembledSystem assemble_thin_plate(const Lattice& lattice, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights);

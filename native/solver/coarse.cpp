@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "check/error.h"
-#include "energy/assemble.h"
 
 namespace fairing {
 

@@ -3,16 +3,12 @@
 // LevelOperator; the solver knows nothing else of it.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <cstddef>
-#include <vector>
 
-#include "control_mesh/control_mesh.h"
 #include "execution/memory.h"
+#include "solver/assembled_system.h"
 
 namespace fairing {
-
-struct AssembledSystem;
 
 // A symmetric positive definite operator on the unknown points of a level, the same for x, y and z. Vectors hold three
 // interleaved numbers a point; results are zero on points that are not unknowns.
