@@ -33,7 +33,7 @@ class VIEW3D_PT_fairing(_Sidebar, bpy.types.Panel):
         )
         draw_shape(layout, settings, size.count_text(triangles) if triangles else "")
         if triangles >= size.LARGE:
-            _notice(layout, size.why_too_large(triangles) or "A large result: this will take a while")
+            _notice(layout, size.why_too_large(triangles) or "A large result: this takes a while")
         button = layout.row()
         button.scale_y = 1.5
         copy_settings(settings, button.operator(OBJECT_OT_fair_surface.bl_idname, icon="SURFACE_DATA"))
@@ -42,6 +42,7 @@ class VIEW3D_PT_fairing(_Sidebar, bpy.types.Panel):
 class VIEW3D_PT_fairing_creases(_Sidebar, bpy.types.Panel):
     bl_label = "Creases"
     bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         draw_creases(*self._prepare(context))

@@ -3,10 +3,11 @@
 
 
 def draw_shape(layout, settings, triangle_text=""):
-    """The few that everyone needs; `triangle_text` stands beside the levels."""
-    row = layout.row(align=True)
-    row.prop(settings, "levels")
+    """The few that everyone needs; `triangle_text` stands under the levels: beside them a narrow sidebar cuts it."""
+    layout.prop(settings, "levels")
     if triangle_text:
+        row = layout.row()
+        row.alignment = "RIGHT"
         row.label(text=triangle_text)
     layout.prop(settings, "energy")
     layout.prop(settings, "interpolation")

@@ -27,6 +27,8 @@ def triangle_count(face_sizes, levels):
 
 def count_text(triangles):
     """`12,345 triangles`, shortened where nobody reads the digits."""
+    if triangles >= 100_000_000:
+        return f"{triangles / 1e6:,.0f} M triangles"
     if triangles >= 1_000_000:
         return f"{triangles / 1e6:.1f} M triangles"
     return f"{triangles:,} triangles"

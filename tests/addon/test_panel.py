@@ -53,9 +53,9 @@ def test_every_setting_is_shown_somewhere():
     assert set(NAMES) <= set(log)
 
 
-def test_triangle_count_stands_beside_the_levels():
+def test_triangle_count_stands_under_the_levels():
     add("Box", *CUBE)
-    assert "768 triangles" in draw(panel.VIEW3D_PT_fairing)
+    assert draw(panel.VIEW3D_PT_fairing)[:2] == ["levels", "768 triangles"]
 
 
 def test_button_carries_the_settings():
@@ -92,6 +92,7 @@ def test_coarse_triangles(sizes, triangles):
 def test_count_text():
     assert size.count_text(12345) == "12,345 triangles"
     assert size.count_text(12_345_678) == "12.3 M triangles"
+    assert size.count_text(1_015_021_568) == "1,015 M triangles"
 
 
 def test_copy_settings():
