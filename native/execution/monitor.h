@@ -34,7 +34,9 @@ class Monitor {
   // For the run itself: says where it is; throws FairingError(cancelled) when asked to stop.
   void report(Phase phase, double fraction) {
     phase_.store(phase, std::memory_order_relaxed);
-    fraction_.store(fraction, std::memory_order_relaxed);
+    if (fraction >
+        fraction_.load(std::memory_order_relaxed))  // only the run writes; progress never goes back
+      fraction_.store(fraction, std::memory_order_relaxed);
     check_cancelled();
   }
   void check_cancelled() const {

@@ -14,6 +14,9 @@ namespace {
 constexpr double coarse_tolerance = 1e-4;
 
 constexpr int first_probe = 6, probe_interval = 10;  // iterations
+// Share of the run before and after the finest level's iterations.
+constexpr double solve_begin = 0.25, solve_end = 0.8;
+
 constexpr double iterations_wanted = 14;
 constexpr int most_degree = 96;
 constexpr int refinement_steps = 3;
@@ -161,6 +164,7 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   const auto too_hard = [&] { return may_factor && cycle_->degree >= degree_of_hard(report.unknowns); };
   PcgResult result =
       conjugate_gradients(*cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
+        report_progress(level, so_far, tolerance);
         if (adapt && so_far.iterations % probe_interval == first_probe) raise_degree(so_far, tolerance);
         return !too_hard();
       });
@@ -215,6 +219,16 @@ void SurfaceSystem::promote_to_coarsest(std::size_t index) {
   cycle_->degree = std::min(cycle_->degree, 12);
 }
 
+// On the finest level the iterations are most of the run.
+void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double tolerance) {
+  if (level != top()) return;
+  const double start = so_far.history.front();
+  const double done = start > tolerance && so_far.residual > 0
+                          ? std::log(start / so_far.residual) / std::log(start / tolerance)
+                          : 1.0;
+  monitor_.report(Phase::solve, solve_begin + (solve_end - solve_begin) * std::clamp(done, 0.0, 1.0));
+}
+
 // Skew makes a mesh hard, on all levels alike. What the iterations so far have gained tells how hard; the smoother's
 // degree follows, so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
 void SurfaceSystem::raise_degree(const PcgResult& result, double tolerance) {
@@ -254,7 +268,7 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
                                  const std::function<void(const double*)>& on_prediction,
                                  const std::function<void(int, Array<double>&)>& on_level) {
   for (int l = base_; l <= top(); ++l) {
-    monitor_.report(Phase::solve, std::pow(0.25, top() - l));
+    monitor_.report(Phase::solve, solve_begin * std::pow(0.25, top() - l));
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
     // Scales first: they borrow the vectors of the iteration.
     const Scales scale = scales(l, targets);

@@ -70,6 +70,7 @@ class SurfaceSystem {
                     const Scales& scales, double* x, LevelReport& report);
   double estimate_eigenvalue(std::size_t index);
   void promote_to_coarsest(std::size_t index);
+  void report_progress(int level, const PcgResult& so_far, double tolerance);
   void raise_degree(const PcgResult& result, double tolerance);
   void choose_degree(const LevelReport& report, double tolerance, double next_tolerance);
 
