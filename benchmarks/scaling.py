@@ -19,10 +19,10 @@ REPEATS = 3
 
 # (mesh, levels) in growing order, 50 K to 3 M triangles
 SERIES = {
-    "triangles, by levels": [((control_meshes.sphere, 7), level) for level in (3, 4, 5, 6)],
+    "triangles, by levels": [((control_meshes.sphere, 6), level) for level in (3, 4, 5, 6)],
     "triangles, by mesh, L = 3": [((control_meshes.sphere, m), 3) for m in (6, 12, 25, 48)],
     "triangles, by mesh, L = 2": [((control_meshes.sphere, m), 2) for m in (13, 25, 50, 97)],
-    "quads, by levels": [((control_meshes.quad_sphere, 9), level) for level in (3, 4, 5, 6)],
+    "quads, by levels": [((control_meshes.quad_sphere, 8), level) for level in (3, 4, 5, 6)],
     "quads, by mesh, L = 3": [((control_meshes.quad_sphere, m), 3) for m in (8, 16, 32, 62)],
     "quads, by mesh, L = 2": [((control_meshes.quad_sphere, m), 2) for m in (16, 32, 64, 125)],
 }
