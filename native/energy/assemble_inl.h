@@ -33,18 +33,19 @@ void visit_stencils(const Lattice& lattice, const Stencils& st, Visit&& visit) {
 
   for (std::size_t e = 0; e < mesh.edges.size() && n > 1; ++e) {
     if (!st.edge_fit[e]) continue;
-    const EdgeRingLanes ring(mesh, Index(e), n);
+    const EdgeRingLanes ring(mesh, Index(e));
     const double* row = st.edge_energy.data() + 24 * e;
     const auto lane_point = [&](int lane, int k) {
       if (lane == 0) return lattice.edge_point(Index(e), k);
       const Side& side = mesh.sides[std::size_t(mesh.edges[e].side[std::size_t(lane - 1)])];
       const bool quad = mesh.faces[std::size_t(side.face)].quad();
-      return lattice.face_point(side.face, closed_point(quad, n, side.local, k, 1));
+      const int along = side.reversed ? row_size(quad, n) - 1 - k : k;
+      return lattice.face_point(side.face, closed_point(quad, n, side.local, along, 1));
     };
     for (int k = 1; k < n; ++k) {
       begin(lattice.edge_point(Index(e), k));
       for (int j = 0; j < ring.size; ++j)
-        add(lane_point(ring.lane[j], ring.at[j] + ring.step[j] * k), row[j], row[8 + j], row[16 + j]);
+        add(lane_point(ring.lane[j], ring.at[j] + k), row[j], row[8 + j], row[16 + j]);
       visit(std::as_const(out));
     }
   }

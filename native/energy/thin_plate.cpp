@@ -52,7 +52,7 @@ Moment<T> edge_moment(const EdgeRingLanes& ring, const EdgeLanes<T>& lanes, cons
   Moment<T> moment;
   for (int j = 0; j < ring.size; ++j) {
     T d[3];
-    difference(lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j] * k), lanes.lane[0] + 3 * k, d);
+    difference(lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + k), lanes.lane[0] + 3 * k, d);
     moment.add(row + j, 8, d);
   }
   return moment;
@@ -103,45 +103,35 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
   };
 
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
-    if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) return;
-    const EdgeRingLanes ring(mesh, e, n);
-    // The edge, its rows, and the right row once more, turned to run with the edge; then what goes to each neighbour.
-    const std::size_t stride = 3 * std::size_t(n + 1), count = 3 * std::size_t(n - 1);
-    scratch.resize(4 * stride + max_edge_ring * count);
-    const EdgeLanes<T> lanes(lattice, x, e, scratch.data());
-    T* turned = scratch.data() + 3 * stride;
-    if (right)
-      for (int k = 0; k <= n; ++k) copy_point(turned + 3 * (n - k), lanes.lane[2] + 3 * k);
-    const T* in[max_edge_ring];
-    for (int j = 0; j < ring.size; ++j)
-      in[j] = ring.lane[j] == 2 ? turned + 3 * (n - ring.at[j] + 1)
-                                : lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + 1);
-    T* z = scratch.data() + 4 * stride;
-    edge_pass(ring.size, count, in, lanes.lane[0] + 3, rows.edge.data() + 24 * std::size_t(e), scale, z,
-              run + 3);
-    T* const target[3] = {run, left, right};
-    for (int j = 0; j < ring.size; ++j, z += count) {
-      T* to = target[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j]);
-      if (ring.step[j] > 0)
-        for (std::size_t i = 0; i < count; ++i) to[i] += z[i];
-      else
-        for (std::size_t k = 0; k < count; k += 3) add_point(to - k, z + k);
+    if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) {
+      clear_lanes(n, run, left, right);
+      return;
     }
+    const std::size_t stride = lane_stride(n) + lane_block;
+    if (scratch.size() < 8 * stride) scratch.resize(8 * stride);
+    const EdgeRingLanes ring(mesh, e);
+    const EdgeLanes<T> lanes(lattice, x, e, scratch);
+    T* const target[3] = {run, left, right};
+    set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), scale, lanes.lane, target,
+                  scratch.data() + 3 * stride);
   };
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
-    if (n < (quad ? 2 : 3)) return;
-    const std::size_t size = 3 * closed_size(quad, std::size_t(n));
-    const std::size_t moments = face_pass_scratch(n);
+    const std::size_t size = 3 * closed_size(quad, std::size_t(n)) + lane_block;
+    const std::size_t moments = passes::moments_size(n);
+    if (n < (quad ? 2 : 3)) {
+      std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
+      return;
+    }
     if (scratch.size() < moments + size) scratch.resize(moments + size);
     T* gathered = scratch.data() + moments;
     gather_face(lattice, x, f, gathered);
     const T* c = rows.face.data() + 16 * std::size_t(f);
     if (quad)
-      add_quad_pass(n, c, scale, gathered, closed, scratch.data());
+      set_quad_pass(n, c, scale, gathered, closed, scratch.data());
     else
-      add_triangle_pass(n, c, scale, gathered, closed, scratch.data());
+      set_triangle_pass(n, c, scale, gathered, closed, scratch.data());
   };
 
   accumulate(lattice, workers, exchange, &unknowns, y, vertex_body, edge_body, face_body);
@@ -182,8 +172,9 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
   };
 
   const auto edge_body = [&](Index e, double* run, double* left, double* right, std::vector<double>&) {
+    clear_lanes(n, run, left, right);
     if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) return;
-    const EdgeRingLanes ring(mesh, e, n);
+    const EdgeRingLanes ring(mesh, e);
     double* const target[3] = {run, left, right};
     const double* row = rows.edge.data() + 24 * std::size_t(e);
     double total[3] = {};
@@ -191,13 +182,14 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
       for (std::size_t c = 0; c < 3; ++c) total[c] += row[8 * c + std::size_t(j)];
     for (int k = 1; k < n; ++k) {
       for (int j = 0; j < ring.size; ++j)
-        put(target[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j] * k), square(row + j, 8));
+        put(target[ring.lane[j]] + 3 * (ring.at[j] + k), square(row + j, 8));
       put(run + 3 * k, square(total, 1));
     }
   };
 
   const auto face_body = [&](Index f, double* closed, std::vector<double>&) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
+    std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), 0.0);
     const double* c = rows.face.data() + 16 * std::size_t(f);
     const int directions = quad ? 4 : 3;
     double all = 0;
@@ -240,9 +232,8 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                       std::vector<double> scratch;
                       for (std::size_t e = begin; e < end; ++e) {
                         if (!rows.stencils.edge_fit[e]) continue;
-                        const EdgeRingLanes ring(mesh, Index(e), n);
-                        scratch.resize(9 * std::size_t(n + 1));
-                        const EdgeLanes<double> lanes(lattice, x, Index(e), scratch.data());
+                        const EdgeRingLanes ring(mesh, Index(e));
+                        const EdgeLanes<double> lanes(lattice, x, Index(e), scratch);
                         for (int k = 1; k < n; ++k)
                           edge[e] += edge_moment(ring, lanes, rows.edge.data() + 24 * e, k).square();
                       }

@@ -41,14 +41,13 @@ double vertex_energy(const Lattice& lattice, Index v, const double* x, Measure& 
 
 double edge_energy(const Lattice& lattice, Index e, const double* x, Measure& measure,
                    std::vector<double>& scratch) {
-  const EdgeRingLanes ring(lattice.mesh(), e, lattice.n());
-  scratch.resize(9 * std::size_t(lattice.n() + 1));
-  const EdgeLanes<double> lanes(lattice, x, e, scratch.data());
+  const EdgeRingLanes ring(lattice.mesh(), e);
+  const EdgeLanes<double> lanes(lattice, x, e, scratch);
   double sum = 0;
   for (int k = 1; k < lattice.n(); ++k) {
     measure.start(lanes.lane[0] + 3 * k);
     for (int j = 0; j < ring.size; ++j)
-      measure.add(lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + ring.step[j] * k), ring.far[j]);
+      measure.add(lanes.lane[ring.lane[j]] + 3 * (ring.at[j] + k), ring.far[j]);
     sum += measure.energy();
   }
   return sum;

@@ -22,7 +22,7 @@ struct Unknowns {
 // The slots of one level. May serve smaller levels too (`fit` grows them).
 template <class T>
 struct Exchange {
-  Array<T> row;    // per side: what the edge adds to the face's first row, stride n + 1
+  Array<T> row;    // per side: what the edge adds to the face's first row, in the edge's direction
   Array<T> side;   // per side: what the face adds to its points 0 … n - 1
   Array<T> end;    // per edge: what it adds to its two ends
   Array<T> spoke;  // per spoke: what the vertex adds to the point along it, and across the quad behind it
@@ -30,7 +30,7 @@ struct Exchange {
   void fit(const Lattice& lattice) {
     const auto& mesh = lattice.mesh();
     const std::size_t n = std::size_t(lattice.n()), sides = mesh.sides.size();
-    grow(row, 3 * sides * (n + 1));
+    grow(row, sides * lane_stride(lattice.n()));
     grow(side, 3 * sides * n);
     grow(end, 6 * mesh.edges.size());
     grow(spoke, 6 * mesh.spokes.size());
@@ -46,18 +46,18 @@ struct Exchange {
 inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 2048 / (n * n))); }
 
 // out <- the sum of what the three bodies contribute; zero on points that are not unknowns (all points count when
-// `unknowns` is null). Bodies add to zeroed targets:
-//   vertex_body(v, centre, spokes, scratch)   centre: one point; spokes: two points a spoke of v's ring
-//   edge_body(e, run, left, right, scratch)   run: points 0 … n of the edge; left, right: the rows next to its sides,
-//                                             in side coordinates (null without a face)
-//   face_body(f, closed, scratch)             closed: the closed face, row by row
+// `unknowns` is null). Bodies:
+//   vertex_body(v, centre, spokes, scratch)   adds to zeros. centre: one point; spokes: two points a spoke of v's ring
+//   edge_body(e, run, left, right, scratch)   sets all. run: points 0 … n of the edge; left, right: the rows next to
+//                                             it, in its direction (null without a face); lane_stride(n) numbers each
+//   face_body(f, closed, scratch)             sets all. closed: the closed face, row by row, and a block more
 // `scratch` is a vector of the calling thread's to work in.
 template <class T, class VertexBody, class EdgeBody, class FaceBody>
 void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange, const Unknowns* unknowns,
                 T* out, VertexBody&& vertex_body, EdgeBody&& edge_body, FaceBody&& face_body) {
   const ControlMesh& mesh = lattice.mesh();
   const int n = lattice.n();
-  const std::size_t un = std::size_t(n), row_stride = 3 * (un + 1), side_stride = 3 * un;
+  const std::size_t un = std::size_t(n), row_stride = lane_stride(n), side_stride = 3 * un;
   exchange.fit(lattice);
 
   workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
@@ -77,9 +77,7 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
       T* rows[2];
       for (std::size_t h = 0; h < 2; ++h) {
         rows[h] = edge.side[h] < 0 ? nullptr : exchange.row.data() + row_stride * std::size_t(edge.side[h]);
-        if (rows[h]) std::fill(rows[h], rows[h] + row_stride, T(0));
       }
-      std::fill(run.begin(), run.end(), T(0));
       edge_body(Index(e), run.data(), rows[0], rows[1], scratch);
       T* end_slot = exchange.end.data() + 6 * e;
       copy_point(end_slot, run.data());
@@ -89,30 +87,39 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
   });
 
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<T> closed(3 * closed_size(true, un)), scratch;
+    std::vector<T> closed(3 * closed_size(true, un) + lane_block), scratch;
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];
       const bool quad = face.quad();
-      std::fill(closed.begin(), closed.begin() + std::ptrdiff_t(3 * closed_size(quad, un)), T(0));
-      for (int s = 0; s < face.size && n > 1; ++s) {
-        const T* row = exchange.row.data() + row_stride * std::size_t(face.first_side + s);
-        SideWalk walk = side_walk(quad, n, s, 0, 1);
-        for (int k = 0; k < row_size(quad, n); ++k, walk.next())
-          add_point(&closed[std::size_t(3 * walk.offset)], row + 3 * k);
-      }
+      face_body(Index(f), closed.data(), scratch);
+      const Side* sides = mesh.sides.data() + face.first_side;
+      const T* rows = exchange.row.data() + row_stride * std::size_t(face.first_side);
+      with_shape(quad, n, [&]<bool four, int fixed>() {
+        const int m = fixed ? fixed : n;
+        for (int s = 0; s < (four ? 4 : 3) && m > 1; ++s) {
+          const T* row = rows + row_stride * std::size_t(s);
+          const std::ptrdiff_t step = sides[s].reversed ? -3 : 3;
+          if (step < 0) row += 3 * (row_size(four, m) - 1);
+          SideWalk walk = side_walk(four, m, s, 0, 1);
+          for (int k = 0; k < row_size(four, m); ++k, walk.next(), row += step)
+            add_point(closed.data() + 3 * walk.offset, row);
+        }
+      });
       for (int c = 0; c < 4 && quad; ++c) {
         const Index spoke = mesh.spoke_of_side[std::size_t(face.first_side + c)];
         add_point(&closed[3 * side_offset(true, n, c, 1, 1)],
                   exchange.spoke.data() + 6 * std::size_t(spoke) + 3);
       }
-      face_body(Index(f), closed.data(), scratch);
       scatter_interior(lattice, closed.data(), Index(f), out);
-      for (int s = 0; s < face.size; ++s) {
-        T* side = exchange.side.data() + side_stride * std::size_t(face.first_side + s);
-        SideWalk walk = side_walk(quad, n, s, 0, 0);
-        for (int k = 0; k < n; ++k, walk.next())
-          copy_point(side + 3 * k, &closed[std::size_t(3 * walk.offset)]);
-      }
+      T* side = exchange.side.data() + side_stride * std::size_t(face.first_side);
+      with_shape(quad, n, [&]<bool four, int fixed>() {
+        const int m = fixed ? fixed : n;
+        T* to = side;
+        for (int s = 0; s < (four ? 4 : 3); ++s) {
+          SideWalk walk = side_walk(four, m, s, 0, 0);
+          for (int k = 0; k < m; ++k, walk.next(), to += 3) copy_point(to, closed.data() + 3 * walk.offset);
+        }
+      });
     }
   });
 

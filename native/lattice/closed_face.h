@@ -33,6 +33,19 @@ inline std::size_t side_offset(bool quad, int n, int s, int k, int r = 0) {
 // Number of points in the row next to a side, its two ends (on other sides) included.
 constexpr int row_size(bool quad, int n) { return quad ? n + 1 : n; }
 
+// Numbers of an edge's lane: points 0 … n in whole blocks.
+constexpr int lane_block = 8;
+constexpr std::size_t lane_stride(int n) {
+  return std::size_t((3 * (n + 1) + lane_block - 1) / lane_block * lane_block);
+}
+
+// Zeros on an edge's run and the rows beside it.
+template <class T>
+void clear_lanes(int n, T* run, T* left, T* right) {
+  for (T* lane : {run, left, right})
+    if (lane) std::fill(lane, lane + lane_stride(n), T(0));
+}
+
 // Walks point k = first … last of side coordinates (k, r) in closed storage: offset of the first, then steps. In a
 // triangle the steps along sides 1 and 2 change by one each time.
 struct SideWalk {
@@ -91,11 +104,13 @@ void gather_edge(const Lattice& lattice, const T* x, Index e, T* run) {
   copy_point(run + 3 * n, x + 3 * std::size_t(edge.vertex[1]));
 }
 
-// x on the row next to a side (side coordinates (0 … , 1)).
+// x on the row next to a side (side coordinates (0 … , 1)), in the direction of the side's edge.
 template <class T>
 void gather_row(const Lattice& lattice, const T* x, const Side& side, T* row) {
   const Face& face = lattice.mesh().faces[std::size_t(side.face)];
   const int n = lattice.n(), size = row_size(face.quad(), n), sides = face.size;
+  const std::ptrdiff_t step = side.reversed ? -3 : 3;
+  if (side.reversed) row += 3 * (size - 1);
   const auto side_at = [&](int s) -> const Side& {
     return lattice.mesh().sides[std::size_t(face.first_side + s)];
   };
@@ -103,53 +118,73 @@ void gather_row(const Lattice& lattice, const T* x, const Side& side, T* row) {
   if (size > 2) {
     const T* inside = x + 3 * std::size_t(lattice.face_base(side.face));
     SideWalk walk = interior_walk(face.quad(), n, side.local, 1);
-    for (int k = 1; k < size - 1; ++k, walk.next()) copy_point(row + 3 * k, inside + 3 * walk.offset);
+    for (int k = 1; k < size - 1; ++k, walk.next()) copy_point(row + step * k, inside + 3 * walk.offset);
   }
-  copy_point(row + 3 * (size - 1),
+  copy_point(row + step * (size - 1),
              x + 3 * std::size_t(lattice.side_point(side_at((side.local + 1) % sides), 1)));
+}
+
+// Calls body.template operator()<quad, n>(): the small n that most meshes are refined to are known to the compiler, all
+// others are n = 0.
+template <class Body>
+inline void with_shape(bool quad, int n, Body&& body) {
+  if (quad) {
+    switch (n) {
+      case 4: return body.template operator()<true, 4>();
+      case 8: return body.template operator()<true, 8>();
+      default: return body.template operator()<true, 0>();
+    }
+  }
+  switch (n) {
+    case 4: return body.template operator()<false, 4>();
+    case 8: return body.template operator()<false, 8>();
+    default: return body.template operator()<false, 0>();
+  }
 }
 
 // x on the whole closed face, row by row.
 template <class T>
 void gather_face(const Lattice& lattice, const T* x, Index f, T* closed) {
   const Face& face = lattice.mesh().faces[std::size_t(f)];
-  const int n = lattice.n();
-  const bool quad = face.quad();
-  for (int s = 0; s < face.size; ++s) {
-    const Side& side = lattice.mesh().sides[std::size_t(face.first_side + s)];
-    SideWalk walk = side_walk(quad, n, s, 0, 0);
-    copy_point(closed + 3 * walk.offset, x + 3 * std::size_t(face.vertex[std::size_t(s)]));
-    walk.next();
-    const T* run = x + 3 * std::size_t(lattice.edge_base(side.edge));
-    if (side.reversed) {
-      for (int k = 1; k < n; ++k, walk.next()) copy_point(closed + 3 * walk.offset, run + 3 * (n - k - 1));
-    } else {
-      for (int k = 1; k < n; ++k, walk.next()) copy_point(closed + 3 * walk.offset, run + 3 * (k - 1));
-    }
-  }
+  const Side* sides = lattice.mesh().sides.data() + face.first_side;
   const T* inside = x + 3 * std::size_t(lattice.face_base(f));
-  for (int j = 1; j < n; ++j) {
-    const int width = quad ? n - 1 : n - 1 - j;
-    if (width <= 0) break;
-    std::memcpy(closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + 1), inside,
-                std::size_t(3 * width) * sizeof(T));
-    inside += 3 * width;
-  }
+  with_shape(face.quad(), lattice.n(), [&]<bool quad, int fixed>() {
+    const int n = fixed ? fixed : lattice.n();
+    for (int s = 0; s < (quad ? 4 : 3); ++s) {
+      SideWalk walk = side_walk(quad, n, s, 0, 0);
+      copy_point(closed + 3 * walk.offset, x + 3 * std::size_t(face.vertex[std::size_t(s)]));
+      walk.next();
+      const bool back = sides[s].reversed;
+      const std::ptrdiff_t step = back ? -3 : 3;
+      const T* from = x + 3 * (std::size_t(lattice.edge_base(sides[s].edge)) + std::size_t(back ? n - 2 : 0));
+      for (int k = 1; k < n; ++k, walk.next(), from += step) copy_point(closed + 3 * walk.offset, from);
+    }
+    T* to = closed + 3 * (n + 2);
+    const T* from = inside;
+    for (int j = 1, width = quad ? n - 1 : n - 2; j < n && width > 0; ++j) {
+      std::memcpy(to, from, std::size_t(3 * width) * sizeof(T));
+      from += 3 * width;
+      to += 3 * (quad ? n + 1 : n + 1 - j);
+      if (!quad) --width;
+    }
+  });
 }
 
 // Writes the interior points of a closed face back.
 template <class T>
 void scatter_interior(const Lattice& lattice, const T* closed, Index f, T* x) {
-  const int n = lattice.n();
-  const bool quad = lattice.mesh().faces[std::size_t(f)].quad();
   T* inside = x + 3 * std::size_t(lattice.face_base(f));
-  for (int j = 1; j < n; ++j) {
-    const int width = quad ? n - 1 : n - 1 - j;
-    if (width <= 0) break;
-    std::memcpy(inside, closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + 1),
-                std::size_t(3 * width) * sizeof(T));
-    inside += 3 * width;
-  }
+  with_shape(lattice.mesh().faces[std::size_t(f)].quad(), lattice.n(), [&]<bool quad, int fixed>() {
+    const int n = fixed ? fixed : lattice.n();
+    const T* from = closed + 3 * (n + 2);
+    T* to = inside;
+    for (int j = 1, width = quad ? n - 1 : n - 2; j < n && width > 0; ++j) {
+      std::memcpy(to, from, std::size_t(3 * width) * sizeof(T));
+      to += 3 * width;
+      from += 3 * (quad ? n + 1 : n + 1 - j);
+      if (!quad) --width;
+    }
+  });
 }
 
 }  // namespace fairing

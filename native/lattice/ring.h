@@ -19,47 +19,52 @@ void visit_ring(const Lattice& lattice, Index v, Visit&& visit) {
   }
 }
 
-// Where the neighbours of an edge's points are: neighbour j of point k is in lane[j] at place at[j] + step[j] * k,
-// with lanes 0: the edge itself, 1: the left face's first row, 2: the right face's.
+// Where the neighbours of an edge's points are: neighbour j of point k is in lane[j] at place k + at[j], with lanes
+// 0: the edge itself, 1: the left face's first row, 2: the right face's. All lanes run with the edge.
 struct EdgeRingLanes {
   int size = 0;
-  int lane[8], at[8], step[8];
+  int lane[8], at[8];
   bool far[8];  // the corner across a quad
 
-  EdgeRingLanes(const ControlMesh& mesh, Index e, int n) {
+  EdgeRingLanes(const ControlMesh& mesh, Index e) {
     const Edge& edge = mesh.edges[std::size_t(e)];
     for (int h = 0; h < 2; ++h) {
-      const int step_h = h == 0 ? 1 : -1,
-                start = h == 0 ? 0 : n;  // side coordinate of point k: start + step_h k
-      push(0, step_h, 1, false);
+      const int ahead = h == 0 ? 1 : -1;
+      push(0, ahead, false);
       if (edge.side[std::size_t(h)] < 0) continue;
       const Side& side = mesh.sides[std::size_t(edge.side[std::size_t(h)])];
       const bool quad = mesh.faces[std::size_t(side.face)].quad();
-      if (quad) push(1 + h, start + 1, step_h, true);
-      push(1 + h, start, step_h, false);
-      push(1 + h, start - 1, step_h, quad);
+      if (quad) {
+        push(1 + h, ahead, true);
+        push(1 + h, 0, false);
+        push(1 + h, -ahead, true);
+      } else {
+        push(1 + h, h == 0 ? 0 : -1, false);
+        push(1 + h, h == 0 ? -1 : 0, false);
+      }
     }
   }
 
  private:
-  void push(int l, int a, int s, bool f) {
+  void push(int l, int a, bool f) {
     far[size] = f;
     lane[size] = l;
     at[size] = a;
-    step[size] = s;
     ++size;
   }
 };
 
-// The edge and the rows beside it, gathered into scratch of 9 (n + 1) numbers.
+// The edge and the rows beside it, gathered into scratch; all run with the edge. Each lane has room for a
+// block more.
 template <class T>
 struct EdgeLanes {
   T* lane[3];
 
-  EdgeLanes(const Lattice& lattice, const T* x, Index e, T* scratch) {
+  EdgeLanes(const Lattice& lattice, const T* x, Index e, std::vector<T>& scratch) {
     const ControlMesh& mesh = lattice.mesh();
-    const std::size_t stride = 3 * std::size_t(lattice.n() + 1);
-    for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch + l * stride;
+    const std::size_t stride = lane_stride(lattice.n()) + lane_block;
+    if (scratch.size() < 3 * stride) scratch.resize(3 * stride);
+    for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch.data() + l * stride;
     gather_edge(lattice, x, e, lane[0]);
     for (std::size_t h = 0; h < 2; ++h) {
       const Index side = mesh.edges[std::size_t(e)].side[h];

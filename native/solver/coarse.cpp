@@ -58,7 +58,8 @@ void CoarseSolver::solve(const double* b, double* x) const {
 
 void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& state) {
   if (!factor_) {
-    smooth(op_, workers_, largest_eigenvalue, 4 * degree, true, false, state);
+    // as much as on any other level: more gains no iteration, and small faces are dear
+    smooth(op_, workers_, largest_eigenvalue, degree, true, false, state);
     return;
   }
   const std::size_t size = 3 * op_.points();

@@ -39,19 +39,6 @@ constexpr Directions quad_directions{8,
                                       {0, -1, of_midpoint},
                                       {1, -1, of_centre}}};
 
-// Where the point half-way to ring neighbour j of coarse edge point k is among the fine lanes: `at` + `step` * k.
-struct HalfWay {
-  int at[8], step[8];
-  HalfWay(const EdgeRingLanes& ring, int n) {
-    for (int j = 0; j < ring.size; ++j) {
-      // The middle of side coordinates (s k + o, 0) and (s k + o', 1) is (2 s k + o + o', 1) in the finer ones.
-      const int own = ring.lane[j] == 2 ? n : 0, own_step = ring.lane[j] == 2 ? -1 : 1;
-      at[j] = ring.at[j] + own;
-      step[j] = ring.step[j] + own_step;
-    }
-  }
-};
-
 // Linear values half-way to the ring of a control vertex without a fit: visit(slot, weight, neighbours, count).
 template <class T, class Visit>
 void linear_halves(const ControlMesh& mesh, Index v, Visit&& visit) {
@@ -112,11 +99,10 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
   };
 
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
+    clear_lanes(2 * n, run, left, right);
     if (n == 1) return;
-    const EdgeRingLanes ring(mesh, e, n);
-    const HalfWay middle(ring, n);
-    scratch.resize(9 * std::size_t(n + 1));
-    const EdgeLanes<T> lanes(coarse, x, e, scratch.data());
+    const EdgeRingLanes ring(mesh, e);
+    const EdgeLanes<T> lanes(coarse, x, e, scratch);
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
@@ -124,10 +110,9 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
       copy_point(run + 6 * k, origin);
       T d[8][3];
       for (int j = 0; j < ring.size; ++j)
-        for (int a = 0; a < 3; ++a)
-          d[j][a] = lanes.lane[ring.lane[j]][3 * (ring.at[j] + ring.step[j] * k) + a] - origin[a];
+        for (int a = 0; a < 3; ++a) d[j][a] = lanes.lane[ring.lane[j]][3 * (ring.at[j] + k) + a] - origin[a];
       for (int j = 0; j < ring.size; ++j) {
-        T* to = target[ring.lane[j]] + 3 * (middle.at[j] + middle.step[j] * k);
+        T* to = target[ring.lane[j]] + 3 * (2 * k + ring.at[j]);
         const T weight = T(ring.far[j] ? of_centre : of_midpoint);
         for (int a = 0; a < 3; ++a) {
           T value = origin[a];
@@ -140,6 +125,7 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
+    std::fill(closed, closed + 3 * closed_size(quad, 2 * std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
     scratch.resize(3 * closed_size(true, std::size_t(n)));
     gather_face(coarse, x, f, scratch.data());
@@ -223,11 +209,10 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
   };
 
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
+    clear_lanes(n, run, left, right);
     if (n == 1) return;
-    const EdgeRingLanes ring(mesh, e, n);
-    const HalfWay middle(ring, n);
-    scratch.resize(9 * std::size_t(2 * n + 1));
-    const EdgeLanes<T> lanes(fine, x, e, scratch.data());
+    const EdgeRingLanes ring(mesh, e);
+    const EdgeLanes<T> lanes(fine, x, e, scratch);
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
@@ -237,12 +222,12 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
       for (int j = 0; j < ring.size; ++j) {
         const T weight = T(ring.far[j] ? of_centre : of_midpoint);
         for (int a = 0; a < 3; ++a) {
-          w[j][a] = weight * lanes.lane[ring.lane[j]][3 * (middle.at[j] + middle.step[j] * k) + a];
+          w[j][a] = weight * lanes.lane[ring.lane[j]][3 * (2 * k + ring.at[j]) + a];
           own[a] += w[j][a];
         }
       }
       for (int m = 0; m < ring.size; ++m) {
-        T* to = target[ring.lane[m]] + 3 * (ring.at[m] + ring.step[m] * k);
+        T* to = target[ring.lane[m]] + 3 * (ring.at[m] + k);
         for (int a = 0; a < 3; ++a) {
           T z = 0;
           for (int j = 0; j < ring.size; ++j) z += T(half[8 * j + m]) * w[j][a];
@@ -255,6 +240,7 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
+    std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
     scratch.resize(3 * closed_size(true, std::size_t(2 * n)));
     gather_face(fine, x, f, scratch.data());

@@ -694,13 +694,12 @@ TEST(Charts, SpaceTheRowsOfAnEdgeAlike) {
         const ChartMaker charts(mesh, {.kind = kind, .exponent = 0.5, .blend = blend});
         for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
           const Chart chart = charts.edge(e);
-          const EdgeRingLanes ring(mesh, e, 1);
+          const EdgeRingLanes ring(mesh, e);
           for (int lane = 0; lane < 3; ++lane)
             for (int j = 0; j < ring.size; ++j)
               for (int k = 0; k < ring.size; ++k) {
                 if (ring.lane[j] != lane || ring.lane[k] != lane) continue;
-                // Steps forward along the edge; a right row runs against it.
-                const int steps = (ring.at[j] - ring.at[k]) * (lane == 2 ? -1 : 1);
+                const int steps = ring.at[j] - ring.at[k];  // forward along the edge
                 const Vec2 moved = chart.ring[std::size_t(j)] - chart.ring[std::size_t(k)];
                 EXPECT_LT((moved - steps * chart.ring[0]).norm(), 1e-13) << e << " lane " << lane;
               }
