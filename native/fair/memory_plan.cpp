@@ -41,12 +41,15 @@ std::int64_t peak_bytes(const Counts& c, int levels) {
   const std::int64_t outer =
       5 * 24 * points + 24 * below;  // in double: x, r, p, q, and one more to measure or diagonalize
   const std::int64_t inner = all_levels * (4 * 12 + 4);  // the cycle in float, and the diagonal
+  // The first smoothed levels estimate their spectrum with five vectors more; two or three levels at the most are so.
+  const std::int64_t spectrum = n <= 16 && points > tiny ? 5 * 12 * points : 0;
   const std::int64_t exchange = 12 * (3 * c.sides() * (2 * n + 1) + 6 * c.edges + 6 * c.sides());
   const std::int64_t rings = 2 * c.sides() * (5 * 4 + 5 * 4 + 3 * 8 + 3 * 8 + 3 * 4) / 2;
   const std::int64_t stencils =
       rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
   const std::int64_t output = n * n * (16 * c.triangles + 20 * c.quads);
-  return std::max(outer + inner + exchange + stencils + factor_bytes(factored), 24 * points + output) +
+  return std::max(outer + inner + spectrum + exchange + stencils + factor_bytes(factored),
+                  24 * points + output) +
          (1 << 14);
 }
 
