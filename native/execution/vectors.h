@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -40,6 +41,12 @@ double sum(Workers& workers, std::size_t size, Term&& term) {
   double total = 0;
   for (const double p : partial) total += p;
   return total;
+}
+
+// The Euclidean norm.
+template <class T>
+double norm(Workers& workers, std::size_t size, const T* x) {
+  return std::sqrt(sum(workers, size, [&](std::size_t i) { return double(x[i]) * double(x[i]); }));
 }
 
 }  // namespace fairing

@@ -122,14 +122,13 @@ SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> tar
   set_fixed(level, targets, x.data());
   residual(level, targets, x.data(), r.data());
   const Array<float>& inverse = operators_[std::size_t(level - base_)]->inverse_diagonal();
-  const double norm = std::sqrt(sum(workers_, size, [&](std::size_t i) { return r[i] * r[i]; }));
   const double terms = std::sqrt(sum(workers_, size, [&](std::size_t i) {
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
   // Where the polyhedron is the solution already, its residual is rounding and measures nothing.
   const double noise = 2e-15 * terms;
-  return {std::max(norm, 1e8 * noise), noise};
+  return {std::max(norm(workers_, size, r.data()), 1e8 * noise), noise};
 }
 
 LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets, double tolerance,
@@ -189,16 +188,13 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
 void SurfaceSystem::solve_direct(const CoarseSolver& solver, int level, std::span<const Vec3> targets,
                                  double tolerance, const Scales& scale, double* x, LevelReport& report) {
   const std::size_t size = 3 * lattice(level).size();
-  const auto norm = [&] {
-    return std::sqrt(sum(workers_, size, [&](std::size_t i) { return pcg_.residual[i] * pcg_.residual[i]; }));
-  };
   report.direct = true;
   report.smoother_degree = 0;
   for (int step = 0; step < refinement_steps && !report.converged; ++step) {
     solver.solve(pcg_.residual.data(), pcg_.direction.data());
     for_each_index(workers_, size, [&](std::size_t i) { x[i] += pcg_.direction[i]; });
     residual(level, targets, x, pcg_.residual.data());
-    const double now = norm();
+    const double now = norm(workers_, size, pcg_.residual.data());
     report.residual = scale.residual > 0 ? now / scale.residual : 0;
     report.converged = report.residual <= tolerance || now <= scale.noise;
   }

@@ -15,30 +15,27 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
   const float* z = level.state.x.data();
 
   PcgResult result;
-  const auto residual_norm = [&] {
-    return std::sqrt(sum(workers, size, [&](std::size_t i) { return r[i] * r[i]; }));
+  const auto relative = [&](double length) {
+    return limits.residual_scale > 0 ? length / limits.residual_scale : 0.0;
   };
-  const auto relative = [&](double norm) {
-    return limits.residual_scale > 0 ? norm / limits.residual_scale : 0.0;
-  };
-  double norm = residual_norm(), rz = 0, step = 0;
+  double size_of_residual = norm(workers, size, r), rz = 0, step = 0;
   int degree = cycle.degree;
-  result.residual = relative(norm);
+  result.residual = relative(size_of_residual);
   result.history.push_back(result.residual);
-  if (norm <= limits.noise) {
+  if (size_of_residual <= limits.noise) {
     result.converged = true;
     return result;
   }
   for (;;) {
     // The preconditioner works on a residual of order one: single precision has no room for tiny units.
-    const double unit = norm;
+    const double unit = size_of_residual;
     for_each_index(workers, size, [&](std::size_t i) { level.state.residual[i] = float(r[i] / unit); });
     cycle.run(top);
     const double rz_new = unit * sum(workers, size, [&](std::size_t i) { return r[i] * double(z[i]); });
     result.energy_error =
         limits.energy_scale > 0 ? std::sqrt(std::max(0.0, rz_new)) / limits.energy_scale : 0.0;
-    result.converged = (result.residual <= limits.tolerance || norm <= limits.noise) &&
-                       (result.energy_error <= limits.tolerance || norm <= limits.noise);
+    result.converged = (result.residual <= limits.tolerance || size_of_residual <= limits.noise) &&
+                       (result.energy_error <= limits.tolerance || size_of_residual <= limits.noise);
     if (result.converged || result.iterations >= limits.max_iterations) return result;
     // A new preconditioner starts a new sequence of conjugate directions.
     const bool fresh = result.iterations == 0 || cycle.degree != degree;
@@ -61,9 +58,9 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
       x[i] += step * p[i];
       r[i] -= step * q[i];
     });
-    norm = residual_norm();
+    size_of_residual = norm(workers, size, r);
     ++result.iterations;
-    result.residual = relative(norm);
+    result.residual = relative(size_of_residual);
     result.history.push_back(result.residual);
     if (!each(result)) return result;
   }

@@ -23,13 +23,13 @@ double largest_eigenvalue(LevelOperator& op, Workers& workers, const double* sta
   const auto root = [&](std::size_t i) { return double(roots[i]); };
   // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.
   Array<float> v(size), before(size), scaled(size), image(size);
-  double norm = std::sqrt(sum(workers, size, [&](std::size_t i) {
+  const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
     const double s = start[i] * root(i);
     return s * s;
   }));
-  if (!(norm > 0) || !std::isfinite(norm)) return 4.0;  // nothing to solve; any safe value
+  if (!(length > 0) || !std::isfinite(length)) return 4.0;  // nothing to solve; any safe value
   for_each_index(workers, size, [&](std::size_t i) {
-    v[i] = float(start[i] * root(i) / norm);
+    v[i] = float(start[i] * root(i) / length);
     before[i] = 0;
   });
   Eigen::VectorXd diagonal(steps), off(steps);
@@ -43,7 +43,7 @@ double largest_eigenvalue(LevelOperator& op, Workers& workers, const double* sta
     const double alpha = sum(workers, size, [&](std::size_t i) { return double(image[i]) * v[i]; });
     diagonal(m) = alpha;
     for_each_index(workers, size, [&](std::size_t i) { image[i] = float(image[i] - alpha * v[i]); });
-    beta = std::sqrt(sum(workers, size, [&](std::size_t i) { return double(image[i]) * image[i]; }));
+    beta = norm(workers, size, image.data());
     off(m) = beta;
     if (!(beta > 1e-5 * alpha)) {
       ++m;

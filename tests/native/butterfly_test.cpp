@@ -16,17 +16,7 @@ namespace {
 
 ControlMesh control(const OwnedPolygonMesh& mesh) { return make_control_mesh(mesh.view(), {}); }
 
-OwnedPolygonMesh triangle_torus(int around, int across) {
-  const OwnedPolygonMesh quads = torus(around, across);
-  OwnedPolygonMesh mesh{quads.coordinates, {}, {0}};
-  for (std::int64_t f = 0; f < quads.view().face_count(); ++f) {
-    const auto q = quads.view().face(f);
-    mesh.corners.insert(mesh.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-    mesh.offsets.push_back(mesh.offsets.back() + 3);
-    mesh.offsets.push_back(mesh.offsets.back() + 3);
-  }
-  return mesh;
-}
+OwnedPolygonMesh triangle_torus(int around, int across) { return triangulated(torus(around, across)); }
 
 TEST(Butterfly, KeepsControlVerticesAndConstants) {
   for (const OwnedPolygonMesh& mesh : {tetrahedron(), octahedron(), icosahedron(), cube_triangles()}) {

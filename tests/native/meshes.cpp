@@ -275,4 +275,15 @@ OwnedPolygonMesh flipped_cube_face() {
   return mesh;
 }
 
+OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads) {
+  OwnedPolygonMesh mesh{quads.coordinates, {}, {0}};
+  for (std::int64_t f = 0; f < quads.view().face_count(); ++f) {
+    const auto q = quads.view().face(f);
+    mesh.corners.insert(mesh.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+    mesh.offsets.push_back(mesh.offsets.back() + 3);
+    mesh.offsets.push_back(mesh.offsets.back() + 3);
+  }
+  return mesh;
+}
+
 }  // namespace fairing::test

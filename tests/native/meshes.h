@@ -26,6 +26,9 @@ OwnedPolygonMesh square_pyramid();
 OwnedPolygonMesh torus(int around, int across);  // quads; radii 2 and 1
 OwnedPolygonMesh two_tetrahedra();               // two components
 
+// Every quad of a mesh of quads, cut from its first corner.
+OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads);
+
 // With a boundary.
 OwnedPolygonMesh single_triangle();
 OwnedPolygonMesh single_quad();

@@ -477,16 +477,7 @@ TEST(Transfer, KeepsQuadraticsInThePlane) {
     OwnedPolygonMesh mesh = grid(4, 4);
     for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3)
       mesh.coordinates[i] += 0.4 * mesh.coordinates[i + 1];
-    if (cut) {
-      OwnedPolygonMesh triangles{mesh.coordinates, {}, {0}};
-      for (std::int64_t f = 0; f < mesh.view().face_count(); ++f) {
-        const auto q = mesh.view().face(f);
-        triangles.corners.insert(triangles.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-        triangles.offsets.push_back(triangles.offsets.back() + 3);
-        triangles.offsets.push_back(triangles.offsets.back() + 3);
-      }
-      mesh = triangles;
-    }
+    if (cut) mesh = triangulated(mesh);
     const ControlMesh plane = control(mesh);
     const Stencils stencils = make_stencils(plane, {.exponent = 1}, workers);
     const auto values = [&](const Lattice& lattice) {

@@ -26,17 +26,6 @@ ControlMesh control(const OwnedPolygonMesh& mesh, const FeatureOptions& features
   return make_control_mesh(mesh.view(), features);
 }
 
-OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads) {
-  OwnedPolygonMesh mesh{quads.coordinates, {}, {0}};
-  for (std::int64_t f = 0; f < quads.view().face_count(); ++f) {
-    const auto q = quads.view().face(f);
-    mesh.corners.insert(mesh.corners.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-    mesh.offsets.push_back(mesh.offsets.back() + 3);
-    mesh.offsets.push_back(mesh.offsets.back() + 3);
-  }
-  return mesh;
-}
-
 // The convex hull of random points on the unit sphere.
 OwnedPolygonMesh random_hull(int points, unsigned seed) {
   std::mt19937 random(seed);
