@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Discrete Fairing: the fairest surface through the vertices of a coarse mesh.
 
-The data's way through the modules: `read_mesh` → `features` → `request` → the native core → `write_mesh` →
-`write_object`; `operator` walks it, `settings` and `panel` ask for it.
+The data's way through the folders: `read` → `check` → `request` → the native core → `carry` → `write`. `run` walks it,
+`settings` and `interface` ask for it.
 """
 
-from . import operator, panel, settings
+from .interface import panel
+from .run import operator
+from .settings import properties
 
-_MODULES = (settings, operator, panel)
+_MODULES = (properties, operator, panel)
 
 
 def register():

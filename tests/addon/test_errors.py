@@ -6,7 +6,8 @@ import bpy
 import pytest
 from scenes import CUBE, add, fair
 
-from addon import messages, size
+from addon.check import messages
+from addon.request import size
 
 
 def expect_refusal(match, **settings):

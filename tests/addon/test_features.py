@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from addon.features import corner_vertices, crease_edges
-from addon.read_mesh import ControlArrays
+from addon.read.mesh import ControlArrays
+from addon.request.features import corner_vertices, crease_edges
 
 
 def triangle(**attributes):

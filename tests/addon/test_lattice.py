@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from addon.lattice import fine_edges, mark_pairs
+from addon.carry.lattice import fine_edges, mark_pairs
 
 # two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
 TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))

@@ -5,8 +5,11 @@ import bpy
 import pytest
 from scenes import CUBE, add, add_suzanne, face_values
 
-from addon import native, panel, settings_layout, size
-from addon.settings import NAMES, copy_settings
+from addon import native
+from addon.interface import panel
+from addon.request import size
+from addon.settings import layout as settings_layout
+from addon.settings.properties import NAMES, copy_settings
 
 
 class Layout:

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, set_edge_attribute
 
-from addon.read_mesh import read_mesh
+from addon.read.mesh import read_mesh
 
 
 def test_faces_and_edges():

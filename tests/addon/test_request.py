@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, set_edge_attribute
 
-from addon.read_mesh import read_mesh
-from addon.request import fair_arguments
-from addon.settings import NAMES
+from addon.read.mesh import read_mesh
+from addon.request.arguments import fair_arguments
+from addon.settings.properties import NAMES
 
 
 def settings(**changes):

@@ -3,10 +3,12 @@
 
 import bpy
 
-from . import native, size
-from .operator import OBJECT_OT_fair_surface, source_objects
-from .settings import copy_settings
-from .settings_layout import draw_advanced, draw_creases, draw_shape
+from .. import native
+from ..read.source import source_objects
+from ..request import size
+from ..run.operator import OBJECT_OT_fair_surface
+from ..settings.layout import draw_advanced, draw_creases, draw_shape
+from ..settings.properties import copy_settings
 
 
 class _Sidebar:

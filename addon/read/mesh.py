@@ -21,16 +21,10 @@ class ControlArrays:
     material_index: np.ndarray | None  # (m,) int32; None: all 0
     sharp_face: np.ndarray | None  # (m,) bool, flat shaded; None: all smooth
 
-
-def read_object(source):
-    """The mesh of `source` (bpy.types.Object) as ControlArrays, in Edit Mode with the edits of this moment."""
-    if source.mode != "EDIT":
-        return read_mesh(source.data)
-    source.update_from_editmode()
-    try:  # a mesh in Edit Mode lists the attributes of the edit, not its own: read a copy
-        return read_mesh(source.to_mesh())
-    finally:
-        source.to_mesh_clear()
+    @property
+    def face_sizes(self):
+        """(m,) int32: corners of each face."""
+        return self.offsets[1:] - self.offsets[:-1]
 
 
 def read_mesh(mesh):

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 
-from .lattice import mark_pairs
+from ..carry.lattice import mark_pairs
 
 
 def write_mesh(name, result, arrays, sharp_pairs, materials=(), shade_smooth=False):

@@ -2,6 +2,7 @@
 """Every setting of the fairing, once: the operator and the panel both inherit this one list."""
 
 from math import radians
+from types import SimpleNamespace
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -155,6 +156,11 @@ def copy_settings(source, target):
     """Every setting of `source` onto `target` (operator properties or property group)."""
     for name in NAMES:
         setattr(target, name, getattr(source, name))
+
+
+def snapshot(settings):
+    """The settings as plain values, which stay as they are."""
+    return SimpleNamespace(**{name: getattr(settings, name) for name in NAMES})
 
 
 class DISCRETE_FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):

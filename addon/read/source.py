@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects are faired, and the mesh of each: its own, or what its modifiers make of it."""
+
+from contextlib import contextmanager
+
+
+def source_objects(context):
+    """The meshes to fair: the selected ones in Object Mode, those being edited in Edit Mode; the active one alone if none."""
+    active = context.active_object
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    selected = [o for o in context.selected_objects if o.type == "MESH"]
+    if not selected and active is not None and active.type == "MESH":
+        selected = [active]
+    # the active one last, so that its result becomes active
+    return sorted(selected, key=lambda o: o == active)
+
+
+@contextmanager
+def control_mesh(context, source, evaluated=False):
+    """The bpy.types.Mesh to read, with the edits of this moment; valid inside the `with` only.
+
+    `evaluated`: with the modifiers of `source` applied.
+    """
+    if source.mode == "EDIT":
+        source.update_from_editmode()
+    if evaluated:
+        owner = source.evaluated_get(context.evaluated_depsgraph_get())
+    elif source.mode == "EDIT":  # then it lists the attributes of the edit, not its own: read a copy
+        owner = source
+    else:
+        yield source.data
+        return
+    try:
+        yield owner.to_mesh()
+    finally:
+        owner.to_mesh_clear()
