@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "check/check.h"
 #include "fair/fair.h"
 #include "fair/memory_plan.h"
 
@@ -42,6 +43,7 @@ void raise(const FairingError& error) {
   py::object value = type(error.what());
   value.attr("code") = name(error.code);
   value.attr("elements") = error.elements;
+  value.attr("kind") = name(error.kind);
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
@@ -52,6 +54,7 @@ py::list to_python(const std::vector<Warning>& warnings) {
     entry["code"] = w.code;
     entry["message"] = w.message;
     entry["elements"] = w.elements;
+    entry["kind"] = name(w.kind);
     list.append(entry);
   }
   return list;
@@ -109,6 +112,32 @@ py::dict to_python(const Report& r) {
   d["warnings"] = to_python(r.warnings);
   d["flipped_faces"] = r.flipped_faces;
   return d;
+}
+
+using VertexPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+VertexPairs in_pairs(const std::vector<std::int64_t>& ids) {
+  VertexPairs pairs;
+  for (std::size_t i = 0; i + 1 < ids.size(); i += 2) pairs.emplace_back(ids[i], ids[i + 1]);
+  return pairs;
+}
+
+py::list to_python(const Defects& defects) {
+  py::list list;
+  for (const Defect& defect : defects) {
+    py::dict entry;
+    entry["code"] = name(defect.code);
+    entry["message"] = defect.message;
+    if (defect.kind == ElementKind::edge)
+      entry["elements"] = in_pairs(defect.elements);
+    else
+      entry["elements"] = defect.elements;
+    entry["kind"] = name(defect.kind);
+    entry["severity"] = defect.severity == Severity::error ? "error" : "warning";
+    entry["repair"] = defect.repairable() ? py::object(py::str("orientation")) : py::object(py::none());
+    list.append(entry);
+  }
+  return list;
 }
 
 // Runs on a thread of its own while the calling thread looks after Python: progress, Ctrl-C.
@@ -178,6 +207,28 @@ py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
   return d;
 }
 
+py::list check_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+                      const Contiguous<std::int64_t>& offsets, bool repair_orientation) {
+  const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
+  Findings findings;
+  {
+    py::gil_scoped_release release;
+    findings = find_defects(mesh, {.repair_orientation = repair_orientation});
+  }
+  return to_python(findings.defects);
+}
+
+py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+                        const Contiguous<std::int64_t>& offsets) {
+  const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
+  std::vector<std::int64_t> faces;
+  {
+    py::gil_scoped_release release;
+    faces = faces_to_flip(mesh);
+  }
+  return py::array_t<std::int64_t>(py::ssize_t(faces.size()), faces.data());
+}
+
 py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
                         const Contiguous<std::int64_t>& offsets, int levels) {
   const std::vector<double> none(3 * std::size_t(vertices));
@@ -196,7 +247,8 @@ PYBIND11_MODULE(_native, m) {
   fairing_error_type = PyErr_NewExceptionWithDoc(
       "discrete_fairing.FairingError",
       "Base of all errors of this package.\n\n"
-      "code: str, the kind of error (\"NONMANIFOLD_EDGE\", ...); elements: list of int, the ids concerned.",
+      "code: str, what is wrong (\"NONMANIFOLD_EDGE\", ...); elements: list of int, the ids concerned;\n"
+      "kind: \"vertex\", \"edge\" (ids in pairs, end to end), \"face\" or, without elements, \"mesh\".",
       PyExc_ValueError, nullptr);
   m.attr("FairingError") =
       py::reinterpret_borrow<py::object>(fairing_error_type);  // one reference stays with raise()
@@ -272,6 +324,10 @@ PYBIND11_MODULE(_native, m) {
 
   m.def("fair", &fair_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("options"), py::arg("monitor"), py::arg("progress"));
+  m.def("check", &check_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
+        py::arg("offsets").noconvert(), py::arg("repair_orientation"));
+  m.def("faces_to_flip", &flipped_faces, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
+        py::arg("offsets").noconvert());
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("levels"));
 #ifdef DF_VERSION

@@ -10,25 +10,62 @@
 
 namespace fairing {
 
-CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
-  CheckResult result;
-  check_arrays(mesh);
-  check_duplicate_faces(mesh);
-  {
-    const HalfEdges half_edges(mesh);
-    check_edges(half_edges);
-    check_fans(mesh, half_edges);
-    result.flipped_faces = disagreeing_faces(mesh, half_edges);
+namespace {
+
+bool prevents_orientation(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::empty_mesh:
+    case ErrorCode::no_faces:
+    case ErrorCode::bad_shape:
+    case ErrorCode::too_large:
+    case ErrorCode::index_out_of_range:
+    case ErrorCode::repeated_vertex:
+    case ErrorCode::nonmanifold_edge:
+    case ErrorCode::non_orientable: return true;
+    default: return false;
   }
-  if (!result.flipped_faces.empty() && !options.repair_orientation)
-    throw FairingError(
-        ErrorCode::inconsistent_orientation,
-        listing(face_s, result.flipped_faces, {"looks", "look"}) +
-            " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
-        result.flipped_faces);
-  check_coincident_vertices(mesh, result.warnings);
-  check_areas(mesh);
-  warn_of_isolated_vertices(mesh, result.warnings);
+}
+
+}  // namespace
+
+Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options) {
+  Findings result;
+  Defects& found = result.defects;
+  const Readable readable = check_arrays(mesh, found);
+  if (!readable.faces) return result;
+  check_duplicate_faces(mesh, found);
+  if (readable.simple) {
+    const HalfEdges half_edges(mesh);
+    check_edges(half_edges, found);
+    check_fans(mesh, half_edges, found);
+    Orientation orientation = find_orientation(mesh, half_edges);
+    check_orientation(orientation, options.repair_orientation, found);
+    result.flipped_faces = std::move(orientation.to_flip);
+  }
+  if (readable.coordinates) {
+    check_coincident_vertices(mesh, found);
+    check_areas(mesh, found);
+  }
+  warn_of_isolated_vertices(mesh, found);
+  return result;
+}
+
+std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh) {
+  Findings findings = find_defects(mesh, {.repair_orientation = true});
+  for (const Defect& defect : findings.defects)
+    if (prevents_orientation(defect.code)) defect.raise();
+  return std::move(findings.flipped_faces);
+}
+
+CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
+  Findings findings = find_defects(mesh, options);
+  CheckResult result;
+  for (const Defect& defect : findings.defects) {
+    if (defect.severity == Severity::error) defect.raise();
+    if (!defect.repairable())  // told by flipped_faces
+      result.warnings.push_back({name(defect.code), defect.message, defect.elements, defect.kind});
+  }
+  result.flipped_faces = std::move(findings.flipped_faces);
   return result;
 }
 

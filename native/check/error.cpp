@@ -18,6 +18,7 @@ const char* name(ErrorCode code) {
     case ErrorCode::non_orientable: return "NON_ORIENTABLE";
     case ErrorCode::degenerate_face: return "DEGENERATE_FACE";
     case ErrorCode::coincident_vertices: return "COINCIDENT_VERTICES";
+    case ErrorCode::isolated_vertices: return "ISOLATED_VERTICES";
     case ErrorCode::bad_feature_edge: return "BAD_FEATURE_EDGE";
     case ErrorCode::bad_option: return "BAD_OPTION";
     case ErrorCode::underdetermined: return "UNDERDETERMINED";
@@ -27,6 +28,43 @@ const char* name(ErrorCode code) {
     case ErrorCode::cancelled: return "CANCELLED";
   }
   return "UNKNOWN";
+}
+
+const char* name(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::mesh: return "mesh";
+    case ElementKind::vertex: return "vertex";
+    case ElementKind::edge: return "edge";
+    case ElementKind::face: return "face";
+  }
+  return "unknown";
+}
+
+ElementKind usual_kind(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_shape:
+    case ErrorCode::index_out_of_range:
+    case ErrorCode::repeated_vertex:
+    case ErrorCode::duplicate_face:
+    case ErrorCode::inconsistent_orientation:
+    case ErrorCode::non_orientable:
+    case ErrorCode::degenerate_face:
+    case ErrorCode::too_large: return ElementKind::face;
+    case ErrorCode::non_finite:
+    case ErrorCode::nonmanifold_vertex:
+    case ErrorCode::coincident_vertices:
+    case ErrorCode::isolated_vertices:
+    case ErrorCode::bad_option:
+    case ErrorCode::underdetermined: return ElementKind::vertex;
+    case ErrorCode::nonmanifold_edge:
+    case ErrorCode::bad_feature_edge: return ElementKind::edge;
+    case ErrorCode::empty_mesh:
+    case ErrorCode::no_faces:
+    case ErrorCode::out_of_memory:
+    case ErrorCode::not_converged:
+    case ErrorCode::cancelled: return ElementKind::mesh;
+  }
+  return ElementKind::mesh;
 }
 
 }  // namespace fairing

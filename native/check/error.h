@@ -24,6 +24,7 @@ enum class ErrorCode {
   non_orientable,
   degenerate_face,
   coincident_vertices,
+  isolated_vertices,
   bad_feature_edge,
   bad_option,
   underdetermined,
@@ -36,14 +37,27 @@ enum class ErrorCode {
 // The stable upper-case spelling that scripts see, "NONMANIFOLD_EDGE".
 const char* name(ErrorCode code);
 
-// `elements` are ids in the caller's own numbering: of faces, of vertices, or of vertex pairs laid
-// end to end, as the message says.
+// What a list of ids names. Edges are vertex pairs, laid end to end.
+enum class ElementKind { mesh, vertex, edge, face };
+
+const char* name(ElementKind kind);
+
+// What the elements of such an error are, unless it says otherwise.
+ElementKind usual_kind(ErrorCode code);
+
+// `elements` are ids in the caller's own numbering, of the kind that `kind` says.
 class FairingError : public std::runtime_error {
  public:
-  FairingError(ErrorCode kind, const std::string& message, std::vector<std::int64_t> ids = {})
-      : std::runtime_error(message), code(kind), elements(std::move(ids)) {}
+  FairingError(ErrorCode error, const std::string& message, std::vector<std::int64_t> ids = {})
+      : FairingError(error, message, std::move(ids), usual_kind(error)) {}
+  FairingError(ErrorCode error, const std::string& message, std::vector<std::int64_t> ids, ElementKind of)
+      : std::runtime_error(message),
+        code(error),
+        kind(ids.empty() ? ElementKind::mesh : of),
+        elements(std::move(ids)) {}
 
   ErrorCode code;
+  ElementKind kind;
   std::vector<std::int64_t> elements;
 };
 
@@ -52,6 +66,7 @@ struct Warning {
   std::string code;  // "ISOLATED_VERTICES", "COINCIDENT_VERTICES", …
   std::string message;
   std::vector<std::int64_t> elements;
+  ElementKind kind = ElementKind::mesh;
 };
 
 }  // namespace fairing

@@ -40,7 +40,7 @@ std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
 
 }  // namespace
 
-void check_coincident_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings) {
+void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   const std::vector<std::int32_t> first = first_at_same_point(mesh.coordinates);
   const std::vector<std::uint8_t> used = used_vertices(mesh);
 
@@ -70,44 +70,47 @@ void check_coincident_vertices(const PolygonMesh& mesh, std::vector<Warning>& wa
     for (std::size_t i = 0; i < face.size(); ++i) {
       if (!listed[std::size_t(face[i])]) continue;
       for (std::size_t j = 0; j < i; ++j)
-        if (first[std::size_t(face[i])] == first[std::size_t(face[j])])
+        if (face[i] != face[j] && first[std::size_t(face[i])] == first[std::size_t(face[j])])
           touching.insert(touching.end(), {face[i], face[j]});
     }
   }
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   if (!touching.empty())
-    throw FairingError(ErrorCode::coincident_vertices,
+    found.emplace_back(ErrorCode::coincident_vertices,
                        listing(vertex_s, touching, {"lies", "lie"}) +
                            " exactly on another vertex of the same face. Merge them by distance.",
                        touching);
 
+  std::erase_if(shared,
+                [&](std::int64_t v) { return std::binary_search(touching.begin(), touching.end(), v); });
+  if (shared.empty()) return;
   std::sort(shared.begin(), shared.end());
-  warnings.push_back({"COINCIDENT_VERTICES",
-                      listing(vertex_s, shared, {"shares", "share"}) +
-                          " a point with others without being joined to them: the surface is open there. "
-                          "Merge by distance if it should be closed.",
-                      shared});
+  found.emplace_back(ErrorCode::coincident_vertices,
+                     listing(vertex_s, shared, {"shares", "share"}) +
+                         " a point with others without being joined to them: the surface is open there. "
+                         "Merge by distance if it should be closed.",
+                     shared, Severity::warning);
 }
 
-void check_areas(const PolygonMesh& mesh) {
+void check_areas(const PolygonMesh& mesh, Defects& found) {
   Ids bad;
   for (std::int64_t f = 0; f < mesh.face_count(); ++f)
     if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
   if (bad.empty()) return;
-  throw FairingError(ErrorCode::degenerate_face,
+  found.emplace_back(ErrorCode::degenerate_face,
                      listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.", bad);
 }
 
-void warn_of_isolated_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings) {
+void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   Ids isolated;
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v]) isolated.push_back(std::int64_t(v));
   if (isolated.empty()) return;
-  warnings.push_back(
-      {"ISOLATED_VERTICES",
-       listing(vertex_s, isolated, {"belongs", "belong"}) + " to no face: kept where they are.", isolated});
+  found.emplace_back(ErrorCode::isolated_vertices,
+                     listing(vertex_s, isolated, {"belongs", "belong"}) + " to no face: kept where they are.",
+                     isolated, Severity::warning);
 }
 
 }  // namespace fairing

@@ -2,18 +2,19 @@
 // Whether the faces have an extent, and which vertices share a point.
 #pragma once
 
-#include "check/error.h"
+#include "check/defect.h"
 #include "check/polygon_mesh.h"
 
 namespace fairing {
 
-// Throws FairingError coincident_vertices if vertices of one face lie at one point; vertices that share a
-// point but no face (seams) are only worth a warning.
-void check_coincident_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings);
+// Adds coincident_vertices: an error for vertices of one face that lie at one point; for all vertices that share a
+// point without such a face (seams) a warning.
+void check_coincident_vertices(const PolygonMesh& mesh, Defects& found);
 
-// Throws FairingError degenerate_face: area below 1e-12 of the longest side squared.
-void check_areas(const PolygonMesh& mesh);
+// Adds degenerate_face: area below 1e-12 of the longest side squared.
+void check_areas(const PolygonMesh& mesh, Defects& found);
 
-void warn_of_isolated_vertices(const PolygonMesh& mesh, std::vector<Warning>& warnings);
+// Adds isolated_vertices, a warning.
+void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found);
 
 }  // namespace fairing

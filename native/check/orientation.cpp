@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "check/error.h"
 #include "check/listing.h"
 
 namespace fairing {
@@ -67,10 +66,11 @@ class Parties {
 
 }  // namespace
 
-std::vector<std::int64_t> disagreeing_faces(const PolygonMesh& mesh, const HalfEdges& half_edges) {
-  if (all_agree(half_edges)) return {};
+Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+  Orientation result;
+  if (all_agree(half_edges)) return result;
   Parties parties(mesh, half_edges);
-  Ids to_flip, one_sided;
+  Ids &to_flip = result.to_flip, &one_sided = result.one_sided;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     if (parties.seen(f)) continue;
     if (parties.visit(f))
@@ -79,15 +79,24 @@ std::vector<std::int64_t> disagreeing_faces(const PolygonMesh& mesh, const HalfE
       one_sided.insert(one_sided.end(), parties.component().begin(), parties.component().end());
   }
   std::sort(one_sided.begin(), one_sided.end());
-  if (!one_sided.empty())
-    throw FairingError(
-        ErrorCode::non_orientable,
-        listing(face_s, one_sided, {"belongs", "belong"}) +
-            " to a surface with only one side, like a Möbius strip: no turning of faces can help. "
-            "Cut it open.",
-        one_sided);
   std::sort(to_flip.begin(), to_flip.end());
-  return to_flip;
+  return result;
+}
+
+void check_orientation(const Orientation& orientation, bool repair, Defects& found) {
+  const auto& [to_flip, one_sided] = orientation;
+  if (!one_sided.empty())
+    found.emplace_back(ErrorCode::non_orientable,
+                       listing(face_s, one_sided, {"belongs", "belong"}) +
+                           " to a surface with only one side, like a Möbius strip: no turning of faces can "
+                           "help. Cut it open.",
+                       one_sided);
+  if (!to_flip.empty())
+    found.emplace_back(
+        ErrorCode::inconsistent_orientation,
+        listing(face_s, to_flip, {"looks", "look"}) +
+            " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
+        to_flip, repair ? Severity::warning : Severity::error);
 }
 
 }  // namespace fairing

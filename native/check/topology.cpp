@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "check/error.h"
 #include "check/listing.h"
 
 namespace fairing {
@@ -63,7 +62,7 @@ std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
 
 }  // namespace
 
-void check_duplicate_faces(const PolygonMesh& mesh) {
+void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
   // Faces are filed under their lowest vertex: buckets of two on average, as in HalfEdges.
   const auto faces = std::int32_t(mesh.face_count());
   const auto lowest = [&](std::int32_t f) {
@@ -94,33 +93,34 @@ void check_duplicate_faces(const PolygonMesh& mesh) {
   }
   if (duplicates.empty()) return;
   std::sort(duplicates.begin(), duplicates.end());
-  throw FairingError(ErrorCode::duplicate_face,
+  found.emplace_back(ErrorCode::duplicate_face,
                      listing(face_s, duplicates, {"has", "have"}) +
                          " the same vertices as another face. Delete all but one of each.",
                      duplicates);
 }
 
-void check_edges(const HalfEdges& half_edges) {
+void check_edges(const HalfEdges& half_edges, Defects& found) {
   const Ids& pairs = half_edges.overfull();
   if (pairs.empty()) return;
-  throw FairingError(ErrorCode::nonmanifold_edge,
+  found.emplace_back(ErrorCode::nonmanifold_edge,
                      listing_pairs({"edge", "edges"}, pairs, {"has", "have"}) +
                          " more than two faces (vertex pairs). Delete inner faces or separate the sheets.",
                      pairs);
 }
 
-void check_fans(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+void check_fans(const PolygonMesh& mesh, const HalfEdges& half_edges, Defects& found) {
   std::vector<std::int32_t> corners(std::size_t(mesh.vertex_count()), 0), some(corners.size(), -1);
   for (std::int32_t k = 0; k < half_edges.count(); ++k) {
     const auto v = std::size_t(half_edges.from(k));
     ++corners[v];
     some[v] = k;
   }
+  for (std::int64_t v : half_edges.overfull()) corners[std::size_t(v)] = 0;
   Ids bad;
   for (std::size_t v = 0; v < corners.size(); ++v)
     if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v]) bad.push_back(std::int64_t(v));
   if (bad.empty()) return;
-  throw FairingError(ErrorCode::nonmanifold_vertex,
+  found.emplace_back(ErrorCode::nonmanifold_vertex,
                      listing(vertex_s, bad, {"joins", "join"}) +
                          " parts of the surface that share no edge there. Separate (rip) the parts.",
                      bad);

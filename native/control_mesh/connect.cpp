@@ -30,7 +30,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
     if (!mesh.add_face(corners, std::size_t(face.size)).is_valid())
       throw FairingError(ErrorCode::nonmanifold_vertex,
                          "Face " + std::to_string(face.polygon) + " cannot be joined to its neighbours.",
-                         {face.polygon});
+                         {face.polygon}, ElementKind::face);
   }
   return mesh;
 }

@@ -95,7 +95,7 @@ class FeatureFinder {
                        listing(vertex_s, vertices, {"is", "are"}) + " named among the " + where +
                            " but not in the mesh: ids run from 0 to " +
                            std::to_string(control_.input_vertices - 1) + ".",
-                       vertices);
+                       vertices, ElementKind::vertex);
   }
 
   void mark_folded_edges() {

@@ -72,7 +72,7 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, Repo
       "The solver stopped after %d iterations at a relative residual of %.1e (asked: %.1e). The surface is "
       "usable; very thin faces are the usual cause.",
       level.iterations, level.residual, options.relative_residual);
-  report.warnings.push_back({"NOT_CONVERGED", text, {}});
+  report.warnings.push_back({"NOT_CONVERGED", text, {}, ElementKind::mesh});
 }
 
 Array<std::int32_t> crease_edges(const ControlMesh& mesh) {

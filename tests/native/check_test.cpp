@@ -19,6 +19,7 @@ void expect_refused(const OwnedPolygonMesh& mesh, ErrorCode code, const Ids& ele
   const FairingError error = thrown([&] { check(mesh.view(), options); });
   EXPECT_STREQ(name(error.code), name(code));
   EXPECT_EQ(error.elements, elements);
+  EXPECT_EQ(error.kind, elements.empty() ? ElementKind::mesh : usual_kind(code));
   EXPECT_GT(std::string(error.what()).size(), 20u);
 }
 
@@ -173,6 +174,22 @@ TEST(Check, IsolatedVerticesAreOnlyAWarning) {
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_EQ(result.warnings[0].code, "ISOLATED_VERTICES");
   EXPECT_EQ(result.warnings[0].elements, (Ids{3, 4}));
+}
+
+TEST(Check, FindsEveryKindAtOnce) {
+  OwnedPolygonMesh mesh = flipped_cube_face();
+  mesh.coordinates.insert(mesh.coordinates.end(), {5, 5, 5});
+  mesh.corners.insert(mesh.corners.end(), mesh.corners.begin() + 16, mesh.corners.begin() + 20);
+  mesh.offsets.push_back(28);
+  const Findings findings = find_defects(mesh.view());
+  std::vector<ErrorCode> codes;
+  for (const Defect& defect : findings.defects) codes.push_back(defect.code);
+  EXPECT_EQ(codes, (std::vector{ErrorCode::duplicate_face, ErrorCode::nonmanifold_edge,
+                                ErrorCode::inconsistent_orientation, ErrorCode::isolated_vertices}));
+  EXPECT_EQ(findings.defects[0].elements, (Ids{4, 6}));
+  EXPECT_EQ(findings.defects[1].elements.size(), 8u);
+  EXPECT_EQ(findings.defects[2].elements, findings.flipped_faces);
+  EXPECT_EQ(thrown([&] { check(mesh.view()); }).code, ErrorCode::duplicate_face);
 }
 
 TEST(Check, MessagesNameTheFirstFew) {

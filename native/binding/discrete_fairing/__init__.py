@@ -8,7 +8,18 @@
 
 from ._native import FairingError, Monitor, __version__
 from .arrays import predicted_size
+from .checking import Defect, check, repair_orientation
 from .fairing import fair
 from .result import Result
 
-__all__ = ["FairingError", "Monitor", "Result", "__version__", "fair", "predicted_size"]
+__all__ = [
+    "Defect",
+    "FairingError",
+    "Monitor",
+    "Result",
+    "__version__",
+    "check",
+    "fair",
+    "predicted_size",
+    "repair_orientation",
+]

@@ -4,9 +4,12 @@
 from ._native import FairingError
 
 
-def fairing_error(code: str, message: str, elements: list[int] | None = None) -> FairingError:
-    """A FairingError with its code and element ids set."""
+def fairing_error(
+    code: str, message: str, elements: list[int] | None = None, kind: str = "mesh"
+) -> FairingError:
+    """A FairingError with its code, element ids and their kind set."""
     error = FairingError(message)
     error.code = code
     error.elements = elements or []
+    error.kind = kind
     return error

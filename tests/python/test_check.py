@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The check report: all kinds of defect at once, nothing raised, and the same verdict as a run's."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import as_lists, half_edges, size_of
+
+POINTS, FACES = meshes.icosahedron()
+
+
+def found(vertices, faces, **options):
+    """(code, elements) of every defect."""
+    return [(d.code, d.elements) for d in df.check(vertices, faces, **options)]
+
+
+def first_error(vertices, faces):
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, 0)
+    return caught.value
+
+
+@pytest.mark.parametrize("name", meshes.ALL)
+def test_nothing_is_wrong_with_clean_meshes(name):
+    vertices, faces = meshes.ALL[name]()
+    assert df.check(vertices, faces) == []
+    assert df.repair_orientation(vertices, faces).tolist() == []
+
+
+def test_all_kinds_at_once():
+    vertices = np.concatenate([POINTS, [[9.0, 9, 9], [7, 7, 7], [8, 8, 8]]])
+    faces = as_lists(FACES)
+    a, b, _ = faces[0]
+    turned = faces[5][::-1]
+    faces[5] = turned
+    faces += [[a, b, 13]]  # a third face at an edge
+    faces += [faces[9]]  # one twice
+    report = {d.code: d for d in df.check(vertices, faces)}
+    assert list(report) == [
+        "DUPLICATE_FACE",
+        "NONMANIFOLD_EDGE",
+        "INCONSISTENT_ORIENTATION",
+        "ISOLATED_VERTICES",
+    ]
+    assert report["DUPLICATE_FACE"].elements == [9, 21] and report["DUPLICATE_FACE"].kind == "face"
+    edges = {tuple(sorted(e)) for e in half_edges([faces[9]])} | {(min(a, b), max(a, b))}
+    assert {tuple(e) for e in report["NONMANIFOLD_EDGE"].elements} == edges
+    assert report["NONMANIFOLD_EDGE"].kind == "edge"
+    assert report["INCONSISTENT_ORIENTATION"].repair == "orientation"
+    assert 5 in report["INCONSISTENT_ORIENTATION"].elements
+    assert report["ISOLATED_VERTICES"].elements == [12, 14]
+    assert (report["ISOLATED_VERTICES"].severity, report["ISOLATED_VERTICES"].kind) == ("warning", "vertex")
+    assert all(d.severity == "error" for c, d in report.items() if c != "ISOLATED_VERTICES")
+    assert all(d.repair is None for c, d in report.items() if c != "INCONSISTENT_ORIENTATION")
+
+
+def test_what_ends_the_search():
+    faces = FACES.copy()
+    faces[3, 1] = 99
+    faces[4, 1] = faces[4, 0]
+    vertices = POINTS.copy()
+    vertices[2, 1] = np.nan
+    assert found(vertices, faces) == [
+        ("NON_FINITE", [2]),
+        ("INDEX_OUT_OF_RANGE", [3]),
+        ("REPEATED_VERTEX", [4]),
+    ]
+    assert found([], []) == [("EMPTY_MESH", [])]
+    assert df.check([], [])[0].kind == "mesh"
+    assert found(POINTS, []) == [("NO_FACES", [])]
+    assert found(POINTS, [[0, 1], [1, 2, 3]]) == [("BAD_SHAPE", [0])]
+
+
+def test_geometry_is_left_out_where_points_are_not_finite():
+    vertices = POINTS.copy()
+    vertices[4] = np.inf
+    assert found(vertices, FACES) == [("NON_FINITE", [4])]
+
+
+def test_topology_is_left_out_where_a_face_repeats_a_vertex_but_geometry_is_not():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [2, 2, 0]])
+    codes = [c for c, _ in found(vertices, [[0, 1, 2], [3, 3, 4], [0, 3, 4]])]
+    assert codes == ["REPEATED_VERTEX", "DEGENERATE_FACE"]
+
+
+def test_coincidence_and_area_together():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 1, 0], [0, 1, 0], [2, 2, 0]])
+    vertices = np.concatenate([vertices, [[2, 0, 0]]])
+    faces = [[0, 1, 2, 3], [7, 6, 4], [0, 3, 5]]
+    # 3 and 5 are one point in one face; 2 and 4 are a seam
+    report = df.check(vertices, faces)
+    assert [(d.code, d.elements, d.severity) for d in report] == [
+        ("COINCIDENT_VERTICES", [3, 5], "error"),
+        ("COINCIDENT_VERTICES", [2, 4], "warning"),
+        ("DEGENERATE_FACE", [2], "error"),
+    ]
+
+
+def test_a_fan_is_no_defect_of_its_own_at_a_bad_edge():
+    vertices = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, -1, 0]])
+    assert found(vertices, [[0, 1, 2], [1, 0, 3], [0, 1, 4]])[0] == ("NONMANIFOLD_EDGE", [(0, 1)])
+    assert "NONMANIFOLD_VERTEX" not in dict(found(vertices, [[0, 1, 2], [1, 0, 3], [0, 1, 4]]))
+
+
+def test_orientation_and_one_sidedness_of_different_parts():
+    strip, quads = meshes.moebius()
+    flipped = FACES.copy()
+    flipped[3] = flipped[3, ::-1]
+    vertices = np.concatenate([POINTS, strip + [9, 0, 0]])
+    faces = as_lists(flipped) + as_lists(quads + len(POINTS))
+    one_sided = list(range(20, 20 + len(quads)))
+    assert found(vertices, faces) == [("NON_ORIENTABLE", one_sided), ("INCONSISTENT_ORIENTATION", [3])]
+    with pytest.raises(df.FairingError) as caught:
+        df.repair_orientation(vertices, faces)
+    assert (caught.value.code, caught.value.elements, caught.value.kind) == (
+        "NON_ORIENTABLE",
+        one_sided,
+        "face",
+    )
+
+
+def test_the_repair_mends_it():
+    faces = FACES.copy()
+    faces[[3, 11]] = faces[[3, 11], ::-1]
+    assert found(POINTS, faces) == [("INCONSISTENT_ORIENTATION", [3, 11])]
+    (mended,) = df.check(POINTS, faces, repair_orientation=True)
+    assert (mended.severity, mended.repair) == ("warning", "orientation")
+    flip = df.repair_orientation(POINTS, faces)
+    assert flip.tolist() == [3, 11] and flip.dtype.kind == "i"
+    faces[flip] = faces[flip, ::-1]
+    assert df.check(POINTS, faces) == []
+
+
+def test_repair_needs_no_good_geometry():
+    points = POINTS * [1, 1, 0]
+    faces = FACES.copy()
+    faces[7] = faces[7, ::-1]
+    assert df.repair_orientation(points, faces).tolist() == [7]
+    with pytest.raises(df.FairingError) as caught:
+        df.repair_orientation(points, [[0, 1, 99]])
+    assert caught.value.code == "INDEX_OUT_OF_RANGE"
+
+
+def damaged(seed):
+    """A mesh with random damage of every kind."""
+    random = np.random.default_rng(seed)
+    points, faces = meshes.wavy_patch() if seed % 2 else meshes.icosahedron()
+    points, faces = points.copy(), as_lists(faces)
+    for _ in range(random.integers(0, 4)):
+        f = random.integers(len(faces))
+        match random.integers(8):
+            case 0:
+                points[random.integers(len(points))] = np.nan
+            case 1:
+                faces[f] = faces[f][::-1]
+            case 2:
+                faces.append(faces[f])
+            case 3:
+                faces.append(random.choice(len(points), 3, replace=False).tolist())
+            case 4:
+                points[faces[f][0]] = points[faces[f][1]]
+            case 5:
+                faces[f][0] = faces[f][1]
+            case 6:
+                faces[f][2] = len(points) + 3
+            case 7:
+                del faces[f]
+    return points, faces
+
+
+@pytest.mark.parametrize("seed", range(120))
+def test_the_first_error_is_the_one_that_stops_a_run(seed):
+    points, faces = damaged(seed)
+    report = df.check(points, faces)
+    errors = [d for d in report if d.severity == "error"]
+    assert len({(d.code, d.severity) for d in report}) == len(report)
+    if not errors:
+        result = df.fair(points, faces, 0)
+        assert [w["code"] for w in result.report["warnings"]] == [d.code for d in report]
+        assert [w["kind"] for w in result.report["warnings"]] == [d.kind for d in report]
+        return
+    error = first_error(points, faces)
+    flat = np.array(errors[0].elements).reshape(-1).tolist()
+    assert (error.code, error.elements, error.kind) == (errors[0].code, flat, errors[0].kind)
+    assert str(error) == errors[0].message
+
+
+@pytest.mark.parametrize("seed", range(0, 120, 7))
+def test_verdicts_do_not_depend_on_where_and_how_large(seed):
+    points, faces = damaged(seed)
+    moved = 1000 * points[:, [1, 2, 0]]
+    assert found(moved, faces) == found(points, faces)
+
+
+def test_only_shapes_and_types_raise():
+    for vertices, faces in [(POINTS[:, :2], FACES), (POINTS, FACES + 0.5), (POINTS, FACES[:, :2])]:
+        with pytest.raises(df.FairingError) as caught:
+            df.check(vertices, faces)
+        assert caught.value.code == "BAD_SHAPE" and caught.value.kind == "mesh"
+
+
+def test_arrays_stay_as_they_are():
+    points, faces = POINTS.copy(), FACES.copy()
+    points.setflags(write=False)
+    df.check(points, faces)
+    assert np.array_equal(points, POINTS) and np.array_equal(faces, FACES)
+    assert size_of(points) > 0
+
+
+def test_errors_and_warnings_say_what_their_elements_are():
+    for options, kind in [
+        ({"crease_edges": [(0, 99)]}, "vertex"),
+        ({"corner_vertices": [99]}, "vertex"),
+        ({"crease_edges": [(0, int(np.setdiff1d(range(1, 12), FACES[(FACES == 0).any(1)])[0]))]}, "edge"),
+        ({"levels": 99}, "mesh"),
+    ]:
+        with pytest.raises(df.FairingError) as caught:
+            df.fair(POINTS, FACES, **options)
+        assert caught.value.kind == kind
