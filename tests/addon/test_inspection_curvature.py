@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curvature and folds of surfaces whose answer is known, and that the error shrinks with the edges as it has to."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from addon.inspection import curvature, measures, polygons
+
+
+def surface(positions, faces, sharp=None):
+    """Polygon arrays as read.mesh makes them, from lists."""
+    sizes = np.array([len(face) for face in faces], np.int64)
+    corners = np.concatenate([np.asarray(face, np.int32) for face in faces])
+    following = np.concatenate([np.roll(face, -1) for face in faces])
+    ends = np.sort(np.stack([corners, following], axis=1), axis=1)
+    edges, corner_edges = np.unique(ends, axis=0, return_inverse=True)
+    return SimpleNamespace(
+        positions=np.asarray(positions, float),
+        edges=edges.astype(np.int32),
+        corners=corners,
+        corner_edges=corner_edges.ravel().astype(np.int32),
+        offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
+        sharp_edge=None
+        if sharp is None
+        else np.array([tuple(e) in {tuple(sorted(s)) for s in sharp} for e in edges.tolist()]),
+    )
+
+
+def grid(shape, n, m, close_u, close_v, diagonals=True):
+    """`shape(u, v)` of parameters in [0, 1), sampled n × m, in triangles or quads with the normal along ∂u × ∂v."""
+    u = np.arange(n) / (n if close_u else n - 1)
+    v = np.arange(m) / (m if close_v else m - 1)
+    positions = np.stack(shape(*np.meshgrid(u, v, indexing="ij")), axis=-1).reshape(-1, 3)
+    faces = []
+    for i in range(n if close_u else n - 1):
+        for j in range(m if close_v else m - 1):
+            a, b = i * m + j, (i + 1) % n * m + j
+            c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
+            faces += [(a, b, c), (a, c, d)] if diagonals else [(a, b, c, d)]
+    return surface(positions, faces)
+
+
+def torus(n, diagonals=False):
+    """Radii 2 and 1, n around the tube; quads."""
+
+    def shape(u, v):
+        u, v = 2 * np.pi * u, 2 * np.pi * v
+        r = 2 + np.cos(v)
+        return r * np.cos(u), r * np.sin(u), np.sin(v)
+
+    return grid(shape, 2 * n, n, True, True, diagonals)
+
+
+def torus_truth(positions):
+    r = np.hypot(positions[:, 0], positions[:, 1])
+    across = (r - 2) / r
+    return (1 + across) / 2, across
+
+
+def sphere(levels):
+    """A cube's faces refined and thrown on the unit sphere: quads, with corners where three meet."""
+    n = 2**levels
+    line = np.tan(np.linspace(-np.pi / 4, np.pi / 4, n + 1))
+    ids, positions, faces = {}, [], []
+
+    def vertex(axis, sign, i, j):
+        point = np.roll([sign, sign * line[i], line[j]], axis)
+        key = tuple(np.round(point, 9))
+        if key not in ids:
+            ids[key] = len(positions)
+            positions.append(point / np.linalg.norm(point))
+        return ids[key]
+
+    for axis in range(3):
+        for sign in (1, -1):
+            for i in range(n):
+                for j in range(n):
+                    faces.append(
+                        [vertex(axis, sign, *at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+                    )
+    return surface(positions, faces)
+
+
+def test_sphere_bulges_with_curvature_one():
+    bent = curvature.curvature(sphere(4))
+    assert bent.inner.all()
+    assert np.abs(bent.mean - 1).max() < 0.03
+    assert np.abs(bent.gauss - 1).max() < 0.06
+    assert np.abs(bent.total - 2).max() < 0.1
+    assert bent.area.sum() == pytest.approx(4 * np.pi, rel=0.01)
+
+
+def test_inside_out_sphere_is_hollow():
+    inside_out = sphere(3)
+    inside_out.corners = inside_out.corners.reshape(-1, 4)[:, ::-1].ravel()
+    bent = curvature.curvature(inside_out)
+    assert (bent.mean < -0.9).all() and (bent.gauss > 0.9).all()
+
+
+def test_gauss_bonnet_to_the_last_digits():
+    for shape, euler in ((sphere(3), 2), (torus(12), 0)):
+        bent = curvature.curvature(shape)
+        assert (bent.gauss * bent.area).sum() == pytest.approx(2 * np.pi * euler, abs=1e-9)
+
+
+@pytest.mark.parametrize("diagonals", [False, True])
+def test_torus_converges_with_the_square_of_the_edges(diagonals):
+    errors = []
+    for n in (16, 32, 64):
+        mesh = torus(n, diagonals)
+        mean, gauss = torus_truth(mesh.positions)
+        bent = curvature.curvature(mesh)
+        errors.append([np.abs(bent.mean - mean).max(), np.abs(bent.gauss - gauss).max()])
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders.min() > 1.8, orders
+    assert np.max(errors[-1]) < 0.01
+
+
+def test_cylinder_and_its_open_ends():
+    def shape(u, v):
+        return 0.5 * np.cos(2 * np.pi * u), 0.5 * np.sin(2 * np.pi * u), v
+
+    mesh = grid(shape, 64, 9, True, False)
+    bent = curvature.curvature(mesh)
+    assert np.abs(bent.mean - 1.0).max() < 1e-3  # 1 / 2r, on the rims too: taken from their neighbours
+    assert np.abs(bent.gauss).max() < 1e-9
+    assert np.abs(bent.largest - 2.0).max() < 1e-2
+    assert (~bent.inner).sum() == 2 * 64
+
+
+def test_saddle_is_hollow_one_way_and_bulges_the_other():
+    def shape(u, v):
+        x, y = u - 0.5, v - 0.5
+        return x, y, x * x - y * y
+
+    bent = curvature.curvature(grid(shape, 41, 41, False, False))
+    middle = 20 * 41 + 20
+    assert bent.gauss[middle] == pytest.approx(-4, rel=0.01)
+    assert bent.mean[middle] == pytest.approx(0, abs=1e-6)
+    assert bent.total[middle] == pytest.approx(8, rel=0.01)
+
+
+def test_curvature_stops_at_sharp_edges():
+    positions = [
+        (0, 0, 0),
+        (1, 0, 0),
+        (2, 0, 0),
+        (0, 1, 0),
+        (1, 1, 0),
+        (2, 1, 1),
+        (0, 2, 0),
+        (1, 2, 0),
+        (2, 2, 1),
+    ]
+    faces = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)]
+    assert curvature.curvature(surface(positions, faces)).inner.tolist() == [i == 4 for i in range(9)]
+    bent = curvature.curvature(surface(positions, faces, [(1, 4), (4, 7)]))
+    assert not bent.inner.any() and not bent.mean.any()
+
+
+def test_total_curvature_of_a_sphere_does_not_depend_on_its_size():
+    for radius in (1.0, 10.0):
+        ball = sphere(4)
+        ball.positions = ball.positions * radius
+        assert measures.total_curvature(curvature.curvature(ball)) == pytest.approx(8 * np.pi, rel=0.01)
+
+
+def test_folds_of_a_box_are_right_angles():
+    box = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    angles, inside = measures.fold_angles(surface(box, faces))
+    assert inside.all() and np.allclose(angles, 90)
+    turned = [faces[0][::-1], *faces[1:]]
+    assert np.allclose(measures.fold_angles(surface(box, turned))[0], 90)
+    every = surface(box, faces).edges.tolist()
+    assert measures.worst_folds(surface(box, faces, every)) == (0.0, pytest.approx(90))
+
+
+def test_a_tiny_fold_keeps_its_digits():
+    h = 1e-7
+    angles, inside = measures.fold_angles(
+        surface([(0, 0, 0), (0, 1, 0), (-1, 0, 0), (1, 0, h)], [(0, 1, 2), (1, 0, 3)])
+    )
+    assert angles[inside] == pytest.approx(np.degrees(h), rel=1e-6)
+
+
+def test_a_long_quad_is_halved_along_its_shorter_diagonal():
+    kite = np.array([(0, 0, 0), (3, -1, 0), (6, 0, 0), (3, 1, 0)], float)
+    triangles, weights = polygons.triangulate(kite, np.arange(4), np.array([0, 4]))
+    assert len(triangles) == 2 and all({1, 3} <= set(t) for t in triangles.tolist())
+    assert weights.tolist() == [1.0, 1.0]
+
+
+def test_a_square_is_halved_both_ways_one_half_each():
+    square = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
+    triangles, weights = polygons.triangulate(square, np.arange(4), np.array([0, 4]))
+    assert sorted(map(sorted, triangles.tolist())) == [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
+    assert weights.tolist() == [0.5] * 4
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_a_quad_with_a_dent_is_halved_inside(turn):
+    dart = np.roll(np.array([(0, 0, 0), (2, -1, 0), (0.5, 0, 0), (2, 1, 0)], float), turn, axis=0)
+    triangles, weights = polygons.triangulate(dart, np.arange(4), np.array([0, 4]))
+    tip, dent = turn % 4, (turn + 2) % 4
+    assert len(triangles) == 2 and all({tip, dent} <= set(t) for t in triangles.tolist())
+    assert weights.tolist() == [1.0, 1.0]
+
+
+def test_curvature_keeps_the_symmetry_of_a_quad_mesh():
+    bent = curvature.curvature(torus(12))
+    around = bent.mean.reshape(24, 12)
+    assert np.ptp(around, axis=0).max() < 1e-12
+    assert np.allclose(around[0, 1:], around[0, 1:][::-1], atol=1e-12)
+
+
+def test_larger_polygons_become_fans_and_lines_nothing():
+    corners, offsets = np.array([0, 1, 2, 3, 4, 5, 0, 1, 3, 4, 5]), np.array([0, 6, 8, 11])
+    triangles, weights = polygons.triangulate(np.zeros((6, 3)), corners, offsets)
+    assert sorted(map(tuple, triangles.tolist())) == [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (3, 4, 5)]
+    assert weights.tolist() == [1.0] * 5
+
+
+def test_degenerate_faces_give_finite_numbers():
+    positions = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 0), (0, 0, 0)]
+    mesh = surface(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
+    bent = curvature.curvature(mesh)
+    assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
+    assert all(np.isfinite(v) for v in measures.measure(mesh).values())
+
+
+def test_nothing_to_measure():
+    empty = SimpleNamespace(
+        positions=np.empty((0, 3)),
+        edges=np.empty((0, 2), np.int32),
+        corners=np.empty(0, np.int32),
+        corner_edges=np.empty(0, np.int32),
+        offsets=np.zeros(1, np.int32),
+        sharp_edge=None,
+    )
+    assert measures.measure(empty)["largest_curvature"] == 0.0
+
+
+def test_deviation_is_that_of_the_control_vertices_alone():
+    control = np.zeros((2, 3))
+    result = np.array([(0, 0, 0.5), (0, 0, 0), (9, 9, 9)])
+    assert measures.largest_deviation(control, result) == 0.5
+    assert measures.largest_deviation(result, control) is None
+
+
+def test_largest_curvature_finds_the_tight_tube():
+    found = measures.measure(torus(48))
+    assert found["largest_curvature"] == pytest.approx(1.0, rel=0.02)
+    assert found["worst_fold"] == pytest.approx(360 / 48, rel=0.05)
