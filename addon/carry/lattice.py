@@ -13,25 +13,35 @@ def fine_edges(faces, control_pairs, levels):
 
     `faces`: the core's (triangles (T, 3), quads (Q, 4)). An edge between two faces comes twice.
     """
-    wanted = _keys(np.asarray(control_pairs))
+    wanted = pair_keys(np.asarray(control_pairs))
     n = 2**levels
     found = [np.empty((0, 2), np.int32)]
-    for fine, sides in zip(faces, (_triangle_sides(n), _quad_sides(n)), strict=True):
+    for fine in faces:
         cells = fine.reshape(-1, n * n, fine.shape[1])  # by control face
-        for run, start, end in sides:
+        for run, start, end in sides(fine.shape[1], n):
             ends = np.stack([cells[:, run[0], start], cells[:, run[-1], end]], axis=1)
-            chosen = cells[np.isin(_keys(ends), wanted)][:, run]
+            chosen = cells[np.isin(pair_keys(ends), wanted)][:, run]
             found.append(chosen[:, :, [start, end]].reshape(-1, 2))
     return np.concatenate(found)
 
 
 def mark_pairs(edges, pairs):
     """(e,) bool: which of the `edges` (e, 2) are among the vertex `pairs` (k, 2), whichever way round."""
-    return np.isin(_keys(edges), _keys(pairs))
+    return np.isin(pair_keys(edges), pair_keys(pairs))
+
+
+def sides(corners, n):
+    """For each side of a face with 3 or 4 corners: its n cells in order, and which two of their corners lie on it."""
+    return _triangle_sides(n) if corners == 3 else _quad_sides(n)
+
+
+def pair_keys(pairs):
+    """One number for each vertex pair, whichever way round it is given: (…, 2) integers → (k,) int64."""
+    pairs = np.sort(pairs.astype(np.int64).reshape(-1, 2), axis=1)
+    return pairs[:, 0] << 32 | pairs[:, 1]
 
 
 def _triangle_sides(n):
-    """For each side: its cells in order, and which of their corners lie on it."""
     left = np.arange(n)
     row = n * n - (n - left) ** 2  # the first cell of each row
     return (
@@ -49,9 +59,3 @@ def _quad_sides(n):
         (n * (n - 1) + run[::-1], 2, 3),
         (run[::-1] * n, 3, 0),
     )
-
-
-def _keys(pairs):
-    """One number for each vertex pair, whichever way round it is given."""
-    pairs = np.sort(pairs.astype(np.int64).reshape(-1, 2), axis=1)
-    return pairs[:, 0] << 32 | pairs[:, 1]
