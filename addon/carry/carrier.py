@@ -23,6 +23,7 @@ class Carrier:
 
     def __init__(self, result, arrays, levels):
         """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions, edges, corners, offsets)."""
+        self.control_count = len(arrays.positions)
         self.vertex_count = len(result.vertices)
         self._arrays = arrays
         self._patches = []

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shape keys as arrays and plain values."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+SETTINGS = ("slider_min", "slider_max", "value", "mute", "interpolation", "vertex_group", "lock_shape")
+
+
+@dataclass(frozen=True)
+class ShapeKey:
+    """One key; `relative_key`: the place of the key that it is relative to."""
+
+    name: str
+    relative_key: int
+    settings: dict  # by the names in SETTINGS that this Blender has, in an order that is safe to write
+
+
+@dataclass(frozen=True)
+class ShapeKeys:
+    """The k keys of a mesh with n vertices; the first is the reference key."""
+
+    keys: tuple  # of k ShapeKey
+    positions: np.ndarray  # (k, n, 3) float64
+    use_relative: bool
+    eval_time: float
+    active: int
+    show_only: bool
+
+    @property
+    def shapes(self):
+        """(k - 1, n, 3) float64: all but the first, which is the control mesh itself."""
+        return self.positions[1:]
+
+
+def read_shape_keys(source, vertex_count):
+    """The ShapeKeys of the object `source`, None if it has none, or if they are not of its `vertex_count` vertices."""
+    keys = source.data.shape_keys
+    if keys is None or not len(keys.key_blocks):
+        return None
+    blocks = list(keys.key_blocks)
+    if any(len(block.data) != vertex_count for block in blocks):
+        return None
+    place = {block.name: i for i, block in enumerate(blocks)}
+    return ShapeKeys(
+        keys=tuple(_key(block, place) for block in blocks),
+        positions=np.stack([_positions(block) for block in blocks]),
+        use_relative=keys.use_relative,
+        eval_time=keys.eval_time,
+        active=source.active_shape_key_index,
+        show_only=source.show_only_shape_key,
+    )
+
+
+def _key(block, place):
+    settings = {name: getattr(block, name) for name in SETTINGS if hasattr(block, name)}
+    return ShapeKey(block.name, place[block.relative_key.name], settings)
+
+
+def _positions(block):
+    values = np.empty(3 * len(block.data), np.float32)
+    block.data.foreach_get("co", values)
+    return values.reshape(-1, 3).astype(np.float64)
