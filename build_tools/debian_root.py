@@ -1,74 +1,125 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Debian trixie in a folder, for its Blender 4.3 (Python 3.13) and its OpenMesh 11.
+"""Debian systems in folders, each for its Blender, its Python and its libraries.
 
-Everything mounted for it lives in a mount namespace of its own, so nothing is left to unmount, however
+Everything mounted for one lives in a mount namespace of its own, so nothing is left to unmount, however
 a command ends, and deleting the cache can never reach through a mount into the project.
 """
 
 import shutil
+from dataclasses import dataclass
 from pathlib import Path
 
 from layout import CACHE, ROOT
-from native_wheel import PIP_WHEEL, inputs, local_version, only_wheel
+from native_wheel import PIP_WHEEL, inputs, local_version
+from repair import only_wheel, repair
 from shell import DevError, as_root, run, say
-from stamp import fingerprint, is_fresh, leave
+from stamp import alone, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART
 
-SUITE = "trixie"
-FOLDER = CACHE / f"debian-{SUITE}"
-STAMP = CACHE / f"debian-{SUITE}.stamp"
-PYTHON_TAG = "cp313"
 PACKAGES = ["blender", "python3-numpy"]
 PACKAGES += ["g++", "cmake", "ninja-build", "libopenmesh-dev", "libeigen3-dev"]
 PACKAGES += ["python3-dev", "python3-pip", "python3-scikit-build-core", "pybind11-dev"]
+# a window without a screen, drawn by the processor, and photographs of it
+PACKAGES += ["xvfb", "xauth", "libgl1-mesa-dri", "xdotool", "imagemagick", "fonts-dejavu-core"]
 
-# one folder that both sides may write
-INSIDE = Path("/srv/discrete_fairing")
-OUTSIDE = FOLDER / "srv" / "discrete_fairing"
-
+INSIDE = Path("/srv/discrete_fairing")  # one folder that both sides may write
 ENTER = ROOT / "build_tools" / "enter_root.sh"
 
 
-def command(*words: str | Path, **extra: str) -> list[str]:
-    """The command line that runs `words` inside, as root, with the project read-only at /project."""
-    variables = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": "/root", "LC_ALL": "C.UTF-8", **extra}
-    inner = ["env", "-i", *(f"{name}={value}" for name, value in variables.items()), *map(str, words)]
-    return as_root("unshare", "--mount", "sh", ENTER, FOLDER, ROOT, *inner)
+@dataclass(frozen=True)
+class DebianRoot:
+    """One suite of Debian in a folder of the cache."""
+
+    suite: str
+    python_tag: str
+    extra_packages: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
+    # whether its C library is old enough for a manylinux tag that auditwheel knows
+    repairable: bool = True
+
+    @property
+    def folder(self) -> Path:
+        return CACHE / f"debian-{self.suite}"
+
+    @property
+    def outside(self) -> Path:
+        """What is `INSIDE` for the programs in it."""
+        return self.folder / INSIDE.relative_to("/")
+
+    @property
+    def stamp(self) -> Path:
+        return CACHE / f"debian-{self.suite}.stamp"
+
+    def command(self, *words: str | Path, **extra: str) -> list[str]:
+        """The command line that runs `words` inside, as root, with the project read-only at /project."""
+        variables = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": "/root", "LC_ALL": "C.UTF-8", **extra}
+        inner = ["env", "-i", *(f"{name}={value}" for name, value in variables.items()), *map(str, words)]
+        return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, *inner)
+
+    def make(self) -> None:
+        """Makes the folder, a minute's work; returns at once when it is there."""
+        with alone(f"debian-{self.suite}"):
+            packages = [*PACKAGES, *self.extra_packages]
+            value = fingerprint([], self.suite, *packages, *self.options, str(INSIDE))
+            if is_fresh(self.stamp, value) and self.folder.is_dir():
+                return
+            self._bootstrap(packages)
+            leave(self.stamp, value)
+
+    def _bootstrap(self, packages: list[str]) -> None:
+        if shutil.which("mmdebstrap") is None:
+            raise DevError("the tests in a real Blender need mmdebstrap: run `dev.py setup` first.")
+        say(f"Debian {self.suite} with Blender in {self.folder.relative_to(ROOT)}")
+        self.stamp.unlink(missing_ok=True)
+        run(*as_root("rm", "-rf", "--one-file-system", self.folder))
+        options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"', *self.options]
+        words = ["mmdebstrap", *options, f"--include={','.join(packages)}", self.suite, self.folder]
+        if run(*as_root(*words), check=False):
+            raise DevError(
+                f"no Debian {self.suite} could be made, so nothing can be tested in its Blender: "
+                "mmdebstrap needs root, the right to mount, and a reachable Debian archive."
+            )
+        run(*as_root("mkdir", "-p", self.folder / "project", self.outside))
+        run(*as_root("chmod", "1777", self.outside))
+        # Blender looks for its disks
+        run(*as_root("ln", "-sf", "/proc/self/mounts", self.folder / "etc" / "mtab"))
+
+    def wheel(self) -> Path:
+        """The wheel for the Python inside, built there; returns at once when nothing changed."""
+        self.make()
+        folder = self.outside / "wheels"
+        with alone(f"wheel-{self.suite}"):
+            stamp = CACHE / f"wheel-{self.suite}.stamp"
+            value = fingerprint(inputs(), self.stamp.read_text(), local_version(), str(self.repairable))
+            if not (is_fresh(stamp, value) and folder.is_dir()):
+                say(f"native build for Debian {self.suite}")
+                self._build_wheel(folder)
+                leave(stamp, value)
+        return only_wheel(folder)
+
+    def _build_wheel(self, folder: Path) -> None:
+        raw = self.outside / "unrepaired"
+        run(*as_root("rm", "-rf", folder, raw))
+        pip = ["python3", "-m", "pip", "--quiet", *PIP_WHEEL, f"--config-settings=build-dir={INSIDE}/build"]
+        if not self.repairable:
+            pip.append("--config-settings=cmake.define.DF_CARRY_OPENMESH=ON")
+        pip += ["--wheel-dir", INSIDE / raw.name, "/project"]
+        run(*self.command(*pip, **{LOCAL_PART: local_version(), "PYTHONDONTWRITEBYTECODE": "1"}))
+        if self.repairable:
+            repair(only_wheel(raw), folder, self.folder / "usr" / "lib" / "x86_64-linux-gnu")
+        else:
+            shutil.copytree(raw, folder)
 
 
-def make() -> None:
-    """Makes the folder, a minute's work; returns at once when it is there."""
-    value = fingerprint([], SUITE, *PACKAGES, str(INSIDE))
-    if is_fresh(STAMP, value) and FOLDER.is_dir():
-        return
-    if shutil.which("mmdebstrap") is None:
-        raise DevError("the tests in a real Blender need mmdebstrap: run `dev.py setup` first.")
-    say(f"Debian {SUITE} with Blender in {FOLDER.relative_to(ROOT)}")
-    STAMP.unlink(missing_ok=True)
-    run(*as_root("rm", "-rf", "--one-file-system", FOLDER))
-    options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"']
-    if run(*as_root("mmdebstrap", *options, f"--include={','.join(PACKAGES)}", SUITE, FOLDER), check=False):
-        raise DevError(
-            f"no Debian {SUITE} could be made, so nothing can be tested in a real Blender: "
-            "mmdebstrap needs root, the right to mount, and a reachable Debian archive."
-        )
-    run(*as_root("mkdir", "-p", FOLDER / "project", OUTSIDE))
-    run(*as_root("chmod", "1777", OUTSIDE))
-    run(*as_root("ln", "-sf", "/proc/self/mounts", FOLDER / "etc" / "mtab"))  # Blender looks for its disks
-    leave(STAMP, value)
-
-
-def wheel() -> Path:
-    """The wheel for the Python inside, built there; returns at once when nothing changed."""
-    make()
-    folder = OUTSIDE / "wheels"
-    stamp = CACHE / f"wheel-{SUITE}.stamp"
-    value = fingerprint(inputs(), STAMP.read_text(), local_version())
-    if not (is_fresh(stamp, value) and folder.is_dir()):
-        say(f"native build for Debian {SUITE}")
-        run(*as_root("rm", "-rf", folder))
-        places = [f"--config-settings=build-dir={INSIDE}/build", "--wheel-dir", INSIDE / "wheels", "/project"]
-        pip = ["python3", "-m", "pip", "--quiet", *PIP_WHEEL, *places]
-        run(*command(*pip, **{LOCAL_PART: local_version(), "PYTHONDONTWRITEBYTECODE": "1"}))
-        leave(stamp, value)
-    return only_wheel(folder)
+ROOTS = (
+    DebianRoot("trixie", "cp313"),
+    DebianRoot(
+        "sid",
+        "cp314",
+        # Blender's own scripts import these, but its package does not depend on them
+        extra_packages=("python3-cattr", "python3-requests", "python3-zstandard"),
+        # a mirror that stands still has an index past its date
+        options=('--aptopt=Acquire::Check-Valid-Until "false"',),
+        repairable=False,
+    ),
+)

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from layout import BUILD, MANIFEST, ROOT, VENV
 from python_environment import pip
-from shell import DevError, output, say
+from repair import only_wheel, repair
+from shell import output, say
 from stamp import alone, files_under, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART, manifest_version
 
@@ -23,7 +24,8 @@ PIP_WHEEL = [
 
 def inputs() -> list[Path]:
     """Every file that the wheel is made of."""
-    names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE", "build_tools/wheel_version.py"]
+    names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE"]
+    names += ["build_tools/wheel_version.py", "build_tools/repair.py"]
     return files_under(MANIFEST, *(ROOT / name for name in names))
 
 
@@ -41,19 +43,13 @@ def local_version() -> str:
     return f"g{state()[:10]}"
 
 
-def only_wheel(folder: Path) -> Path:
-    """The one wheel in a folder."""
-    found = list(folder.glob("*.whl"))
-    if len(found) != 1:
-        raise DevError(f"{folder} should hold one wheel, but holds {len(found)}.")
-    return found[0]
-
-
 def build() -> Path:
     """Builds the wheel for the Python of .venv, incrementally."""
-    folder = WHEELS / "venv"
+    raw, folder = WHEELS / "unrepaired", WHEELS / "venv"
+    shutil.rmtree(raw, ignore_errors=True)
     shutil.rmtree(folder, ignore_errors=True)
-    pip(*PIP_WHEEL, "--wheel-dir", folder, ROOT, **{LOCAL_PART: local_version()})
+    pip(*PIP_WHEEL, "--wheel-dir", raw, ROOT, **{LOCAL_PART: local_version()})
+    repair(only_wheel(raw), folder)
     return only_wheel(folder)
 
 
