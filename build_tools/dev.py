@@ -6,12 +6,14 @@ python3 build_tools/dev.py demo           the main job on real meshes; results a
 python3 build_tools/dev.py test           all tests; the last line counts them
 python3 build_tools/dev.py setup          system packages, .venv and the native build
 python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
-python3 build_tools/dev.py extension      the extension's zips under out/
+python3 build_tools/dev.py extension      the extension's zips under out/extension/
+python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
 import argparse
 import sys
+from pathlib import Path
 
 import native_wheel
 import python_environment
@@ -62,12 +64,13 @@ def test(names: list[str]) -> int:
     return suites.run_all(names)
 
 
-def extension() -> int:
-    """One zip per Python that is at hand."""
+def extension(wheels: Path | None) -> int:
+    """One zip for each wheel in a folder; without a folder, for each Python that is at hand."""
     import extension as packing
 
-    setup()
-    for path in packing.build_all():
+    setup_tools()
+    found = packing.wheels_at_hand() if wheels is None else packing.wheels_in(wheels.resolve())
+    for path in packing.build_all(found):
         say(f"{path.relative_to(ROOT)} is ready")
     return 0
 
@@ -87,6 +90,9 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("command", choices=["setup", "test", "demo", "bench", "extension", "format"])
     parser.add_argument("names", nargs="*", help="bench, demo, test: only these")
+    parser.add_argument(
+        "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"
+    )
     return parser.parse_args()
 
 
@@ -100,7 +106,7 @@ def main() -> int:
         "test": lambda: test(given.names),
         "demo": lambda: demo(given.names),
         "bench": lambda: bench(given.names),
-        "extension": extension,
+        "extension": lambda: extension(given.wheels),
         "format": format_sources,
     }
     return commands[given.command]() or 0

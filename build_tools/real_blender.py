@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A real Blender to build, validate and try the extension in: the machine's own, or Debian trixie's."""
+"""Real Blenders to build, validate and try the extension in: those of the Debian roots, and the machine's own."""
 
 import re
 import shutil
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-import debian_root
 import native_wheel
+from debian_root import INSIDE, ROOTS, DebianRoot
 from layout import BUILD, VENV_PYTHON
 from shell import DevError, as_root, output, run, say
 
 OLDEST = (4, 2)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
+WINDOW = (1600, 1000)
+TIME_LIMIT = 300  # seconds: a Blender that is not done then hangs
 
 
 @dataclass(frozen=True)
@@ -23,26 +27,49 @@ class RealBlender:
     python_tag: str
     folder: Path  # as we see it
     inside: Path  # as Blender sees it
-    in_debian_root: bool
+    root: DebianRoot | None = None  # None: the machine's own
 
-    def command(self, *arguments: str | Path, **extra: str) -> list[str]:
-        """The command line for this Blender, isolated from the user's settings."""
+    @property
+    def exchange(self) -> Path:
+        """Where files for Blender and from it lie, as we see it."""
+        return self.folder / "exchange"
+
+    def command(self, *words: str | Path, **extra: str) -> list[str]:
+        """The command line of a program beside this Blender, isolated from the user's settings.
+
+        timeout(1) ends it in time, with all that it started.
+        """
         variables = {"BLENDER_USER_RESOURCES": str(self.inside / "user"), **extra}
-        words = ["blender", "--background", *map(str, arguments)]
-        if self.in_debian_root:
-            return debian_root.command(*words, **variables)
-        return ["env", *(f"{name}={value}" for name, value in variables.items()), *words]
+        limited = ["timeout", "--kill-after=10", str(TIME_LIMIT), *map(str, words)]
+        if self.root:
+            return self.root.command(*limited, **variables)
+        return ["env", *(f"{name}={value}" for name, value in variables.items()), *limited]
+
+    def headless(self, *arguments: str | Path, **extra: str) -> list[str]:
+        """The command line of Blender without a window."""
+        return self.command("blender", "--background", *arguments, **extra)
+
+    def window(self, *arguments: str | Path, **extra: str) -> list[str]:
+        """The command line of Blender in a window on a screen of its own, drawn by the processor."""
+        width, height = map(str, WINDOW)
+        screen = ["xvfb-run", "--auto-servernum", "--server-args", f"-screen 0 {width}x{height}x24"]
+        blender = ["blender", "--window-geometry", "0", "0", width, height, *arguments]
+        return self.command(*screen, *blender, LIBGL_ALWAYS_SOFTWARE="1", **extra)
+
+    def has_screen(self) -> bool:
+        """Whether windows can be opened and photographed: the Debian roots have what it takes."""
+        return self.root is not None
 
     def wheel(self) -> Path:
         """The wheel for this Blender's Python."""
-        return debian_root.wheel() if self.in_debian_root else native_wheel.install()
+        return self.root.wheel() if self.root else native_wheel.install()
 
     def clear(self) -> None:
         """Empties the common folder, but for what the Debian root keeps there."""
         for name in ("user", "exchange"):
             run(*as_root("rm", "-rf", self.folder / name))
-        (self.folder / "exchange").mkdir(parents=True)
-        (self.folder / "exchange").chmod(0o777)
+        self.exchange.mkdir(parents=True)
+        self.exchange.chmod(0o777)
 
     def seen(self, path: Path) -> Path:
         """A path in the common folder as Blender sees it."""
@@ -56,7 +83,7 @@ def venv_tag() -> str:
 
 def ask(command: list[str]) -> tuple[tuple[str, str] | None, str]:
     """Version and Python tag of a Blender, None if it does not run, and what it said."""
-    _, text = output(*command, "--python-expr", ASK)
+    _, text = output(*command, "--background", "--factory-startup", "--python-expr", ASK)
     found = re.search(r"^is (\S+).* (cp\d+)$", text, re.MULTILINE)
     return (found[1], found[2]) if found else None, text
 
@@ -65,29 +92,32 @@ def on_path() -> RealBlender | None:
     """The machine's own Blender, if it is new enough and its Python is the one that .venv builds for."""
     if shutil.which("blender") is None:
         return None
-    facts, _ = ask(["blender", "--background", "--factory-startup"])
+    facts, _ = ask(["blender"])
     if facts is None or facts[1] != venv_tag():
         return None
     if tuple(int(part) for part in facts[0].split(".")[:2]) < OLDEST:
         return None
     folder = BUILD / "real-blender"
-    return RealBlender(*facts, folder=folder, inside=folder, in_debian_root=False)
+    return RealBlender(*facts, folder=folder, inside=folder)
 
 
-def of_debian() -> RealBlender:
-    """Blender in the Debian root, which is made if need be."""
-    debian_root.make()
-    facts, text = ask(debian_root.command("blender", "--background", "--factory-startup"))
+def of_debian(root: DebianRoot) -> RealBlender:
+    """Blender in a Debian root, which is made if need be."""
+    root.make()
+    facts, text = ask(root.command("blender"))
     if facts is None:
         raise DevError(
-            f"Blender does not start in {debian_root.FOLDER} (entering it needs root and the right to mount): "
+            f"Blender does not start in {root.folder} (entering it needs root and the right to mount): "
             f"{text.strip()[-500:]}"
         )
-    return RealBlender(*facts, folder=debian_root.OUTSIDE, inside=debian_root.INSIDE, in_debian_root=True)
+    if facts[1] != root.python_tag:
+        raise DevError(f"Debian {root.suite} has moved on to {facts[1]}: say so in debian_root.py.")
+    say(f"real Blender {facts[0]}, {facts[1]}, of Debian {root.suite}")
+    return RealBlender(*facts, folder=root.outside, inside=INSIDE, root=root)
 
 
-def find() -> RealBlender:
-    """A Blender to test in; the machine's own comes first."""
-    blender = on_path() or of_debian()
-    say(f"real Blender {blender.version}, {blender.python_tag}")
-    return blender
+def places() -> dict[str, Callable[[], RealBlender]]:
+    """How to get at each Blender at hand, by the name of its place; those of Debian always are."""
+    found: dict[str, Callable[[], RealBlender]] = {root.suite: partial(of_debian, root) for root in ROOTS}
+    own = on_path()
+    return {"path": lambda: own, **found} if own else found

@@ -2,33 +2,21 @@
 """The test suites, one after the other, and their sum."""
 
 import os
-import re
-import shutil
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 from time import monotonic
 
+import blender_suite
 import native_wheel
 import style
-from extension import build
-from layout import BUILD, ROOT, VENV_PYTHON
+from layout import BUILD, VENV_PYTHON
 from python_environment import has_bpy
-from real_blender import RealBlender, find
-from shell import DevError, output, run, say
+from shell import DevError, run, say
+from tally import Tally, with_exit_code
 
 REPORTS = BUILD / "reports"
-
-
-@dataclass
-class Tally:
-    """How many tests of a suite ended how."""
-
-    passed: int = 0
-    failed: int = 0
-    skipped: int = 0
-    note: str = ""
 
 
 def read_junit(report: Path) -> Tally:
@@ -41,13 +29,6 @@ def read_junit(report: Path) -> Tally:
     if not cases:
         return Tally(failed=1, note="no tests found")
     return Tally(len(cases) - bad - skipped, bad, skipped)
-
-
-def with_exit_code(tally: Tally, code: int) -> Tally:
-    """A program that fails although none of its tests did counts as one failure."""
-    if code != 0 and tally.failed == 0:
-        tally.failed, tally.note = 1, f"exit code {code}"
-    return tally
 
 
 def fresh_report(name: str) -> Path:
@@ -89,49 +70,26 @@ def addon_suite() -> Tally:
     return pytest_suite("addon")
 
 
-def blender_suite() -> Tally:
-    """The extension's own zip, installed and used in a real Blender."""
-    blender = find()
-    blender.clear()
-    made = build(blender.wheel(), blender)
-    install = [
-        "--command",
-        "extension",
-        "install-file",
-        "--repo",
-        "user_default",
-        "--enable",
-        blender.seen(made),
-    ]
-    run(*blender.command(*install))
-    return count_smoke(blender)
+def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
+    """One line of the table at the end."""
+    counts = f"{tally.passed:5} passed {tally.failed:4} failed {tally.skipped:4} skipped"
+    time = f"{seconds:7.1f} s" if seconds is not None else " " * 9
+    return f"{name:<16}{counts} {time}  {tally.note}".rstrip()
 
 
-def count_smoke(blender: RealBlender) -> Tally:
-    """Runs tests/blender/smoke.py inside; each line `PASS name` or `FAIL name` of it is a test."""
-    scripts = blender.folder / "exchange" / "tests"
-    shutil.copytree(ROOT / "tests" / "blender", scripts, ignore=shutil.ignore_patterns("__pycache__"))
-    script = blender.seen(scripts / "smoke.py")
-    code, text = output(*blender.command("--python-exit-code", "1", "--python", script))
-    print(text, flush=True)
-    results = re.findall(r"^(PASS|FAIL) ", text, re.MULTILINE)
-    tally = Tally(passed=results.count("PASS"), failed=results.count("FAIL"))
-    if not results:
-        tally = Tally(failed=1, note="the smoke run did not get to its first test")
-    return with_exit_code(tally, code)
-
-
-SUITES: dict[str, Callable[[], Tally]] = {
+# one tally, or several by what they are about
+SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "style": style_suite,
     "native": lambda: native_suite("release"),
     "sanitizers": lambda: native_suite("asan-ubsan"),
     "python": lambda: pytest_suite("python"),
     "addon": addon_suite,
-    "blender": blender_suite,
+    "build_tools": lambda: pytest_suite("build_tools"),
+    "blender": blender_suite.run_suite,
 }
 
 
-def attempt(suite: Callable[[], Tally]) -> Tally:
+def attempt(suite: Callable[[], Tally | dict[str, Tally]]) -> Tally | dict[str, Tally]:
     """A suite that cannot even run is one failure, and no reason to leave the others out."""
     try:
         return suite()
@@ -145,15 +103,16 @@ def run_all(names: list[str]) -> int:
     unknown = set(names) - set(SUITES)
     if unknown:
         raise DevError(f"no suite {', '.join(sorted(unknown))}; there are {', '.join(SUITES)}.")
-    rows, tallies = [], []
+    rows, total = [], Tally()
     for name in names or SUITES:
         say(f"suite {name}")
         start = monotonic()
-        tally = attempt(SUITES[name])
-        tallies.append(tally)
-        seconds = f"{monotonic() - start:7.1f} s"
-        counts = f"{tally.passed:5} passed {tally.failed:4} failed {tally.skipped:4} skipped"
-        rows.append(f"{name:<12}{counts} {seconds}  {tally.note}".rstrip())
-    passed, failed = sum(t.passed for t in tallies), sum(t.failed for t in tallies)
-    print("\n" + "\n".join(rows) + f"\n\n{passed} passed, {failed} failed", flush=True)
-    return 1 if failed else 0
+        result = attempt(SUITES[name])
+        parts = result if isinstance(result, dict) else {}
+        whole = sum(parts.values(), Tally()) if parts else result
+        total += whole
+        # the notes of a whole stand beside its parts
+        rows.append(table_line(name, replace(whole, note="") if parts else whole, monotonic() - start))
+        rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]
+    print("\n" + "\n".join(rows) + f"\n\n{total.passed} passed, {total.failed} failed", flush=True)
+    return 1 if total.failed else 0

@@ -1,25 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The installed extension in a real Blender: `blender --background --python smoke.py`.
+"""The installed extension without a window.
 
-Prints `PASS name` or `FAIL name` for each test and exits with 1 if any failed; build_tools/suites.py counts.
 The modules of the project are not on the path here, only what the extension's zip brought.
 """
 
 import importlib
 import sys
-import traceback
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
+import harness
 import numpy as np
+from harness import EXTENSION
 
-EXTENSION = "bl_ext.user_default.discrete_fairing"
 LEVELS = 2
 PARTS = 4**LEVELS  # of each control quad
-
-
-def fresh_scene():
-    """An empty scene; the enabled extension stays."""
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
 
 
 def active_mesh_object(add, **arguments):
@@ -122,21 +119,4 @@ def test_disable_and_enable_again():
     assert hasattr(bpy.types, "OBJECT_OT_fair_surface")
 
 
-def main():
-    """Every test in a scene of its own; the number of failures."""
-    failures = 0
-    for name, test in [item for item in globals().items() if item[0].startswith("test_")]:
-        try:
-            fresh_scene()
-            test()
-        except Exception:
-            failures += 1
-            traceback.print_exc(file=sys.stdout)
-            print(f"FAIL {name}", flush=True)
-        else:
-            print(f"PASS {name}", flush=True)
-    return failures
-
-
-if __name__ == "__main__":
-    sys.exit(1 if main() else 0)
+harness.run(globals())

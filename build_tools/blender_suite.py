@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The extension's own zip, installed and used in every real Blender at hand, without a window and in one."""
+
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from extension import build
+from layout import OUT, ROOT
+from real_blender import TIME_LIMIT, RealBlender, places
+from shell import DevError, output, run, say
+from stamp import alone
+from tally import Tally, with_exit_code
+
+SCRIPTS = ROOT / "tests" / "blender"
+SCREENSHOTS = OUT / "screenshots"
+HEADLESS, WINDOW = "headless_*.py", "window_*.py"
+HUNG = (124, 137)  # what timeout(1) ends with
+
+
+def install(blender: RealBlender) -> None:
+    """Packs the extension and installs it as a user would, into settings that nobody else has."""
+    blender.clear()
+    made = build(blender.wheel(), blender)
+    where = ["--repo", "user_default", "--enable", blender.seen(made)]
+    run(*blender.headless("--command", "extension", "install-file", *where))
+
+
+def count(code: int, text: str, script: str) -> Tally:
+    """The tally of one script by what it printed: each line `PASS name` or `FAIL name` is a test."""
+    results = re.findall(r"^(PASS|FAIL) ", text, re.MULTILINE)
+    tally = Tally(passed=results.count("PASS"), failed=results.count("FAIL"))
+    if code in HUNG:
+        return tally + Tally(failed=1, note=f"{script} did not end within {TIME_LIMIT} s")
+    ran = re.search(r"^RAN (\d+)$", text, re.MULTILINE)
+    if ran is None or int(ran[1]) != len(results) or not results:
+        return tally + Tally(failed=1, note=f"{script} did not get to its end (exit code {code})")
+    return with_exit_code(tally, code)
+
+
+def run_script(blender: RealBlender, script: Path) -> Tally:
+    """One script in one Blender, in a window if its name says so."""
+    say(f"Blender {blender.version}: {script.name}")
+    start = blender.window if script.match(WINDOW) else blender.headless
+    screenshots = blender.seen(blender.exchange / "screenshots")
+    arguments = ["--python-exit-code", "1", "--python", blender.seen(script)]
+    code, text = output(*start(*arguments, DF_SCREENSHOTS=str(screenshots)))
+    print(text, flush=True)
+    return count(code, text, script.name)
+
+
+def try_all(blender: RealBlender, wanted: str) -> Tally:
+    """Every script whose name contains `wanted`, in one Blender."""
+    install(blender)
+    folder = blender.exchange / "tests"
+    shutil.copytree(SCRIPTS, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    (blender.exchange / "screenshots").mkdir()
+    kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
+    scripts = [path for kind in kinds for path in sorted(folder.glob(kind)) if wanted in path.name]
+    total = sum((run_script(blender, script) for script in scripts), Tally())
+    kept = SCREENSHOTS / blender.version
+    shutil.rmtree(kept, ignore_errors=True)
+    shutil.copytree(blender.exchange / "screenshots", kept)
+    return total
+
+
+def attempt(get: Callable[[], RealBlender], place: str, wanted: str) -> tuple[str, Tally]:
+    """The name and tally of one Blender; if it cannot be had, that is one failure."""
+    name = place
+    try:
+        blender = get()
+        name = f"{place} {blender.version}"
+        return name, try_all(blender, wanted)
+    except DevError as error:
+        print(f"dev.py: {error}", flush=True)
+        return name, Tally(failed=1, note=str(error))
+
+
+def run_suite(wanted: str = "") -> dict[str, Tally]:
+    """The tallies by Blender; one run at a time, as all share one folder."""
+    with alone("blender"):
+        return dict(attempt(get, place, wanted) for place, get in places().items())

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the scripts in this folder share: they run inside a real Blender, which knows no test framework.
+
+A script ends with `harness.run(globals())`, or `harness.run_in_window(globals())`. Every function named `test_…`
+is run in a fresh scene; `PASS name` or `FAIL name` is printed for it and `RAN n` at the end, which
+build_tools/blender_suite.py counts. In a window a test may be a generator: at each `yield SECONDS` the window
+gets that time to draw and to take events.
+"""
+
+import inspect
+import os
+import subprocess
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+
+EXTENSION = "bl_ext.user_default.discrete_fairing"
+FIRST_DRAWING = 2.0  # seconds: the window opens after the scripts have been read
+
+
+def fresh_scene(empty=True):
+    """The start-up scene, or an empty one; the enabled extension stays."""
+    bpy.ops.wm.read_homefile(use_empty=empty, use_factory_startup=False)
+
+
+def tests_in(namespace):
+    """The test functions of a script, in its order."""
+    return {name: test for name, test in namespace.items() if name.startswith("test_")}
+
+
+def steps(test):
+    """Runs a test that may be a generator; yields the seconds that it wants to wait."""
+    result = test()
+    if inspect.isgenerator(result):
+        yield from result
+
+
+def report(name, error=None):
+    """The line of one test; True if it passed."""
+    if error is not None:
+        traceback.print_exception(error, file=sys.stdout)
+    print(f"{'FAIL' if error else 'PASS'} {name}", flush=True)
+    return error is None
+
+
+def run(namespace):
+    """Every test in a scene of its own, without a window; then the process ends, with 1 if any failed."""
+    passed = []
+    for name, test in tests_in(namespace).items():
+        try:
+            fresh_scene()
+            test()
+        except Exception as error:
+            passed.append(report(name, error))
+        else:
+            passed.append(report(name))
+    print(f"RAN {len(passed)}", flush=True)
+    sys.exit(0 if all(passed) else 1)
+
+
+def run_in_window(namespace):
+    """Every test in a scene of its own, from a timer, so that the window lives between the steps; then Blender quits.
+
+    The timer must not end with an exception: Blender would stay open until its time is up.
+    """
+    bpy.context.preferences.view.show_splash = False
+    walk = _walk_in_window(tests_in(namespace))
+    # persistent: loading a scene would remove it
+    bpy.app.timers.register(lambda: next(walk, None), first_interval=FIRST_DRAWING, persistent=True)
+
+
+def _walk_in_window(tests):
+    for name, test in tests.items():
+        try:
+            fresh_scene(empty=False)
+            yield 0.5
+            yield from steps(test)
+        except Exception as error:
+            report(name, error)
+        else:
+            report(name)
+    print(f"RAN {len(tests)}", flush=True)
+    bpy.ops.wm.quit_blender()
+
+
+def view():
+    """The 3D viewport of the one window: window, screen, area and region, as temp_override takes them."""
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return {"window": window, "screen": window.screen, "area": area, "region": region}
+
+
+def open_sidebar(category):
+    """Opens the viewport's sidebar at a tab; a generator, as the sidebar has to be drawn once before."""
+    area = view()["area"]
+    area.spaces.active.show_region_ui = True
+    yield 0.5
+    sidebar = next(region for region in area.regions if region.type == "UI")
+    sidebar.active_panel_category = category
+    sidebar.tag_redraw()
+    yield 0.5
+
+
+def photograph(name):
+    """Saves a picture of the whole screen, as X shows it, among the screenshots; returns its path.
+
+    Blender's own operator for screenshots gives a black picture here.
+    """
+    path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
+    subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
+    return path
+
+
+def colours(path):
+    """How many colours a picture has."""
+    found = subprocess.run(
+        ["identify", "-format", "%k", path], capture_output=True, check=True, text=True, timeout=60
+    )
+    return int(found.stdout)

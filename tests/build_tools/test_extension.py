@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is staged for Blender, and the inspection of the zips, on wheels that are empty but for their names."""
+
+import tomllib
+import zipfile
+from pathlib import Path
+
+import extension
+import pytest
+from shell import DevError
+from wheel_version import manifest_version
+
+VERSION = manifest_version()
+
+
+def wheel(tags, version=VERSION):
+    return Path(f"discrete_fairing-{version}-{tags}.whl")
+
+
+LINUX = wheel("cp311-cp311-manylinux_2_35_x86_64", f"{VERSION}+g0123456789")
+
+
+@pytest.fixture
+def staged(tmp_path):
+    """A folder staged with a wheel of a development build."""
+    path = tmp_path / LINUX
+    path.write_bytes(b"")
+    extension.stage(path, tmp_path / "staged")
+    return tmp_path / "staged"
+
+
+def packed(folder, path):
+    """A zip of a folder, as Blender lays it out."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for file in folder.rglob("*"):
+            archive.write(file, file.relative_to(folder))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("tag", "platform"),
+    [
+        ("linux_x86_64", "linux-x64"),
+        ("manylinux_2_28_x86_64", "linux-x64"),
+        ("manylinux_2_27_x86_64.manylinux_2_28_x86_64", "linux-x64"),
+        ("manylinux2014_aarch64.manylinux_2_17_aarch64", "linux-arm64"),
+        ("macosx_13_0_x86_64", "macos-x64"),
+        ("macosx_11_0_arm64", "macos-arm64"),
+        ("win_amd64", "windows-x64"),
+        ("win_arm64", "windows-arm64"),
+    ],
+)
+def test_platform_of_a_wheel(tag, platform):
+    assert extension.platform(wheel(f"cp313-cp313-{tag}")) == platform
+
+
+@pytest.mark.parametrize("tag", ["win32", "macosx_11_0_universal2", "musllinux_1_2_x86_64", "any"])
+def test_other_platforms_are_refused(tag):
+    with pytest.raises(DevError, match="platform"):
+        extension.platform(wheel(f"cp313-cp313-{tag}"))
+
+
+@pytest.mark.parametrize(("tag", "end"), [("cp311", "5.1.0"), ("cp313", None), ("cp314", None)])
+def test_staged_manifest(tag, end):
+    manifest = tomllib.loads(extension.staged_manifest(wheel(f"{tag}-{tag}-win_amd64")))
+    assert manifest["version"] == VERSION
+    assert manifest["platforms"] == ["windows-x64"]
+    assert manifest["wheels"] == [f"./wheels/discrete_fairing-{VERSION}-{tag}-{tag}-win_amd64.whl"]
+    assert manifest["blender_version_min"] == "4.2.0"
+    assert manifest.get("blender_version_max") == end
+    assert "permissions" not in manifest
+
+
+def test_staged_folder(staged):
+    manifest = tomllib.loads((staged / "blender_manifest.toml").read_text())
+    assert all((staged / entry).is_file() for entry in manifest["wheels"])
+    assert (staged / "__init__.py").is_file()
+    assert (staged / "LICENSE").read_text().strip().startswith("GNU GENERAL PUBLIC LICENSE")
+    assert not list(staged.rglob("__pycache__"))
+
+
+def test_a_wheel_of_another_version_is_not_staged(tmp_path):
+    with pytest.raises(DevError, match="version"):
+        extension.stage(wheel("cp311-cp311-win_amd64", "999.0.0"), tmp_path / "staged")
+
+
+def test_a_good_zip_has_no_faults(staged, tmp_path):
+    assert extension.faults(packed(staged, tmp_path / "good.zip")) == []
+
+
+def spoil_cache(folder):
+    (folder / "__pycache__").mkdir()
+    (folder / "__pycache__" / "x.cpython-313.pyc").write_bytes(b"")
+
+
+def change(old, new):
+    """Changes the manifest."""
+
+    def spoil(folder):
+        path = folder / "blender_manifest.toml"
+        text = path.read_text()
+        assert old in text
+        path.write_text(text.replace(old, new))
+
+    return spoil
+
+
+@pytest.mark.parametrize(
+    ("spoil", "fault"),
+    [
+        (spoil_cache, "compiled"),
+        (lambda folder: (folder / "LICENSE").unlink(), "licence"),
+        (lambda folder: next((folder / "wheels").iterdir()).unlink(), "wheel"),
+        (lambda folder: (folder / "wheels" / "other.whl").write_bytes(b""), "one wheel"),
+        (change("linux-x64", "windows-x64"), "platform"),
+        (change(f'version = "{VERSION}"', 'version = "999.0.0"'), "version"),
+        (change('id = "discrete_fairing"', 'permissions = ["files"]\nid = "discrete_fairing"'), "permission"),
+        (change('control mesh"', 'control mesh."'), "tagline"),
+    ],
+)
+def test_faults_are_found(staged, tmp_path, spoil, fault):
+    spoil(staged)
+    assert any(fault in found for found in extension.faults(packed(staged, tmp_path / "bad.zip")))
+
+
+def test_two_wheels_for_one_place_are_refused(tmp_path):
+    for version in (VERSION, f"{VERSION}+g0123456789"):
+        (tmp_path / wheel("cp311-cp311-win_amd64", version)).write_bytes(b"")
+    with pytest.raises(DevError, match="two wheels"):
+        extension.wheels_in(tmp_path)
+
+
+def test_an_empty_folder_of_wheels_is_refused(tmp_path):
+    with pytest.raises(DevError, match="no wheel"):
+        extension.wheels_in(tmp_path)
