@@ -4,18 +4,21 @@ add_library(fairing_flags INTERFACE)
 target_compile_features(fairing_flags INTERFACE cxx_std_20)
 
 # Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count.
-target_compile_options(fairing_flags INTERFACE -ffp-contract=off)
-
-target_compile_options(fairing_flags INTERFACE -Wall -Wextra)
-# a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
-target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
+if(MSVC) # its Clang, which takes the options in Microsoft's spelling
+  target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /W4 /utf-8 /bigobj)
+  target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
+else()
+  target_compile_options(fairing_flags INTERFACE -ffp-contract=off -Wall -Wextra)
+  # a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
+  target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
+endif()
 # these look into inlined library code, and GCC 12 to 14 find there what cannot happen
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(fairing_flags INTERFACE -Wno-array-bounds -Wno-free-nonheap-object
                                                  -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(DF_WARNINGS_AS_ERRORS)
-  target_compile_options(fairing_flags INTERFACE -Werror)
+  target_compile_options(fairing_flags INTERFACE $<IF:$<BOOL:${MSVC}>,/WX,-Werror>)
 endif()
 
 target_compile_definitions(fairing_flags INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
