@@ -81,6 +81,6 @@ def _losses(source, mesh, unknown, evaluated, shape_keys):
         return notes
     if shape_keys is None:
         notes.append("Shape keys are dropped: they do not fit the mesh.")
-    elif keys.animation_data is not None:
-        notes.append("Drivers and animation of the shape keys are not copied; their values are.")
+    elif keys.animation_data is not None and keys.animation_data.action is not None:
+        notes.append("The animation of the shape keys is not copied; their values and drivers are.")
     return notes
