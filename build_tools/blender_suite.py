@@ -58,6 +58,8 @@ def try_all(blender: RealBlender, wanted: str) -> Tally:
     (blender.exchange / "screenshots").mkdir()
     kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
     scripts = [path for kind in kinds for path in sorted(folder.glob(kind)) if wanted in path.name]
+    if not scripts:
+        return Tally(failed=1, note=f"no script for '{wanted}'")
     total = sum((run_script(blender, script) for script in scripts), Tally())
     kept = SCREENSHOTS / blender.version
     shutil.rmtree(kept, ignore_errors=True)

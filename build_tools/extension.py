@@ -21,6 +21,8 @@ from wheel_version import manifest_version
 # first Blender whose Python is another one; Debian's own builds have 3.13 in any version
 ENDS = {"cp311": "5.1.0"}
 
+LICENCES = ["LICENSE", "THIRD_PARTY_LICENSES.txt"]
+
 # Blender's names of the platforms, by what a wheel calls them
 PLATFORMS = {
     r"(many)?linux\w*_x86_64": "linux-x64",
@@ -74,7 +76,8 @@ def stage(wheel: Path, folder: Path) -> None:
     shutil.copytree(ADDON, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "wheels").mkdir()
     shutil.copy(wheel, folder / "wheels")
-    shutil.copy(ROOT / "LICENSE", folder)
+    for text in LICENCES:
+        shutil.copy(ROOT / text, folder)
     (folder / "blender_manifest.toml").write_text(staged_manifest(wheel))
 
 
@@ -93,7 +96,7 @@ def faults(path: Path) -> list[str]:
         "the wheel is for another platform": [platform(Path(w)) for w in wheels] == manifest["platforms"],
         "a permission that is not used": "permissions" not in manifest,
         "the tagline is too long or ends in a period": len(tagline) <= 64 and not tagline.endswith("."),
-        "no licence": "LICENSE" in names,
+        "no licence": names.issuperset(LICENCES),
         "compiled Python": not any("__pycache__" in entry or entry.endswith(".pyc") for entry in names),
     }
     return [fault for fault, fine in checks.items() if not fine]

@@ -2,7 +2,7 @@
 """The version of a wheel, for scikit-build-core: the manifest's, and a local part for development builds.
 
 Blender keeps the old native code when a wheel of the same version is installed again, so a build
-between releases has to have a version of its own, as `0.1.0+g1a2b3c4`.
+between releases has to have a version of its own: the same with `+g1a2b3c4` behind.
 """
 
 import os

@@ -58,6 +58,12 @@ def test_extension_brings_its_own_native_module():
     assert "extensions" in native.__file__, native.__file__
 
 
+def test_libraries_come_with_the_extension():
+    lines = Path("/proc/self/maps").read_text().splitlines()
+    loaded = {line.split()[-1] for line in lines if "OpenMesh" in line}
+    assert loaded and all("extensions" in path for path in loaded), loaded
+
+
 def test_cube_gives_sixteen_quads_a_face():
     source = active_mesh_object(bpy.ops.mesh.primitive_cube_add)
     assert sides(fair(source).data) == (0, 6 * PARTS)
