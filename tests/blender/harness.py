@@ -7,6 +7,7 @@ build_tools/blender_suite.py counts. In a window a test may be a generator: at e
 gets that time to draw and to take events.
 """
 
+import contextlib
 import inspect
 import os
 import subprocess
@@ -79,6 +80,8 @@ def _walk_in_window(tests):
             yield from steps(test)
         except Exception as error:
             report(name, error)
+            with contextlib.suppress(OSError, subprocess.SubprocessError):
+                photograph(f"failed_{name}")
         else:
             report(name)
     print(f"RAN {len(tests)}", flush=True)
