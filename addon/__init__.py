@@ -5,11 +5,12 @@ The data's way through the folders: `read` → `check` → `request` → the nat
 `settings` and `interface` ask for it.
 """
 
+from .command_line import command
 from .interface import panel
 from .run import operator
 from .settings import properties
 
-_MODULES = (properties, operator, panel)
+_MODULES = (properties, operator, panel, command)
 
 
 def register():
