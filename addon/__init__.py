@@ -5,12 +5,13 @@ The data's way through the folders: `read` → `check` → `request` → the nat
 `settings` and `interface` ask for it.
 """
 
+from . import preferences, translations
 from .command_line import command
 from .interface import panel
 from .run import operator
-from .settings import properties
+from .settings import presets, properties
 
-_MODULES = (properties, operator, panel, command)
+_MODULES = (properties, preferences, presets, operator, panel, translations, command)
 
 
 def register():

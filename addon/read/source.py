@@ -25,13 +25,31 @@ def control_mesh(context, source, evaluated=False):
     if source.mode == "EDIT":
         source.update_from_editmode()
     if evaluated:
-        owner = source.evaluated_get(context.evaluated_depsgraph_get())
+        with _evaluated(context, source) as owner, _copy_of_mesh(owner) as mesh:
+            yield mesh
     elif source.mode == "EDIT":  # then it lists the attributes of the edit, not its own: read a copy
-        owner = source
+        with _copy_of_mesh(source) as mesh:
+            yield mesh
     else:
         yield source.data
-        return
+
+
+@contextmanager
+def _copy_of_mesh(owner):
     try:
         yield owner.to_mesh()
     finally:
         owner.to_mesh_clear()
+
+
+@contextmanager
+def _evaluated(context, source):
+    """`source` with its modifiers applied. Blender evaluates no object that is hidden, so it is shown meanwhile."""
+    hidden = source.hide_get()
+    if hidden:
+        source.hide_set(False)
+    try:
+        yield source.evaluated_get(context.evaluated_depsgraph_get())
+    finally:
+        if hidden:
+            source.hide_set(True)

@@ -4,11 +4,14 @@
 from .features import corner_vertices, crease_edges
 
 
-def fair_arguments(arrays, settings):
-    """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included."""
+def fair_arguments(arrays, settings, preferences, region=None):
+    """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
+
+    `region`: (r,) ids of the faces to fair, None for all.
+    """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     approximate = settings.interpolation == "APPROXIMATE"
-    return {
+    arguments = {
         "vertices": arrays.positions,
         "faces": (arrays.corners, arrays.offsets),
         "levels": settings.levels,
@@ -23,5 +26,9 @@ def fair_arguments(arrays, settings):
         "boundary": settings.boundary.lower(),
         "epsilon": settings.epsilon,
         "repair_orientation": settings.repair_orientation,
-        "memory_limit": settings.memory_limit * 2**20,
+        "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
+        "threads": preferences.threads,
     }
+    if region is not None:
+        arguments |= {"region": region, "joint": settings.joint.lower()}
+    return arguments

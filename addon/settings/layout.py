@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the settings are laid out, for the sidebar and for the redo panel alike."""
+"""How the settings are laid out, for the sidebar, the redo panel and a faired object's memory alike."""
 
 
 def draw_shape(layout, settings, triangle_text=""):
@@ -14,7 +14,19 @@ def draw_shape(layout, settings, triangle_text=""):
     if settings.interpolation == "APPROXIMATE":
         layout.prop(settings, "tolerance")
     layout.prop(settings, "boundary")
-    layout.prop(settings, "shade_smooth")
+
+
+def draw_source(layout, settings):
+    layout.prop(settings, "use_selection")
+    if settings.use_selection:
+        layout.prop(settings, "joint")
+    row = layout.row()
+    row.enabled = not settings.use_selection
+    row.prop(settings, "mesh_source")
+    if settings.use_selection:
+        _reason(layout, "Faces are selected on the mesh as modelled")
+    layout.prop(settings, "keep_symmetry")
+    layout.prop(settings, "repair_orientation")
 
 
 def draw_creases(layout, settings):
@@ -24,11 +36,49 @@ def draw_creases(layout, settings):
     _switched(layout, settings, "use_corner_angle", "corner_angle")
 
 
+def draw_result(layout, settings):
+    layout.prop(settings, "shade_smooth")
+    layout.prop(settings, "hide_source")
+    evaluated = settings.mesh_source == "EVALUATED" and not settings.use_selection
+    column = layout.column()
+    column.enabled = not evaluated
+    column.prop(settings, "use_shape_keys")
+    column.prop(settings, "copy_modifiers")
+    if evaluated:
+        _reason(layout, "Both are already in the mesh With Modifiers")
+
+
 def draw_advanced(layout, settings):
     layout.prop(settings, "metric_exponent")
     layout.prop(settings, "epsilon")
-    layout.prop(settings, "repair_orientation")
     layout.prop(settings, "memory_limit")
+
+
+FOLDED = (
+    ("Source", draw_source),
+    ("Creases", draw_creases),
+    ("Result", draw_result),
+    ("Advanced", draw_advanced),
+)
+
+
+def draw_settings(layout, settings, identifier, triangle_text=""):
+    """All of them, the rare ones folded; `identifier` tells Blender which of them are open."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    draw_shape(layout, settings, triangle_text)
+    for label, draw in FOLDED:
+        header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
+        header.label(text=label)
+        if body is not None:
+            draw(body, settings)
+
+
+def _reason(layout, text):
+    """Why what stands above is grey."""
+    row = layout.row()
+    row.alignment = "RIGHT"
+    row.label(text=text, icon="INFO")
 
 
 def _switched(layout, settings, switch, value):

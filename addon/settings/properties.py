@@ -35,6 +35,22 @@ BOUNDARIES = (
 )
 
 
+MESH_SOURCES = (
+    ("ORIGINAL", "As Modelled", "The mesh itself, as Edit Mode shows it"),
+    ("EVALUATED", "With Modifiers", "What the modifiers of the source make of its mesh"),
+)
+
+JOINTS = (
+    ("POSITION", "Touching", "The surface meets the rest without a gap, at any angle (G0)"),
+    ("TANGENT", "Tangent", "The surface leaves the rest in the direction of the neighbouring faces (G1)"),
+    (
+        "CURVATURE",
+        "Curvature",
+        "As Tangent, and the surface begins to bend gently, so that reflections flow on (like G2)",
+    ),
+)
+
+
 class FairingSettings:
     """Mix-in of annotations for an operator or a property group."""
 
@@ -65,6 +81,27 @@ class FairingSettings:
         subtype="DISTANCE",
     )
     boundary: EnumProperty(name="Boundary", description="What happens to open borders", items=BOUNDARIES)
+
+    mesh_source: EnumProperty(
+        name="Control Mesh", description="Which state of the source is faired", items=MESH_SOURCES
+    )
+    use_selection: BoolProperty(
+        name="Selected Faces Only",
+        description="Fairs the faces that are selected in Edit Mode, on the mesh as modelled. "
+        "All others keep their shape and are only cut into as many parts",
+        default=False,
+    )
+    joint: EnumProperty(
+        name="Joint",
+        description="How the faired faces meet those that keep their shape",
+        items=JOINTS,
+        default="TANGENT",
+    )
+    keep_symmetry: BoolProperty(
+        name="Keep Symmetry",
+        description="Where the source is its own mirror image in the object's X, Y or Z, so is the surface, to the last digit",
+        default=True,
+    )
 
     use_crease_attribute: BoolProperty(
         name="Edge Creases",
@@ -134,6 +171,21 @@ class FairingSettings:
         description="Turns over faces that point the other way than their neighbours, instead of refusing the mesh",
         default=False,
     )
+    use_shape_keys: BoolProperty(
+        name="Shape Keys",
+        description="Fairs every shape key of the source too, so that the surface can be animated by them",
+        default=True,
+    )
+    copy_modifiers: BoolProperty(
+        name="Copy Modifiers",
+        description="Gives the surface the modifiers of the source, such as its armature",
+        default=False,
+    )
+    hide_source: BoolProperty(
+        name="Hide Source",
+        description="Hides the source afterwards, because the surface lies on it. Its eye in the Outliner shows it again",
+        default=True,
+    )
     shade_smooth: BoolProperty(
         name="Shade Smooth",
         description="Shades every face of the result smooth. Off: each face is shaded like the one it comes from",
@@ -141,7 +193,8 @@ class FairingSettings:
     )
     memory_limit: IntProperty(
         name="Memory Limit",
-        description="Refuses to start a result that would need more memory than this, in megabytes. 0: the core decides",
+        description="Refuses to start a result that would need more memory than this, in megabytes. "
+        "0: the limit in the add-on's preferences",
         default=0,
         min=0,
         soft_max=65536,
@@ -167,11 +220,26 @@ class DISCRETE_FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
     """What the panel shows; kept with the scene."""
 
 
+class DISCRETE_FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
+    """What a faired object remembers: where it comes from, and how it was made."""
+
+    source: bpy.props.PointerProperty(
+        name="Source", description="The object whose mesh controls this surface", type=bpy.types.Object
+    )
+
+
+CLASSES = (DISCRETE_FAIRING_PG_settings, DISCRETE_FAIRING_PG_surface)
+
+
 def register():
-    bpy.utils.register_class(DISCRETE_FAIRING_PG_settings)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
     bpy.types.Scene.discrete_fairing = bpy.props.PointerProperty(type=DISCRETE_FAIRING_PG_settings)
+    bpy.types.Object.discrete_fairing = bpy.props.PointerProperty(type=DISCRETE_FAIRING_PG_surface)
 
 
 def unregister():
+    del bpy.types.Object.discrete_fairing
     del bpy.types.Scene.discrete_fairing
-    bpy.utils.unregister_class(DISCRETE_FAIRING_PG_settings)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

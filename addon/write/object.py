@@ -5,6 +5,8 @@ import json
 
 import bpy
 
+from ..settings.properties import copy_settings
+
 REPORT = "fairing_report"  # custom property of the new object: the core's report as JSON
 
 _TRANSFORM = (
@@ -22,15 +24,38 @@ _TRANSFORM = (
 _PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_parent_inverse")
 
 
-def write_object(context, source, mesh, report):
+def new_object(context, source, mesh):
     """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
     target = bpy.data.objects.new(mesh.name, mesh)
     for collection in _collections(context, source):
         collection.objects.link(target)
     _copy_place(context, source, target)
     _copy_object_materials(source, target)
-    target[REPORT] = json.dumps(report, default=_plain)
     return target
+
+
+def replace_mesh(target, mesh):
+    """Puts `mesh` in the place of the mesh of `target`, for all objects that share it, and returns `target`.
+
+    The materials are those that the old mesh has by now, and its name goes on.
+    """
+    old = target.data
+    mesh.materials.clear()
+    for material in old.materials:
+        mesh.materials.append(material)
+    name = old.name
+    old.user_remap(mesh)
+    bpy.data.meshes.remove(old)
+    mesh.name = name
+    return target
+
+
+def remember(target, source, settings, report):
+    """Notes on `target` where it comes from, so that it can be computed again, and what the core reported."""
+    memory = target.discrete_fairing
+    memory.source = source
+    copy_settings(settings, memory)
+    target[REPORT] = json.dumps(report, default=_plain)
 
 
 def select_only(context, objects):

@@ -6,7 +6,11 @@ from addon import native
 
 CLASSES = (
     "OBJECT_OT_fair_surface",
+    "OBJECT_OT_fair_recompute",
+    "OBJECT_OT_fairing_preset_add",
     "VIEW3D_PT_fairing",
+    "VIEW3D_PT_fairing_memory",
+    "VIEW3D_PT_fairing_source",
     "VIEW3D_PT_fairing_creases",
     "VIEW3D_PT_fairing_advanced",
 )
@@ -26,7 +30,8 @@ def test_register_and_unregister_twice():
 
 
 def test_operator_can_be_undone_and_redone():
-    assert bpy.types.OBJECT_OT_fair_surface.bl_options == {"REGISTER", "UNDO"}
+    assert bpy.types.OBJECT_OT_fair_surface.bl_options == {"REGISTER", "UNDO", "PRESET"}
+    assert bpy.types.OBJECT_OT_fair_recompute.bl_options == {"REGISTER", "UNDO"}
 
 
 def test_panel_stands_in_its_tab():

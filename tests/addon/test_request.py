@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, set_edge_attribute
 
+from addon.preferences import Defaults
 from addon.read.mesh import read_mesh
 from addon.request.arguments import fair_arguments
 from addon.settings.properties import NAMES
@@ -20,7 +21,7 @@ def settings(**changes):
 
 
 def arguments(mesh=None, **changes):
-    return fair_arguments(read_mesh(mesh or add("Box", *CUBE).data), settings(**changes))
+    return fair_arguments(read_mesh(mesh or add("Box", *CUBE).data), settings(**changes), Defaults)
 
 
 def test_defaults():

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: what holds for all files of a user."""
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.props import IntProperty
+
+
+class Defaults:
+    """What holds where the add-on is imported without being installed, as in tests."""
+
+    levels = 3
+    memory_limit = 0
+    threads = 0
+
+
+class DiscreteFairingPreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    levels: IntProperty(
+        name="Default Levels",
+        description="How often faces are split in files where it has not been chosen yet",
+        default=Defaults.levels,
+        min=1,
+        max=10,
+        soft_max=5,
+    )
+    memory_limit: IntProperty(
+        name="Memory Limit (MB)",
+        description="Refuses to start a result that would need more memory than this, in megabytes. "
+        "0: three quarters of this machine's memory",
+        default=Defaults.memory_limit,
+        min=0,
+        soft_max=65536,
+    )
+    threads: IntProperty(
+        name="Threads",
+        description="How many processor cores a run may use. 0: all. The surface is the same for any number",
+        default=Defaults.threads,
+        min=0,
+        max=1024,
+    )
+
+    def draw(self, _context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("levels", "memory_limit", "threads"):
+            layout.prop(self, name)
+
+
+def preferences():
+    """The user's preferences, or the defaults."""
+    entry = bpy.context.preferences.addons.get(__package__)
+    return entry.preferences if entry is not None and entry.preferences is not None else Defaults
+
+
+@persistent
+def give_scenes_default_levels(*_):
+    """Scenes whose levels nobody has chosen get the user's default."""
+    levels = preferences().levels
+    for scene in bpy.data.scenes:
+        settings = scene.discrete_fairing
+        if scene.library is None and not settings.is_property_set("levels") and settings.levels != levels:
+            settings.levels = levels
+
+
+def register():
+    bpy.utils.register_class(DiscreteFairingPreferences)
+    bpy.app.handlers.load_post.append(give_scenes_default_levels)
+    # the file that is open now: bpy.data may not be touched while add-ons are being enabled
+    bpy.app.timers.register(give_scenes_default_levels, first_interval=0.0)
+
+
+def unregister():
+    if bpy.app.timers.is_registered(give_scenes_default_levels):
+        bpy.app.timers.unregister(give_scenes_default_levels)
+    bpy.app.handlers.load_post.remove(give_scenes_default_levels)
+    bpy.utils.unregister_class(DiscreteFairingPreferences)

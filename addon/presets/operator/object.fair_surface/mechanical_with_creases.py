@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Machine parts: folds from 30 degrees on are sharp, and sharp curves keep corners from 45 degrees on.
+import bpy
+
+op = bpy.context.active_operator
+
+op.energy = "THIN_PLATE"
+op.interpolation = "EXACT"
+op.boundary = "CURVE"
+op.use_crease_attribute = True
+op.crease_threshold = 0.5
+op.use_sharp_edges = True
+op.use_crease_angle = True
+op.crease_angle = 0.523599
+op.use_corner_angle = True
+op.corner_angle = 0.785398
+op.metric_exponent = 0.5
+op.epsilon = 0.0
+op.shade_smooth = True

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A layout that only remembers: drawing for real needs a window."""
+
+import bpy
+
+
+class Layout:
+    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties that do not exist."""
+
+    def __init__(self, log=None):
+        self.log = log if log is not None else []
+
+    def row(self, **_):
+        return Layout(self.log)
+
+    column = box = row
+
+    def panel(self, _name, **_):
+        return Layout(self.log), Layout(self.log)
+
+    def label(self, text="", **_):
+        self.log.append(text)
+
+    def prop(self, owner, name, **_):
+        assert name in owner.bl_rna.properties
+        self.log.append(name)
+
+    def progress(self, text="", factor=0.0, **_):
+        assert 0.0 <= factor <= 1.0
+        self.log.append(text)
+
+    def operator(self, name, **_):
+        self.log.append(name)
+        return self.button
+
+    class button:
+        """The operator properties that the panel fills in."""
+
+
+def draw(cls):
+    """What a panel class draws in the present context, as a list of labels, properties and operators."""
+
+    class Instance:
+        layout = Layout()
+
+    instance = Instance()
+    for name in dir(cls):
+        if name.startswith(("draw_", "_")) and not name.startswith("__"):
+            setattr(instance, name, getattr(cls, name))
+    cls.draw(instance, bpy.context)
+    return instance.layout.log
