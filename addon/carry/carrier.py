@@ -26,7 +26,7 @@ class Carrier:
         self.control_count = len(arrays.positions)
         self.vertex_count = len(result.vertices)
         self._arrays = arrays
-        self._patches = []
+        self.patches = []
         self._centres = None
         start = 0
         for fine, polygon in zip(result.faces, (result.triangle_polygon, result.quad_polygon), strict=True):
@@ -34,17 +34,24 @@ class Carrier:
             faces = find_control_faces(fine, polygon, cells, arrays)
             self._centres = self._centres or Centres(faces, arrays)  # triangles come first
             if len(fine):
-                self._patches.append(Patch(cells, faces, fine, start))
+                self.patches.append(Patch(cells, faces, fine, start))
             start += fine.size
         self.corner_count = start
         self._polygon = np.concatenate([result.triangle_polygon, result.quad_polygon])
+
+    def used_vertices(self):
+        """(n,) bool: which control vertices belong to a face."""
+        used = np.zeros(self.vertex_count, bool)
+        for patch in self.patches:
+            used[patch.faces.vertices] = True
+        return used[: self.control_count]
 
     def corner(self, values):
         """(c,) or (c, w) numbers on corners → (refined corners, w) float32. A face's come from its own corners only."""
         values = _table(values)
         known = np.concatenate([values, self._centres.corner(values)])
         out = np.empty((self.corner_count, values.shape[1]), np.float32)
-        for patch in self._patches:
+        for patch in self.patches:
             patch.mix_corners(known, out)
         return out
 
@@ -53,7 +60,7 @@ class Carrier:
         values = _table(values)
         known = np.concatenate([values, self._centres.point(values)])
         out = np.zeros((self.vertex_count, values.shape[1]), np.float32)
-        for patch in self._patches:
+        for patch in self.patches:
             patch.mix_points(known, out)
         out[: len(known)] = known
         return out
@@ -74,7 +81,7 @@ class Carrier:
         `corner_edge` (refined corners,): the edge that leaves each corner; `edge_count`: how many there are.
         """
         origin = np.full(edge_count, -1, np.int32)
-        for patch in self._patches:
+        for patch in self.patches:
             edge_origin(patch, self._arrays.edges, corner_edge, origin)
         return origin
 
@@ -85,7 +92,7 @@ class Carrier:
         """
         out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
         _, lowest = self._centres.lowest()
-        for patch in self._patches:
+        for patch in self.patches:
             patch.pick_corners(
                 values, self._replace(patch.faces.corners, lowest, len(values)), self._fans(patch), out
             )
@@ -98,7 +105,7 @@ class Carrier:
         """
         out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
         lowest, _ = self._centres.lowest()
-        for patch in self._patches:
+        for patch in self.patches:
             patch.pick_points(
                 values, self._replace(patch.faces.vertices, lowest, len(values)), self._fans(patch), out
             )
