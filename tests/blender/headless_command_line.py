@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command of the installed extension, as scripts call it: `blender --background --python headless_command_line.py`.
+
+Prints `PASS name` or `FAIL name` for each test and exits with 1 if any failed. Each test starts this Blender again, with
+the files it writes, and looks at exit codes, outputs and the report.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+
+POINTS = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 2)]
+FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+LIMIT = 300  # seconds that no call takes
+
+
+def words(*arguments):
+    """The command line; `--background` as the documents have it."""
+    return [bpy.app.binary_path, "--background", "--command", "discrete_fairing", *map(str, arguments)]
+
+
+def call(*arguments):
+    """Exit code, standard output, standard error. The environment, with the user's folders, is handed on."""
+    done = subprocess.run(words(*arguments), capture_output=True, timeout=LIMIT)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def report(*arguments):
+    """The exit code, and the report from standard output, which has to be all of it."""
+    code, output, error = call(*arguments, "--json", "-")
+    assert output.startswith("{"), f"standard output begins with {output[:60]!r}; standard error: {error}"
+    return code, json.loads(output)
+
+
+def write_obj(name):
+    lines = ["v {} {} {}".format(*point) for point in POINTS]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in FACES]
+    Path(name).write_text("\n".join(lines) + "\n")
+
+
+def write_ply(name):
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(POINTS)}"]
+    lines += [f"property float {axis}" for axis in "xyz"]
+    lines += [f"element face {len(FACES)}", "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join(map(str, point)) for point in POINTS]
+    lines += [" ".join(map(str, (4, *face))) for face in FACES]
+    Path(name).write_text("\n".join(lines) + "\n")
+
+
+def write_stl(name):
+    lines = ["solid box"]
+    for a, b, c, d in FACES:
+        for triangle in ((a, b, c), (a, c, d)):
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += ["vertex {} {} {}".format(*POINTS[corner]) for corner in triangle]
+            lines += ["endloop", "endfacet"]
+    Path(name).write_text("\n".join([*lines, "endsolid box"]) + "\n")
+
+
+def obj_vertices(name):
+    lines = [line.split() for line in Path(name).read_text().splitlines() if line.startswith("v ")]
+    return [tuple(float(x) for x in line[1:4]) for line in lines]
+
+
+def test_one_file():
+    write_obj("in.obj")
+    code, output, error = call("in.obj", "out.obj", "--levels", 2)
+    assert code == 0, output + error
+    assert set(POINTS) <= set(obj_vertices("out.obj")), "coordinates stay what they are"
+    faces = [line for line in Path("out.obj").read_text().splitlines() if line.startswith("f ")]
+    assert len(faces) == len(FACES) * 4**2
+    assert "in.obj" in error and "→" in error
+
+
+def test_many_files_of_all_kinds_and_bad_ones():
+    write_obj("a.obj")
+    write_ply("b.ply")
+    write_stl("c.stl")
+    Path("fin.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n")
+    names = ("a.obj", "fin.obj", "b.ply", "missing.ply", "c.stl")
+    code, whole = report(*names, "new/", "--format", "obj", "--levels", 1)
+    assert code == whole["exit_code"] == 1
+    assert [entry["status"] for entry in whole["inputs"]] == ["done", "failed", "done", "failed", "done"]
+    codes = [entry["error"]["code"] for entry in whole["inputs"] if entry["error"]]
+    assert codes == ["NONMANIFOLD_EDGE", "UNREADABLE"], codes
+    for name in ("a", "b", "c"):
+        assert set(POINTS) <= set(obj_vertices(f"new/{name}.obj")), name
+
+
+def test_the_other_formats_come_out():
+    write_obj("in.obj")
+    code, whole = report("in.obj", "{name}_fair.ply", "--levels", 1)
+    assert (code, whole["inputs"][0]["output"]) == (0, "in_fair.ply")
+    assert Path("in_fair.ply").read_bytes().startswith(b"ply")
+    assert call("in_fair.ply", "again.stl", "--levels", 1)[0] == 0
+    assert Path("again.stl").stat().st_size == 84 + 50 * 2 * len(FACES) * 4**2  # binary
+
+
+def test_usage_errors_are_two():
+    write_obj("in.obj")
+    for bad in (
+        (),
+        ("in.obj",),
+        ("in.obj", "in.obj"),
+        ("in.obj", "out.fbx"),
+        ("in.obj", "o.obj", "--no-such"),
+    ):
+        code, _, error = call(*bad)
+        assert code == 2 and "usage: " in error, (bad, code, error)
+
+
+def test_help_and_version():
+    code, output, _ = call("--help")
+    assert code == 0 and "--crease-angle" in output
+    code, output, _ = call("--version")
+    assert code == 0 and "discrete_fairing 0" in output, output
+
+
+def test_ctrl_c_ends_it_with_130():
+    write_obj("in.obj")
+    process = subprocess.Popen(
+        words("in.obj", "out.obj", "--levels", 10, "--json", "report.json"),
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+    )
+    try:
+        for line in process.stderr:
+            if line.startswith("in.obj: "):  # progress: the core is at work
+                break
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        process.stderr.read()
+        assert process.wait(LIMIT) == 130, process.returncode
+    finally:
+        process.kill()
+        process.stderr.close()
+    assert json.loads(Path("report.json").read_text())["inputs"][0]["status"] == "cancelled"
+    assert not Path("out.obj").exists()
+
+
+def main():
+    """Every test in a folder of its own; the number of failures."""
+    failures = 0
+    start = Path.cwd()
+    for name, test in [item for item in globals().items() if item[0].startswith("test_")]:
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                test()
+            except Exception:
+                failures += 1
+                traceback.print_exc(file=sys.stdout)
+                print(f"FAIL {name}", flush=True)
+            else:
+                print(f"PASS {name}", flush=True)
+            finally:
+                os.chdir(start)
+    return failures
+
+
+if __name__ == "__main__":
+    sys.exit(1 if main() else 0)
