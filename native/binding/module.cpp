@@ -264,6 +264,10 @@ PYBIND11_MODULE(_native, m) {
       .value("curve", BoundaryMode::curve)
       .value("linear", BoundaryMode::linear)
       .value("free", BoundaryMode::free);
+  py::enum_<Joint>(m, "Joint")
+      .value("position", Joint::position)
+      .value("tangent", Joint::tangent)
+      .value("curvature", Joint::curvature);
   py::enum_<ChartKind>(m, "Chart")
       .value("exponential", ChartKind::exponential)
       .value("tangent", ChartKind::tangent);
@@ -308,6 +312,15 @@ PYBIND11_MODULE(_native, m) {
       .def_property(
           "boundary", [](const FairOptions& o) { return o.features.boundary; },
           [](FairOptions& o, BoundaryMode v) { o.features.boundary = v; })
+      .def_property(
+          "region", [](const FairOptions& o) { return o.features.region.faces; },
+          [](FairOptions& o, std::vector<std::int64_t> v) {
+            o.features.region.given = true;
+            o.features.region.faces = std::move(v);
+          })
+      .def_property(
+          "joint", [](const FairOptions& o) { return o.features.region.joint; },
+          [](FairOptions& o, Joint v) { o.features.region.joint = v; })
       .def_readwrite("repair_orientation", &FairOptions::repair_orientation)
       .def_readwrite("interpolation", &FairOptions::interpolation)
       .def_readwrite("tolerance", &FairOptions::tolerance)

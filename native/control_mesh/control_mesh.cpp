@@ -5,6 +5,7 @@
 
 #include "control_mesh/connect.h"
 #include "control_mesh/features.h"
+#include "control_mesh/region.h"
 #include "control_mesh/split.h"
 
 namespace fairing {
@@ -60,7 +61,9 @@ ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& fea
   take_faces(split, control);
   connect_faces(control);
   index_spokes(control);
+  find_region(features.region, control);
   find_features(oriented, features, control);
+  mark_clamped_joint(control);
   return control;
 }
 

@@ -22,12 +22,26 @@ enum class BoundaryMode {
   free,    // natural boundary: the surface decides
 };
 
+// How a faired region meets what is outside it.
+enum class Joint {
+  position,   // in a fixed line, at any angle
+  tangent,    // moreover with the outside's tangent planes
+  curvature,  // moreover with the outside's curvature, which is none
+};
+
+struct RegionOptions {
+  bool given = false;
+  std::vector<std::int64_t> faces{};  // of the input
+  Joint joint = Joint::tangent;
+};
+
 struct FeatureOptions {
   std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
   std::vector<std::int64_t> corner_vertices{};  // curves end here; an interior one may be a cone tip
   double crease_angle = -1.0;  // radians: edges folded by more than this are creases; negative: none
   double corner_angle = -1.0;  // radians: chains that turn by more than this are split; negative: none
   BoundaryMode boundary = BoundaryMode::curve;
+  RegionOptions region{};
 };
 
 // A face's side s runs from its corner s to its corner s + 1.
@@ -68,6 +82,18 @@ struct Chain {
   bool straight = false;  // BoundaryMode::linear: not smoothed
 };
 
+enum class Place : std::uint8_t { inside, joint, outside };
+
+// Which part of the mesh is faired, where that is not all of it. What is not inside is refined linearly, and fixed.
+struct Region {
+  std::vector<Place> vertex, edge, face;  // a face is inside or outside; all empty: the whole mesh is inside
+  Joint joint = Joint::tangent;
+  // The joint edges that carry a fit, and their ends.
+  std::vector<std::uint8_t> clamped_vertex, clamped_edge;
+
+  bool whole() const { return face.empty(); }
+};
+
 struct ControlMesh {
   std::vector<Vec3> positions;  // input vertices first, then split centres
   Index input_vertices = 0;     // positions[input_vertices …] are free vertices that splits have added
@@ -85,6 +111,7 @@ struct ControlMesh {
   std::vector<std::uint8_t> feature_edge;    // per edge: lies on a curve (crease, or boundary unless free)
   std::vector<std::uint8_t> feature_vertex;  // per vertex: lies on a curve or is a corner; carries no fit
   std::vector<Chain> chains;
+  Region region;
 
   Index vertex_count() const { return Index(positions.size()); }
   std::span<const Spoke> ring(Index v) const {
@@ -95,11 +122,27 @@ struct ControlMesh {
     const auto r = ring(v);
     return !r.empty() && r.back().face >= 0;
   }
+
+  Place vertex_place(Index v) const { return region.whole() ? Place::inside : region.vertex[std::size_t(v)]; }
+  Place edge_place(Index e) const { return region.whole() ? Place::inside : region.edge[std::size_t(e)]; }
+  Place face_place(Index f) const { return region.whole() ? Place::inside : region.face[std::size_t(f)]; }
+
+  // Whether divided differences are taken at the control vertex, and at the points inside the edge.
+  bool vertex_fit(Index v) const {
+    return !ring(v).empty() && !feature_vertex[std::size_t(v)] && place_fit(vertex_place(v));
+  }
+  bool edge_fit(Index e) const { return !feature_edge[std::size_t(e)] && place_fit(edge_place(e)); }
+
+ private:
+  bool place_fit(Place place) const {
+    return place == Place::inside || (place == Place::joint && region.joint != Joint::position);
+  }
 };
 
 // `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons of five and
 // more sides, and quads too concave or warped, are split by shape (control_mesh/split.h).
-// Throws FairingError: bad_feature_edge, index_out_of_range for creases and corners that are not in the mesh;
+// Throws FairingError: bad_feature_edge, index_out_of_range for creases, corners and a region's faces that are not in
+// the mesh; bad_option for a region without faces;
 // too_large for polygons that cannot be split (control_mesh/split.h).
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped = {});

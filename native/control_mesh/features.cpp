@@ -44,7 +44,11 @@ class FeatureFinder {
   }
 
  private:
-  bool feature(Index e) const { return control_.feature_edge[std::size_t(e)] != 0; }
+  // Outside a region edges are straight lines, whatever is asked for; on its joint they are straight creases.
+  bool feature(Index e) const {
+    return control_.feature_edge[std::size_t(e)] != 0 && control_.edge_place(e) != Place::outside;
+  }
+  bool curve(Index e) const { return feature(e) && control_.edge_place(e) == Place::inside; }
   const Edge& edge(Index e) const { return control_.edges[std::size_t(e)]; }
   const Vec3& position(Index v) const { return control_.positions[std::size_t(v)]; }
   Index polygon(Index side) const {
@@ -134,7 +138,8 @@ class FeatureFinder {
       int count = 0;
       const auto edges = feature_edges_at(v, count);
       control_.feature_vertex[std::size_t(v)] = count > 0;
-      corner_[std::size_t(v)] = count > 0 && (count != 2 || turns_sharply(v, edges));
+      const bool ends = count != 2 || control_.vertex_place(v) == Place::joint;
+      corner_[std::size_t(v)] = count > 0 && (ends || turns_sharply(v, edges));
     }
     std::vector<std::int64_t> unknown;
     for (std::int64_t v : options_.corner_vertices) {
@@ -152,10 +157,10 @@ class FeatureFinder {
     for (Index v = 0; v < control_.vertex_count(); ++v) {
       if (!corner_[std::size_t(v)]) continue;
       for (const Spoke& spoke : control_.ring(v))
-        if (feature(spoke.edge) && !visited[std::size_t(spoke.edge)]) collect_chain(v, spoke.edge, visited);
+        if (curve(spoke.edge) && !visited[std::size_t(spoke.edge)]) collect_chain(v, spoke.edge, visited);
     }
     for (Index e = 0; e < Index(control_.edges.size()); ++e)  // what no corner reaches are loops
-      if (feature(e) && !visited[std::size_t(e)]) collect_chain(edge(e).vertex[0], e, visited);
+      if (curve(e) && !visited[std::size_t(e)]) collect_chain(edge(e).vertex[0], e, visited);
   }
 
   void collect_chain(Index start, Index first_edge, std::vector<std::uint8_t>& visited) {

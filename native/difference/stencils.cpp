@@ -24,7 +24,7 @@ void fill_vertex(const ControlMesh& mesh, const ChartMaker& charts, Index v, Ste
             s.vertex_half.begin() + std::ptrdiff_t(5 * last), 0.f);
   std::fill(s.vertex_energy.begin() + std::ptrdiff_t(3 * first),
             s.vertex_energy.begin() + std::ptrdiff_t(3 * last), 0.0);
-  const bool has_fit = first < last && !mesh.feature_vertex[std::size_t(v)];
+  const bool has_fit = mesh.vertex_fit(v);
   s.vertex_fit[std::size_t(v)] = has_fit;
   if (!has_fit) return;
   const Chart chart = charts.vertex(v);
@@ -78,7 +78,7 @@ void fill_edge(const ControlMesh& mesh, const ChartMaker& charts, Index e, Stenc
   double* energy = s.edge_energy.data() + 24 * std::size_t(e);
   std::fill(half, half + 64, 0.f);
   std::fill(energy, energy + 24, 0.0);
-  const bool has_fit = !mesh.feature_edge[std::size_t(e)];
+  const bool has_fit = mesh.edge_fit(e);
   s.edge_ring[std::size_t(e)] = std::uint8_t(ring.size);
   s.edge_fit[std::size_t(e)] = has_fit;
   if (!has_fit) {  // linear, bilinear in a quad's cells
@@ -101,11 +101,14 @@ void fill_edge(const ControlMesh& mesh, const ChartMaker& charts, Index e, Stenc
 
 void fill_face(const ControlMesh& mesh, const ChartMaker& charts, Index f, Stencils& s) {
   const int directions = mesh.faces[std::size_t(f)].size;
+  double* energy = s.face_energy.data() + 12 * std::size_t(f);
+  std::fill(energy, energy + 12, 0.0);
+  const bool has_fit = mesh.face_place(f) == Place::inside;
+  s.face_fit[std::size_t(f)] = has_fit;
+  if (!has_fit) return;
   const Chart chart = charts.face(f);
   const FitRows rows = fit(chart);
   const double root_weight = std::sqrt(chart.area);
-  double* energy = s.face_energy.data() + 12 * std::size_t(f);
-  std::fill(energy, energy + 12, 0.0);
   // Opposite neighbours have equal weights in the Hessian, so the rows act on second differences.
   for (int c = 0; c < 3; ++c)
     for (int a = 0; a < directions; ++a)
@@ -132,6 +135,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Wor
   s.edge_fit.resize(edges);
   s.edge_half.resize(64 * edges);
   s.edge_energy.resize(24 * edges);
+  s.face_fit.resize(faces);
   s.face_energy.resize(12 * faces);
   workers.for_parts(vertices, 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) fill_vertex(mesh, charts, Index(v), s);

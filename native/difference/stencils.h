@@ -27,7 +27,8 @@ struct Stencils {
   Array<double> edge_energy;  // 3 x 8
 
   // Control faces: 3 rows on the second differences along 3 (triangle) or 4 (quad) lattice directions.
-  Array<double> face_energy;  // 3 x 4
+  std::vector<std::uint8_t> face_fit;  // false outside a region
+  Array<double> face_energy;           // 3 x 4
 };
 
 Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers);

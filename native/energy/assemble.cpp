@@ -13,7 +13,9 @@ std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unkno
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     for (int k = 1; k < lattice.n(); ++k, ++point)
       if (unknowns.edge[e]) number[point] = next++;
-  for (; point < lattice.size(); ++point) number[point] = next++;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (auto k = interior_size(mesh.faces[f].quad(), lattice.n()); k > 0; --k, ++point)
+      if (unknowns.has_face(f)) number[point] = next++;
   return number;
 }
 

@@ -18,9 +18,9 @@ struct EdgePass {
   using Pack = typename P::Pack;
 
   // m[c][i] = sum_j row[8 c + j] (neighbour j of i - i) on the run's points 1 … n - 1, zero elsewhere; then target
-  // lanes get the transposed rows. moments: 5 lanes' room.
+  // lanes get the transposed rows. moments: 5 lanes' room. weight, if not null: factors of the m, one a point from 1.
   DF_INLINE static void run(int n, const EdgeRingLanes* ring, const T* row, T scale, T* const* lane,
-                            T* const* target, T* moments) {
+                            const T* weight, T* const* target, T* moments) {
     constexpr int block = P::size, room = lane_block;
     const std::ptrdiff_t stride = std::ptrdiff_t(lane_stride(n)) + 2 * room;
     const std::ptrdiff_t inner = 3 * std::ptrdiff_t(n - 1), whole = 3 * std::ptrdiff_t(n + 1);
@@ -52,6 +52,9 @@ struct EdgePass {
       P::store(y1, m[1] + 3 + i);
       P::store(y2, m[2] + 3 + i);
     }
+    if (weight)
+      for (int c = 0; c < 3; ++c)
+        for (std::ptrdiff_t i = 0; i < inner; ++i) m[c][3 + i] *= weight[i / 3];
     for (int c = 0; c < 3; ++c) {
       for (int q = -3; q < 3; ++q) m[c][q] = 0;
       for (std::ptrdiff_t q = 3 + inner; q < stride - room; ++q) m[c][q] = 0;
@@ -81,9 +84,9 @@ struct EdgePass {
 
 // target lanes <- (rows)^T rows (lanes), scaled; storage holds 5 lanes.
 template <class T>
-void set_edge_pass(int n, const EdgeRingLanes& ring, const T* row, T scale, T* const* lane, T* const* target,
-                   T* storage) {
-  run_loop<passes::EdgePass, T>(n, &ring, row, scale, lane, target, storage);
+void set_edge_pass(int n, const EdgeRingLanes& ring, const T* row, T scale, T* const* lane, const T* weight,
+                   T* const* target, T* storage) {
+  run_loop<passes::EdgePass, T>(n, &ring, row, scale, lane, weight, target, storage);
 }
 
 }  // namespace fairing

@@ -39,12 +39,20 @@ struct Moments {
   }
 };
 
+// A row's moments times the factors of its points.
+template <class T, std::size_t Directions>
+DF_INLINE void weigh(const T* weight, std::ptrdiff_t first, std::ptrdiff_t last,
+                     T* const (&moments)[Directions]) {
+  for (T* moment : moments)
+    for (std::ptrdiff_t i = first; i < last; ++i) moment[i] *= weight[i];
+}
+
 template <class T, int Bytes>
 struct TrianglePass {
   using P = Packs<T, Bytes>;
   using Pack = typename P::Pack;
 
-  DF_INLINE static void run(int n, const T* c, T scale, const T* x, T* closed, T* storage) {
+  DF_INLINE static void run(int n, const T* c, T scale, const T* x, const T* weight, T* closed, T* storage) {
     constexpr int block = P::size;
     const T c00 = scale * c[0], c01 = scale * c[1], c02 = scale * c[2], c11 = scale * c[5],
             c12 = scale * c[6], c22 = scale * c[10];
@@ -76,6 +84,7 @@ struct TrianglePass {
           P::store(c01 * da + c11 * db + c12 * dc, b + i);
           P::store(c02 * da + c12 * db + c22 * dc, d + i);
         }
+        if (weight) weigh(weight + (here - x), 3, last, {a, b, d});
         moments.clear(3, j + 1, last, 6);
       } else {
         moments.clear(3, j + 1, 0, 12);
@@ -112,7 +121,7 @@ struct QuadPass {
   using P = Packs<T, Bytes>;
   using Pack = typename P::Pack;
 
-  DF_INLINE static void run(int n, const T* c, T scale, const T* x, T* closed, T* storage) {
+  DF_INLINE static void run(int n, const T* c, T scale, const T* x, const T* weight, T* closed, T* storage) {
     constexpr int block = P::size;
     T m[4][4];
     for (int a = 0; a < 4; ++a)
@@ -147,6 +156,7 @@ struct QuadPass {
           P::store(m[2][0] * ds + m[2][1] * dd + m[2][2] * dt + m[2][3] * de, t + i);
           P::store(m[3][0] * ds + m[3][1] * dd + m[3][2] * dt + m[3][3] * de, e + i);
         }
+        if (weight) weigh(weight + (here - x), 3, 3 * n, {s, d, t, e});
         moments.clear(4, j + 1, 3 * n, 6);
       } else {
         moments.clear(4, j + 1, 0, 3 * (n + 2));
@@ -186,17 +196,18 @@ struct QuadPass {
 }  // namespace passes
 
 // closed <- (second differences)^T C (second differences) x over the interior points of a closed triangle; c is a
-// symmetric 3 x 3 matrix in rows of 4, scaled by `scale`; storage holds moments_size(n) numbers, zero when
+// symmetric 3 x 3 matrix in rows of 4, scaled by `scale`, and at each point by `weight`, laid out as x, where that is
+// not null; storage holds moments_size(n) numbers, zero when
 // it is first used.
 template <class T>
-void set_triangle_pass(int n, const T* c, T scale, const T* x, T* closed, T* storage) {
-  run_loop<passes::TrianglePass, T>(n, c, scale, x, closed, storage);
+void set_triangle_pass(int n, const T* c, T scale, const T* x, const T* weight, T* closed, T* storage) {
+  run_loop<passes::TrianglePass, T>(n, c, scale, x, weight, closed, storage);
 }
 
 // The same for a quad: a 4 x 4 matrix on the directions s, s + t, t, t - s; moments_size(n) numbers.
 template <class T>
-void set_quad_pass(int n, const T* c, T scale, const T* x, T* closed, T* storage) {
-  run_loop<passes::QuadPass, T>(n, c, scale, x, closed, storage);
+void set_quad_pass(int n, const T* c, T scale, const T* x, const T* weight, T* closed, T* storage) {
+  run_loop<passes::QuadPass, T>(n, c, scale, x, weight, closed, storage);
 }
 
 }  // namespace fairing

@@ -3,6 +3,7 @@
 
 #include "energy/edge_pass.h"
 #include "energy/face_passes.h"
+#include "energy/joint_weight.h"
 #include "lattice/ring.h"
 
 namespace fairing {
@@ -58,6 +59,19 @@ Moment<T> edge_moment(const EdgeRingLanes& ring, const EdgeLanes<T>& lanes, cons
   return moment;
 }
 
+template <class T>
+void edge_weights(const JointWeight& joint, int n, Index e, T* weight) {
+  for (int k = 1; k < n; ++k) *weight++ = T(joint.edge_point(e, k));
+}
+
+// Three equal numbers a point of the closed face.
+template <class T>
+void face_weights(const JointWeight& joint, bool quad, int n, Index f, T* weight) {
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= (quad ? n : n - j); ++i, weight += 3)
+      std::fill(weight, weight + 3, T(joint.face_point(f, i, j)));
+}
+
 }  // namespace
 
 template <class T>
@@ -82,10 +96,12 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
                       T* y) {
   const ControlMesh& mesh = lattice.mesh();
   const int n = lattice.n();
-  const T scale = T(n) * T(n);
+  const T level_scale = T(n) * T(n);
+  const JointWeight joint(lattice);
 
   const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>&) {
     if (rows.stencils.vertex_fit[std::size_t(v)]) {
+      const T scale = level_scale * T(joint.vertex(v));
       const Moment<T> moment = vertex_moment(lattice, rows, v, x);
       const T* row = rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
       visit_ring(lattice, v, [&](Index, std::size_t slot) {
@@ -108,11 +124,13 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
       return;
     }
     const std::size_t stride = lane_stride(n) + lane_block;
-    if (scratch.size() < 8 * stride) scratch.resize(8 * stride);
+    if (scratch.size() < 9 * stride) scratch.resize(9 * stride);
     const EdgeRingLanes ring(mesh, e);
     const EdgeLanes<T> lanes(lattice, x, e, scratch);
     T* const target[3] = {run, left, right};
-    set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), scale, lanes.lane, target,
+    T* weight = joint.weighs_edge(e) ? scratch.data() + 8 * stride : nullptr;
+    if (weight) edge_weights(joint, n, e, weight);
+    set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), level_scale, lanes.lane, weight, target,
                   scratch.data() + 3 * stride);
   };
 
@@ -124,14 +142,18 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
       std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
       return;
     }
-    if (scratch.size() < moments + size) scratch.resize(moments + size);
+    const bool weighted = joint.weighs_face(f);
+    const std::size_t room = moments + (weighted ? 2 : 1) * size;
+    if (scratch.size() < room) scratch.resize(room);
     T* gathered = scratch.data() + moments;
     gather_face(lattice, x, f, gathered);
+    T* weight = weighted ? gathered + size : nullptr;
+    if (weight) face_weights(joint, quad, n, f, weight);
     const T* c = rows.face.data() + 16 * std::size_t(f);
     if (quad)
-      set_quad_pass(n, c, scale, gathered, closed, scratch.data());
+      set_quad_pass(n, c, level_scale, gathered, weight, closed, scratch.data());
     else
-      set_triangle_pass(n, c, scale, gathered, closed, scratch.data());
+      set_triangle_pass(n, c, level_scale, gathered, weight, closed, scratch.data());
   };
 
   accumulate(lattice, workers, exchange, &unknowns, y, vertex_body, edge_body, face_body);
@@ -148,10 +170,11 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
                                  Exchange<double>& exchange) {
   const ControlMesh& mesh = lattice.mesh();
   const int n = lattice.n();
-  const double scale = double(n) * double(n);
+  const double level_scale = double(n) * double(n);
+  const JointWeight joint(lattice);
   // The same sums as K's, of the squared coefficients; all three coordinates carry the same number.
-  const auto put = [&](double* target, double square) {
-    for (std::size_t a = 0; a < 3; ++a) target[a] += scale * square;
+  const auto put = [&](double* target, double weight, double square) {
+    for (std::size_t a = 0; a < 3; ++a) target[a] += level_scale * weight * square;
   };
   const auto square = [](const double* row, std::size_t stride) {
     return row[0] * row[0] + row[stride] * row[stride] + row[2 * stride] * row[2 * stride];
@@ -163,12 +186,13 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
     if (!rows.stencils.vertex_fit[std::size_t(v)]) return;
     const double* row = rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
     double total[3] = {};
+    const double weight = joint.vertex(v);
     visit_ring(lattice, v, [&](Index, std::size_t slot) {
-      put(spokes + 3 * slot, square(row, 1));
+      put(spokes + 3 * slot, weight, square(row, 1));
       for (std::size_t c = 0; c < 3; ++c) total[c] += row[c];
       row += 3;
     });
-    put(centre, square(total, 1));
+    put(centre, weight, square(total, 1));
   };
 
   const auto edge_body = [&](Index e, double* run, double* left, double* right, std::vector<double>&) {
@@ -181,9 +205,10 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
     for (int j = 0; j < ring.size; ++j)
       for (std::size_t c = 0; c < 3; ++c) total[c] += row[8 * c + std::size_t(j)];
     for (int k = 1; k < n; ++k) {
+      const double weight = joint.edge_point(e, k);
       for (int j = 0; j < ring.size; ++j)
-        put(target[ring.lane[j]] + 3 * (ring.at[j] + k), square(row + j, 8));
-      put(run + 3 * k, square(total, 1));
+        put(target[ring.lane[j]] + 3 * (ring.at[j] + k), weight, square(row + j, 8));
+      put(run + 3 * k, weight, square(total, 1));
     }
   };
 
@@ -192,6 +217,7 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
     std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), 0.0);
     const double* c = rows.face.data() + 16 * std::size_t(f);
     const int directions = quad ? 4 : 3;
+    const bool weighted = joint.weighs_face(f);
     double all = 0;
     for (int a = 0; a < directions; ++a)
       for (int b = 0; b < directions; ++b) all += c[4 * a + b];
@@ -201,11 +227,12 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
     };
     for (int j = 1; j < n; ++j)
       for (int i = 1; i < (quad ? n : n - j); ++i) {
-        put(at(i, j), 4 * all);
+        const double weight = weighted ? joint.face_point(f, i, j) : 1.0;
+        put(at(i, j), weight, 4 * all);
         for (int a = 0; a < directions; ++a) {
           const LatticePoint d = step[quad][a];
-          put(at(i + d.i, j + d.j), c[5 * a]);
-          put(at(i - d.i, j - d.j), c[5 * a]);
+          put(at(i + d.i, j + d.j), weight, c[5 * a]);
+          put(at(i - d.i, j - d.j), weight, c[5 * a]);
         }
       }
   };
@@ -221,11 +248,13 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                          const double* x) {
   const ControlMesh& mesh = lattice.mesh();
   const int n = lattice.n();
+  const JointWeight joint(lattice);
   std::vector<double> vertex(std::size_t(mesh.vertex_count()), 0.0), edge(mesh.edges.size(), 0.0),
       face(mesh.faces.size(), 0.0);
   workers.for_parts(vertex.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      if (rows.stencils.vertex_fit[v]) vertex[v] = vertex_moment(lattice, rows, Index(v), x).square();
+      if (rows.stencils.vertex_fit[v])
+        vertex[v] = joint.vertex(Index(v)) * vertex_moment(lattice, rows, Index(v), x).square();
   });
   workers.for_parts(n > 1 ? edge.size() : 0, element_grain(n) * std::size_t(n),
                     [&](std::size_t begin, std::size_t end) {
@@ -235,13 +264,15 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                         const EdgeRingLanes ring(mesh, Index(e));
                         const EdgeLanes<double> lanes(lattice, x, Index(e), scratch);
                         for (int k = 1; k < n; ++k)
-                          edge[e] += edge_moment(ring, lanes, rows.edge.data() + 24 * e, k).square();
+                          edge[e] += joint.edge_point(Index(e), k) *
+                                     edge_moment(ring, lanes, rows.edge.data() + 24 * e, k).square();
                       }
                     });
   workers.for_parts(face.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     std::vector<double> gathered(3 * closed_size(true, std::size_t(n)));
     for (std::size_t f = begin; f < end; ++f) {
-      const bool quad = mesh.faces[f].quad();
+      if (!rows.stencils.face_fit[f]) continue;
+      const bool quad = mesh.faces[f].quad(), weighted = joint.weighs_face(Index(f));
       gather_face(lattice, x, Index(f), gathered.data());
       const double* g = rows.stencils.face_energy.data() + 12 * f;
       const LatticePoint step[2][4] = {{{1, 0}, {0, 1}, {-1, 1}, {0, 0}}, {{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
@@ -258,7 +289,7 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                                       plus[2] + minus[2] - 2 * here[2]};
             moment.add(g + a, 4, second);
           }
-          face[f] += moment.square();
+          face[f] += (weighted ? joint.face_point(Index(f), i, j) : 1.0) * moment.square();
         }
     }
   });

@@ -32,7 +32,7 @@ Array<float> thin_plate_diagonal(const Lattice& lattice, const ThinPlateRows<dou
                                  const Unknowns& unknowns, const VertexWeights& weights, Workers& workers,
                                  Exchange<double>& exchange);
 
-// E(x) over all points, without the weights' part.
+// E(x) over all points, without the part of the control vertices' weights.
 double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& rows, Workers& workers,
                          const double* x);
 

@@ -86,7 +86,7 @@ double total_curvature(const Lattice& lattice, Workers& workers, const double* x
   workers.for_parts(vertex.size(), 256, [&](std::size_t begin, std::size_t end) {
     Measure measure;
     for (std::size_t v = begin; v < end; ++v)
-      if (!mesh.feature_vertex[v] && mesh.interior(Index(v)))
+      if (!mesh.feature_vertex[v] && mesh.interior(Index(v)) && mesh.vertex_place(Index(v)) == Place::inside)
         vertex[v] = vertex_energy(lattice, Index(v), x, measure);
   });
   workers.for_parts(n > 1 ? edge.size() : 0, element_grain(n) * std::size_t(n),
@@ -94,13 +94,16 @@ double total_curvature(const Lattice& lattice, Workers& workers, const double* x
                       Measure measure;
                       std::vector<double> scratch;
                       for (std::size_t e = begin; e < end; ++e)
-                        if (!mesh.feature_edge[e] && !mesh.edges[e].boundary())
+                        if (!mesh.feature_edge[e] && !mesh.edges[e].boundary() &&
+                            mesh.edge_place(Index(e)) == Place::inside)
                           edge[e] = edge_energy(lattice, Index(e), x, measure, scratch);
                     });
   workers.for_parts(n > 1 ? face.size() : 0, element_grain(n), [&](std::size_t begin, std::size_t end) {
     Measure measure;
     std::vector<double> scratch;
-    for (std::size_t f = begin; f < end; ++f) face[f] = face_energy(lattice, Index(f), x, measure, scratch);
+    for (std::size_t f = begin; f < end; ++f)
+      if (mesh.face_place(Index(f)) == Place::inside)
+        face[f] = face_energy(lattice, Index(f), x, measure, scratch);
   });
   double total = 0;
   for (const auto& part : {vertex, edge, face})

@@ -133,7 +133,8 @@ int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, dou
   Unknowns freed = system.shared().unknowns;
   bool any = false;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
-    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.ring(Index(v)).empty();
+    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.ring(Index(v)).empty() &&
+                          mesh.vertex_place(Index(v)) == Place::inside;
     freed.vertex[v] = released;
     any |= released;
   }

@@ -22,18 +22,20 @@
 namespace fairing {
 namespace {
 
-// Everything that moves: control vertices that are free or weighted, points off the curves.
+// Everything that moves: inside the region, control vertices that are free or weighted, and points off the curves.
 Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   Unknowns u;
   u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
     const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
-    u.vertex[std::size_t(v)] = moves && !on_curve;
+    u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_place(v) == Place::inside;
     u.any_vertex |= bool(u.vertex[std::size_t(v)]);
   }
   u.edge.resize(mesh.edges.size());
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) u.edge[e] = !mesh.feature_edge[e];
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    u.edge[e] = !mesh.feature_edge[e] && mesh.edge_place(Index(e)) == Place::inside;
+  for (const Place place : mesh.region.face) u.face.push_back(place == Place::inside);
   return u;
 }
 
@@ -55,6 +57,7 @@ void to_world(const ControlMesh& mesh, const std::vector<Vec3>& given, const Fea
       for (std::size_t a = 0; a < 3; ++a)
         x[3 * (std::size_t(lattice.edge_base(Index(e))) + k) + a] = points[k][Eigen::Index(a)];
   }
+  refine_outside_linearly(lattice, given, x.data());
 }
 
 double largest_deviation(const std::vector<Vec3>& given, Index input_vertices, const Array<double>& x) {

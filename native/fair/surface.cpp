@@ -29,8 +29,9 @@ int degree_of_hard(std::size_t unknowns) { return 8 + int(unknowns / 5000); }
 
 std::size_t count_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
   const ControlMesh& mesh = lattice.mesh();
-  std::size_t count =
-      lattice.size() - std::size_t(mesh.vertex_count()) - mesh.edges.size() * std::size_t(lattice.n() - 1);
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (unknowns.has_face(f)) count += std::size_t(interior_size(mesh.faces[f].quad(), lattice.n()));
   for (const auto u : unknowns.vertex) count += u;
   for (const auto u : unknowns.edge) count += u ? std::size_t(lattice.n() - 1) : 0;
   return count;
@@ -100,6 +101,7 @@ void SurfaceSystem::set_fixed(int level, std::span<const Vec3> targets, double* 
         x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
             points[std::size_t(k * stride - 1)][a];
   }
+  refine_outside_linearly(lat, targets, x);
 }
 
 void SurfaceSystem::residual(int level, std::span<const Vec3> targets, const double* x, double* r) {

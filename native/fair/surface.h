@@ -49,7 +49,7 @@ class SurfaceSystem {
   // residual <- W c - (K + W) x on the level's unknowns.
   void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
 
-  // Puts control vertices that are no unknowns and curve points in their places.
+  // Puts whatever is no unknown in its place: control vertices, points of curves, all outside a region.
   void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
 
   double energy(int level, const double* x);

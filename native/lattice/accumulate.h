@@ -13,10 +13,13 @@
 
 namespace fairing {
 
-// Which points are unknowns. Interior points of faces always are.
+// Which points are unknowns.
 struct Unknowns {
   std::vector<std::uint8_t> vertex, edge;  // per control vertex, per control edge
   bool any_vertex = false;
+  std::vector<std::uint8_t> face{};  // per control face; empty: all of them
+
+  bool has_face(std::size_t f) const { return face.empty() || face[f]; }
 };
 
 // The slots of one level. May serve smaller levels too (`fit` grows them).
@@ -50,7 +53,8 @@ inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 2048 / 
 //   vertex_body(v, centre, spokes, scratch)   adds to zeros. centre: one point; spokes: two points a spoke of v's ring
 //   edge_body(e, run, left, right, scratch)   sets all. run: points 0 … n of the edge; left, right: the rows next to
 //                                             it, in its direction (null without a face); lane_stride(n) numbers each
-//   face_body(f, closed, scratch)             sets all. closed: the closed face, row by row, and a block more
+//   face_body(f, closed, scratch)             sets all. closed: the closed face, row by row, and a block more; not
+//                                             called for faces that are not unknowns, around which nothing is
 // `scratch` is a vector of the calling thread's to work in.
 template <class T, class VertexBody, class EdgeBody, class FaceBody>
 void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange, const Unknowns* unknowns,
@@ -91,6 +95,13 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];
       const bool quad = face.quad();
+      T* side = exchange.side.data() + side_stride * std::size_t(face.first_side);
+      if (unknowns && !unknowns->has_face(f)) {
+        T* inside = out + 3 * std::size_t(lattice.face_base(Index(f)));
+        std::fill(inside, inside + 3 * interior_size(quad, n), T(0));
+        std::fill(side, side + side_stride * std::size_t(face.size), T(0));
+        continue;
+      }
       face_body(Index(f), closed.data(), scratch);
       const Side* sides = mesh.sides.data() + face.first_side;
       const T* rows = exchange.row.data() + row_stride * std::size_t(face.first_side);
@@ -111,7 +122,6 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
                   exchange.spoke.data() + 6 * std::size_t(spoke) + 3);
       }
       scatter_interior(lattice, closed.data(), Index(f), out);
-      T* side = exchange.side.data() + side_stride * std::size_t(face.first_side);
       with_shape(quad, n, [&]<bool four, int fixed>() {
         const int m = fixed ? fixed : n;
         T* to = side;

@@ -34,6 +34,8 @@ def fair(
     corner_vertices: ArrayLike | None = None,
     corner_angle: float | None = None,
     boundary: str = "curve",
+    region: ArrayLike | None = None,
+    joint: str = "tangent",
     repair_orientation: bool = False,
     method: str = "multigrid",
     relative_residual: float = 1e-8,
@@ -85,6 +87,11 @@ def fair(
         Vertices where curves end; in the midst of a surface, the tip of a cone.
     boundary : "curve", "linear" or "free"
         A smooth curve through the boundary's own vertices, the straight edges, or what the surface makes of it.
+    region : (r,) int
+        The faces to fair; all others are refined linearly, and stay. None: all faces.
+    joint : "position", "tangent" or "curvature"
+        How the region meets the others: in a straight-edged line, in their tangent planes, or with curvature that
+        fades out as well. A crease on the joint makes it "position" there.
     repair_orientation : bool
         Turn faces over where their neighbours disagree (report["flipped_faces"]).
     method : "multigrid" or "back_leg"
@@ -126,6 +133,7 @@ def fair(
     o.tolerance = real("tolerance", tolerance)
     o.epsilon = real("epsilon", epsilon)
     o.boundary = choice("boundary", boundary, _native.Boundary)
+    o.joint = choice("joint", joint, _native.Joint)
     o.method = choice("method", method, _native.Method)
     o.repair_orientation = bool(repair_orientation)
     o.relative_residual = real("relative_residual", relative_residual)
@@ -145,6 +153,8 @@ def fair(
         o.corner_vertices = index_array(corner_vertices, "corner_vertices").reshape(-1)
     if corner_angle is not None:
         o.corner_angle = real("corner_angle", corner_angle)
+    if region is not None:
+        o.region = region_faces(region)
     corners, offsets = face_arrays(faces)
     return Result(
         _native.fair(vertex_array(vertices), corners, offsets, o, monitor or _native.Monitor(), progress)
@@ -156,6 +166,13 @@ def crease_pairs(edges: ArrayLike):
     if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
         raise fairing_error("BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2).")
     return pairs.reshape(-1, 2)
+
+
+def region_faces(region: ArrayLike):
+    faces = index_array(region, "region")
+    if faces.ndim != 1:
+        raise fairing_error("BAD_SHAPE", f"region has shape {faces.shape}; it must be (r,), ids of faces.")
+    return faces
 
 
 def weight_array(weights: ArrayLike):
