@@ -2,16 +2,36 @@
 """Discrete Fairing: the fairest surface through the vertices of a coarse mesh.
 
 The data's way through the folders: `read` → `check` → `request` → the native core → `carry` → `write`. `run` walks it,
-`settings` and `interface` ask for it.
+`settings` and `interface` ask for it, `inspection` shows what came of it.
 """
 
 from . import preferences, translations
+from .check import operators as check_operators
 from .command_line import command
+from .inspection import freshness
+from .inspection import operators as inspection_operators
+from .inspection import properties as inspection_properties
+from .interface import check as check_panel
+from .interface import inspection as inspection_panel
 from .interface import panel
 from .run import operator
 from .settings import presets, properties
 
-_MODULES = (properties, preferences, presets, operator, panel, translations, command)
+_MODULES = (
+    properties,
+    preferences,
+    presets,
+    inspection_properties,
+    freshness,
+    operator,
+    check_operators,
+    inspection_operators,
+    panel,
+    check_panel,
+    inspection_panel,
+    translations,
+    command,
+)
 
 
 def register():

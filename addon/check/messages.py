@@ -4,20 +4,61 @@
 _REMEDIES = {
     "EMPTY_MESH": "Add a mesh with faces first",
     "NO_FACES": "Fill the edges with faces (F in Edit Mode)",
-    "NON_FINITE": "Delete these vertices or give them a position",
+    "NON_FINITE": "Delete these vertices, or type a position for them in the sidebar (N, Item)",
     "REPEATED_VERTEX": "Run Mesh > Clean Up > Degenerate Dissolve",
     "DUPLICATE_FACE": "Delete one of each pair",
-    "NONMANIFOLD_EDGE": "Find them with Select > All by Trait > Non Manifold and delete the inner faces",
+    "NONMANIFOLD_EDGE": "Delete the inner faces, or rip the sheets apart (V in Edit Mode)",
     "NONMANIFOLD_VERTEX": "Separate the parts that touch in one vertex (Mesh > Split > Faces by Edges, or V)",
     "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or switch on Repair Normals",
-    "NON_ORIENTABLE": "A one-sided surface has no inside; cut it open along a row of edges",
+    "NON_ORIENTABLE": "Cut it open along a row of edges (V in Edit Mode)",
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
-    "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance",
+    "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
+    "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
     "UNDERDETERMINED": "Use Through instead of Near, or a smaller tolerance",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
     "OUT_OF_MEMORY": "Use fewer levels",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
+
+# code: what is wrong with one, with several
+_WHAT = {
+    "NON_FINITE": ("vertex has no proper position", "vertices have no proper position"),
+    "REPEATED_VERTEX": ("face uses a vertex twice", "faces use a vertex twice"),
+    "DUPLICATE_FACE": ("face lies on another one", "faces lie on one another"),
+    "NONMANIFOLD_EDGE": ("edge has more than two faces", "edges have more than two faces"),
+    "NONMANIFOLD_VERTEX": (
+        "vertex joins parts that touch only there",
+        "vertices join parts that touch only there",
+    ),
+    "INCONSISTENT_ORIENTATION": (
+        "face looks the other way than its neighbours",
+        "faces look the other way than their neighbours",
+    ),
+    "DEGENERATE_FACE": ("face has no area", "faces have no area"),
+    "COINCIDENT_VERTICES": (
+        "vertex lies on another one without being joined",
+        "vertices lie on others without being joined",
+    ),
+    "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
+}
+_WHOLE = {
+    "EMPTY_MESH": "The mesh is empty",
+    "NO_FACES": "The mesh has no faces",
+    "NON_ORIENTABLE": "The surface has only one side, like a Möbius strip, so it has no outside",
+}
+
+
+def what(defect):
+    """What is wrong, with the number of elements, in one sentence. `defect`: a dict of record.check_object."""
+    code, count = defect["code"], len(defect["elements"])
+    if code in _WHAT and count:
+        return f"{count:,} {_WHAT[code][count > 1]}."
+    return _sentence(_WHOLE.get(code, defect["message"]))
+
+
+def remedy(code):
+    """What to do about it, in one sentence; empty where nobody knows."""
+    return _sentence(_REMEDIES[code]) if code in _REMEDIES else ""
 
 
 def error_text(object_name, error):

@@ -16,13 +16,13 @@ _SIGNED = (
     (128, 12, 38),
 )
 _AMOUNT = (
-    (26, 22, 64),
-    (44, 66, 140),
-    (30, 128, 144),
-    (74, 178, 110),
-    (190, 212, 72),
-    (252, 222, 84),
-    (250, 140, 50),
+    (238, 238, 230),
+    (196, 222, 214),
+    (128, 190, 190),
+    (240, 206, 110),
+    (236, 128, 60),
+    (196, 44, 50),
+    (96, 8, 54),
 )
 
 
@@ -44,7 +44,10 @@ def colours(values, limits, signed):
     """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; beyond them the end colours."""
     stops = np.array(_SIGNED if signed else _AMOUNT) / 255.0
     low, high = limits
-    at = np.clip((values - low) / (high - low), 0.0, 1.0) * (len(stops) - 1)
+    at = np.clip((values - low) / (high - low), 0.0, 1.0)
+    if not signed:  # a sum of squares: its root has even steps
+        at = np.sqrt(at)
+    at *= len(stops) - 1
     rgba = np.ones((len(values), 4), np.float32)
     for channel in range(3):
         rgba[:, channel] = _linear(np.interp(at, np.arange(len(stops)), stops[:, channel]))

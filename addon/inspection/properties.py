@@ -35,7 +35,7 @@ MODES = (
     (
         "TOTAL",
         "Total",
-        "Total curvature: how strongly the surface bends, whichever way. Bright spots are where it is least fair",
+        "Total curvature: how strongly the surface bends, whichever way. Red spots are where it is least fair",
         "COLOR",
         4,
     ),
@@ -83,7 +83,7 @@ class DISCRETE_FAIRING_PG_inspection(bpy.types.PropertyGroup):
         name="Stripes",
         description="How many pairs of light and dark stripes the room around the surface has. "
         "More stripes find smaller faults",
-        default=16,
+        default=10,
         min=1,
         max=200,
         soft_max=60,

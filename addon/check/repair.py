@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Repairs of the user's own mesh, each on its own button: through BMesh, so that UV maps, weights and the like stay."""
+
+import bmesh
+
+from ..native import core
+from ..read.mesh import read_mesh
+from ..read.source import control_mesh
+from .selection import elements_of
+
+
+def repair(context, target, defect):
+    """Mends one `defect` (a dict of record.check_object) of `target`, which is in Edit Mode and unchanged since the check.
+
+    Raises the core's FairingError where it knows no answer.
+    """
+    faces = faces_to_flip(context, target) if defect["code"] == "INCONSISTENT_ORIENTATION" else None
+    bm = bmesh.from_edit_mesh(target.data)
+    chosen = elements_of(bm, defect["kind"], defect["elements"] if faces is None else faces)
+    _REPAIRS[defect["code"]][1](bm, chosen)
+    bmesh.update_edit_mesh(target.data)
+    target.update_from_editmode()
+
+
+def label(code):
+    """What the button says, or None if no command truly mends this."""
+    return _REPAIRS[code][0] if code in _REPAIRS else None
+
+
+def faces_to_flip(context, target):
+    """Ids of the faces that the core would turn over."""
+    with control_mesh(context, target) as mesh:
+        arrays = read_mesh(mesh)
+    return core().repair_orientation(arrays.positions, (arrays.corners, arrays.offsets)).tolist()
+
+
+def _flip(bm, faces):
+    bmesh.ops.reverse_faces(bm, faces=faces)
+
+
+def _merge(bm, vertices):
+    bmesh.ops.remove_doubles(bm, verts=vertices, dist=_tiny(bm))
+
+
+def _dissolve(bm, faces):
+    edges = list({edge for face in faces for edge in face.edges})
+    bmesh.ops.dissolve_degenerate(bm, dist=_tiny(bm), edges=edges)
+
+
+def _delete_loose(bm, vertices):
+    loose = [vertex for vertex in vertices if not vertex.link_faces]
+    bmesh.ops.delete(bm, geom=loose, context="VERTS")
+
+
+def _delete_duplicates(bm, faces):
+    seen, extra = set(), []
+    for face in faces:
+        key = frozenset(face.verts)
+        (extra.append(face) if key in seen else seen.add(key))
+    bmesh.ops.delete(bm, geom=extra, context="FACES_ONLY")
+
+
+def _tiny(bm):
+    """A distance that no one can see: a millionth of the mesh's size."""
+    points = [v.co for v in bm.verts if all(abs(x) < 1e30 for x in v.co)]
+    if not points:
+        return 1e-6
+    return 1e-6 * max(max(p[i] for p in points) - min(p[i] for p in points) for i in range(3)) or 1e-6
+
+
+_REPAIRS = {
+    "INCONSISTENT_ORIENTATION": ("Turn Faces Over", _flip),
+    "COINCIDENT_VERTICES": ("Merge by Distance", _merge),
+    "REPEATED_VERTEX": ("Degenerate Dissolve", _dissolve),
+    "DEGENERATE_FACE": ("Degenerate Dissolve", _dissolve),
+    "ISOLATED_VERTICES": ("Delete Loose", _delete_loose),
+    "DUPLICATE_FACE": ("Delete Extra Faces", _delete_duplicates),
+}

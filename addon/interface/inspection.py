@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel "Inspect": zebra stripes, curvature colours, and the numbers before and after."""
+
+import bpy
+
+from ..inspection import attributes, readout
+from ..inspection.display import CURVATURES
+from ..inspection.operators import (
+    OBJECT_OT_fairing_inspect,
+    OBJECT_OT_fairing_measure,
+    OBJECT_OT_fairing_refresh,
+    VIEW3D_OT_fairing_viewport,
+)
+from ..inspection.properties import MODES
+from .notice import draw_notice
+
+
+class VIEW3D_PT_fairing_inspect(bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fairing"
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_label = "Inspect"
+
+    def draw(self, context):
+        layout = self.layout
+        target = context.active_object
+        mode = "NONE"
+        if target is not None and target.type == "MESH":
+            mode = target.discrete_fairing_inspection.mode
+        _draw_modes(layout, mode)
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        if mode != "NONE":
+            _draw_viewport(layout, context, mode)
+            settings = context.scene.discrete_fairing_inspection
+            (draw_range if mode in CURVATURES else draw_zebra)(layout, settings)
+            layout.prop(settings, "smooth")
+        if mode in CURVATURES:
+            _draw_legend(layout, target, mode)
+        layout.operator(OBJECT_OT_fairing_measure.bl_idname, icon="DRIVER_DISTANCE")
+        record = readout.recall(target) if target is not None and target.type == "MESH" else None
+        if record is not None:
+            _draw_readout(layout, target, record)
+
+
+def draw_zebra(layout, settings):
+    for name in ("stripes", "direction", "sharpness", "fixed_to"):
+        layout.prop(settings, name)
+
+
+def draw_range(layout, settings):
+    layout.prop(settings, "use_fixed_range")
+    if settings.use_fixed_range:
+        layout.prop(settings, "fixed_range")
+    else:
+        column = layout.column(align=True)
+        column.prop(settings, "range_low")
+        column.prop(settings, "range_high")
+
+
+def _draw_modes(layout, current):
+    column = layout.column(align=True)
+    for part in (MODES[:2], MODES[2:]):
+        row = column.row(align=True)
+        for mode, label, *_ in part:
+            button = row.operator(OBJECT_OT_fairing_inspect.bl_idname, text=label, depress=mode == current)
+            button.mode = mode
+
+
+def _draw_viewport(layout, context, mode):
+    """A button if this viewport shows nothing of it; it is never switched unasked."""
+    shading = getattr(context.space_data, "shading", None)
+    if shading is None or shading.type in {"MATERIAL", "RENDERED"}:
+        return
+    if mode in CURVATURES and shading.type == "SOLID" and shading.color_type == "VERTEX":
+        return
+    draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
+    row = layout.row(align=True)
+    row.operator(VIEW3D_OT_fairing_viewport.bl_idname, text="Material Preview").shading = "MATERIAL"
+    if mode in CURVATURES:
+        row.operator(VIEW3D_OT_fairing_viewport.bl_idname, text="Solid").shading = "ATTRIBUTE"
+
+
+_ENDS = {"MEAN": ("hollow", "bulging"), "GAUSS": ("saddle", "dome or bowl"), "TOTAL": ("calm", "bent")}
+
+
+def _draw_legend(layout, target, mode):
+    limits = attributes.legend(target.data)
+    if limits is None:
+        draw_notice(layout, "Not measured yet: press Refresh Colours in Object Mode", icon="INFO")
+    else:
+        low, high = _ENDS[mode]
+        colours = ("Grey", "red") if mode == "TOTAL" else ("Blue", "red")
+        column = layout.column(align=True)
+        column.label(text=f"{colours[0]}: {low}, {limits[0]:.3g}", icon="COLOR")
+        column.label(text=f"{colours[1].title()}: {high}, {limits[1]:.3g}", icon="BLANK1")
+    layout.operator(OBJECT_OT_fairing_refresh.bl_idname, icon="FILE_REFRESH")
+
+
+def _draw_readout(layout, target, record):
+    if readout.is_stale(target, record):
+        draw_notice(layout, "The mesh was changed since: press Measure again", icon="INFO")
+    split = layout.box().split(factor=0.46)
+    columns = split.column(align=True), split.column(align=True), split.column(align=True)
+    heads = ("", "Before" if record["before"] else "", "After" if record["before"] else "Now")
+    for row in (heads, *readout.table(record)):
+        for column, text in zip(columns, row, strict=True):
+            column.label(text=text)
+
+
+CLASSES = (VIEW3D_PT_fairing_inspect,)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

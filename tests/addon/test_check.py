@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check Mesh: what it finds, selects, says and mends, on the core itself."""
+
+from pathlib import Path
+
+import bmesh
+import bpy
+import pytest
+from scenes import CUBE, activate, add
+
+from addon.check import messages, record, repair, selection
+from addon.inspection import freshness
+from addon.interface import check as check_panel
+
+BAD = Path(__file__).resolve().parents[3] / "shared" / "data" / "bad"
+
+FAN = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
+FLIPPED = (CUBE[0], [CUBE[1][0][::-1], *CUBE[1][1:]])
+DOUBLED = ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3), (3, 2, 1, 0)])
+LOOSE = ([*CUBE[0], (5, 5, 5)], CUBE[1])
+SEAM = (
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0)],
+    [(0, 1, 2, 3), (4, 5, 6, 7)],
+)
+FLAT_FACE = ([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
+
+
+def check():
+    assert bpy.ops.mesh.fairing_check() == {"FINISHED"}
+    return record.recall(bpy.context.active_object)[0]
+
+
+def codes(defects):
+    return [defect["code"] for defect in defects]
+
+
+def selected(target, kind):
+    bm = bmesh.from_edit_mesh(target.data)
+    return [e.index for e in getattr(bm, kind) if e.select]
+
+
+def test_a_good_mesh_stays_in_object_mode():
+    add("Box", *CUBE)
+    assert check() == [] and bpy.context.mode == "OBJECT"
+
+
+def test_an_edge_with_three_faces_is_selected_in_edge_mode():
+    fan = add("Fan", *FAN)
+    assert codes(check()) == ["NONMANIFOLD_EDGE"]
+    assert fan.mode == "EDIT"
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
+    (edge,) = selected(fan, "edges")
+    assert {v.index for v in bmesh.from_edit_mesh(fan.data).edges[edge].verts} == {0, 1}
+    assert selected(fan, "faces") == []
+
+
+def test_a_flipped_face_is_selected_and_turned_over_with_its_uvs():
+    box = add("Box", *FLIPPED)
+    box.data.uv_layers.new(name="UV")
+    corner = {}
+    for loop, uv in zip(box.data.loops, box.data.uv_layers["UV"].uv, strict=True):
+        uv.vector = (loop.vertex_index * 0.1, loop.index * 0.01)
+        corner[loop.vertex_index, loop.index // 4] = tuple(uv.vector)
+    (defect,) = check()
+    assert selected(box, "faces") == defect["elements"] == [0]
+    bpy.ops.mesh.fairing_repair(index=0)
+    assert record.recall(box) == ([], False)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert sorted(box.data.polygons[0].vertices) == sorted(CUBE[1][0])
+    assert check() == []
+    for polygon in box.data.polygons:
+        for loop in polygon.loop_indices:
+            uv = box.data.uv_layers["UV"].uv[loop].vector
+            assert tuple(uv) == corner[box.data.loops[loop].vertex_index, polygon.index]
+
+
+@pytest.mark.parametrize(
+    "mesh, code",
+    [
+        (DOUBLED, "DUPLICATE_FACE"),
+        (LOOSE, "ISOLATED_VERTICES"),
+        (SEAM, "COINCIDENT_VERTICES"),
+        (FLAT_FACE, "DEGENERATE_FACE"),
+        (FLIPPED, "INCONSISTENT_ORIENTATION"),
+    ],
+)
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_repairs_mend_what_they_promise(mesh, code, mode):
+    target = add("Bad", *mesh)
+    bpy.ops.object.mode_set(mode=mode)
+    defects = check()
+    assert code in codes(defects)
+    assert repair.label(code)
+    bpy.ops.mesh.fairing_repair(index=codes(defects).index(code))
+    assert code not in codes(record.recall(target)[0])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert code not in codes(check())
+    assert len(target.data.polygons) >= 1
+
+
+def test_hidden_elements_are_shown():
+    fan = add("Fan", *FAN)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    check()
+    bm = bmesh.from_edit_mesh(fan.data)
+    assert [e.hide for e in bm.edges if e.select] == [False]
+
+
+def test_each_line_selects_its_own():
+    target = add("Both", [*FAN[0], (9, 9, 9)], FAN[1])
+    defects = check()
+    assert codes(defects) == ["NONMANIFOLD_EDGE", "ISOLATED_VERTICES"]
+    bpy.ops.mesh.fairing_select_defect(index=1)
+    assert selected(target, "verts") == [5]
+    assert bpy.context.tool_settings.mesh_select_mode[0]
+    assert not record.recall(target)[1]
+
+
+def test_several_objects_only_the_bad_ones_are_opened():
+    good, one, two = add("Good", *CUBE), add("One", *FAN), add("Two", *FLIPPED)
+    for target in (good, one, two):
+        target.select_set(True)
+    check()
+    assert [t.mode for t in (good, one, two)] == ["OBJECT", "EDIT", "EDIT"]
+    assert codes(record.recall(one)[0]) == ["NONMANIFOLD_EDGE"]
+    assert record.recall(good) == ([], False)
+    assert selected(two, "faces") == [0]
+
+
+def test_the_record_goes_stale_when_the_shape_changes():
+    box = add("Box", *CUBE)
+    check()
+    assert not record.recall(box)[1]
+    box.data.vertices[0].co.x += 1
+    box.data.update()
+    bpy.context.view_layer.update()
+    assert record.recall(box)[1]
+    check()
+    assert not record.recall(box)[1]
+    freshness._forget()  # as after loading a file: the counts still tell
+    box.data.vertices.add(1)
+    assert record.recall(box)[1]
+
+
+def test_select_defects_for_a_failed_run():
+    fan = add("Fan", *FAN)
+    other = add("Other", *CUBE)
+    assert selection.select_defects(bpy.context, fan, "edge", [(1, 0)]) == 1
+    assert (fan.mode, other.mode) == ("EDIT", "OBJECT")
+    assert len(selected(fan, "edges")) == 1
+    assert selection.select_defects(bpy.context, fan, "vertex", [2, 99]) == 1
+    assert selection.select_defects(bpy.context, fan, "mesh", []) == 0
+
+
+def test_check_says_why_it_is_grey():
+    activate(add("Box", *CUBE))
+    bpy.context.active_object.select_set(False)
+    bpy.context.view_layer.objects.active = None
+    assert not bpy.ops.mesh.fairing_check.poll()
+
+
+def test_words_count_and_every_repair_has_a_remedy():
+    assert messages.what({"code": "DEGENERATE_FACE", "elements": [3], "message": ""}) == "1 face has no area."
+    assert messages.what({"code": "DEGENERATE_FACE", "elements": [3, 4], "message": ""}).startswith(
+        "2 faces have"
+    )
+    assert messages.what({"code": "NEW", "elements": [], "message": "Something else"}) == "Something else."
+    for code in (*repair._REPAIRS, *messages._WHAT):
+        assert messages.remedy(code)
+
+
+class Layout:
+    """Stands for bpy.types.UILayout: remembers labels and buttons."""
+
+    def __init__(self, log=None):
+        self.log = [] if log is None else log
+
+    def row(self, **_):
+        return Layout(self.log)
+
+    column = box = row
+
+    def label(self, text="", **_):
+        self.log.append(text)
+
+    def operator(self, name, text="", **_):
+        self.log.append(text or name)
+        return Layout()
+
+
+def test_the_panel_says_what_is_wrong_and_offers_the_repair():
+    add("Box", *FLIPPED)
+    check()
+
+    class Panel:
+        layout = Layout()
+
+    check_panel.VIEW3D_PT_fairing_check.draw(Panel, bpy.context)
+    text = " ".join(Panel.layout.log)
+    assert "1 face looks the other way" in text and "Turn Faces Over" in text and "Shift N" in text
+
+
+def files():
+    return (
+        sorted(p for p in BAD.rglob("*") if p.suffix.lower() in {".obj", ".ply", ".stl"})
+        if BAD.is_dir()
+        else []
+    )
+
+
+@pytest.mark.parametrize("path", files(), ids=lambda p: p.name)
+def test_bad_files_never_break_it(path):
+    if path.stat().st_size > 3_000_000:
+        pytest.skip("large")
+    load = {".obj": bpy.ops.wm.obj_import, ".ply": bpy.ops.wm.ply_import, ".stl": bpy.ops.wm.stl_import}
+    try:
+        load[path.suffix.lower()](filepath=str(path))
+    except RuntimeError:
+        pytest.skip("Blender refuses the file")
+    found = [o for o in bpy.context.scene.objects if o.type == "MESH"]
+    if not found:
+        pytest.skip("no mesh in it")
+    for target in found:
+        if bpy.context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        activate(target)
+        for _ in range(2):  # in Object Mode, then in Edit Mode
+            defects = check()
+            for index in range(len(defects)):
+                bpy.ops.mesh.fairing_select_defect(index=index)
+            if not defects:
+                break
+        for index, defect in enumerate(defects):
+            if repair.label(defect["code"]):
+                bpy.ops.mesh.fairing_repair(index=index)
+                break
