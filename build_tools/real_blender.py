@@ -16,7 +16,7 @@ from shell import DevError, as_root, output, run, say
 OLDEST = (4, 2)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
-TIME_LIMIT = 300  # seconds: a Blender that is not done then hangs
+TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs
 
 
 @dataclass(frozen=True)
