@@ -151,7 +151,8 @@ def main():
     """Every test in a folder of its own; the number of failures."""
     failures = 0
     start = Path.cwd()
-    for name, test in [item for item in globals().items() if item[0].startswith("test_")]:
+    tests = [item for item in globals().items() if item[0].startswith("test_")]
+    for name, test in tests:
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             try:
@@ -164,6 +165,7 @@ def main():
                 print(f"PASS {name}", flush=True)
             finally:
                 os.chdir(start)
+    print(f"RAN {len(tests)}", flush=True)
     return failures
 
 
