@@ -19,8 +19,17 @@ MAY_USE_FILES = {
 }
 
 # All their numbers can be tested, and used, without Blender.
-PURE_FOLDERS = ("carry", "request", "check")
-PURE_FILES = ("native.py", "command_line/places.py", "command_line/progress.py", "command_line/report.py")
+PURE_FOLDERS = ("carry", "request")
+PURE_FILES = (
+    "native.py",
+    "check/messages.py",
+    "command_line/places.py",
+    "command_line/progress.py",
+    "command_line/report.py",
+    "inspection/colours.py",
+    "inspection/curvature.py",
+    "inspection/measures.py",
+)
 
 FILES = sorted([*ADDON.rglob("*.py"), *BINDING.rglob("*.py")])
 IN_ADDON = [path for path in FILES if path.is_relative_to(ADDON)]
