@@ -99,11 +99,7 @@ class MESH_OT_fairing_repair(_AtDefect, bpy.types.Operator):
             self.report({"INFO"}, "There is nothing to mend here")
             return {"CANCELLED"}
         select_defects(context, target, defect["kind"], defect["elements"])
-        try:
-            repair.repair(context, target, defect)
-        except native.core().FairingError as error:
-            self.report({"ERROR"}, messages.error_text(target.name, error))
-            return {"CANCELLED"}
+        repair.repair(target, defect)
         left = record.check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         record.store(context, target, left)

@@ -3,20 +3,13 @@
 
 import bmesh
 
-from ..native import core
-from ..read.mesh import read_mesh
-from ..read.source import control_mesh
 from .selection import elements_of
 
 
-def repair(context, target, defect):
-    """Mends one `defect` (a dict of record.check_object) of `target`, which is in Edit Mode and unchanged since the check.
-
-    Raises the core's FairingError where it knows no answer.
-    """
-    faces = faces_to_flip(context, target) if defect["code"] == "INCONSISTENT_ORIENTATION" else None
+def repair(target, defect):
+    """Mends one `defect` (a dict of record.check_object) of `target`, which is in Edit Mode and unchanged since the check."""
     bm = bmesh.from_edit_mesh(target.data)
-    chosen = elements_of(bm, defect["kind"], defect["elements"] if faces is None else faces)
+    chosen = elements_of(bm, defect["kind"], defect["elements"])
     _REPAIRS[defect["code"]][1](bm, chosen)
     bmesh.update_edit_mesh(target.data)
     target.update_from_editmode()
@@ -27,14 +20,8 @@ def label(code):
     return _REPAIRS[code][0] if code in _REPAIRS else None
 
 
-def faces_to_flip(context, target):
-    """Ids of the faces that the core would turn over."""
-    with control_mesh(context, target) as mesh:
-        arrays = read_mesh(mesh)
-    return core().repair_orientation(arrays.positions, (arrays.corners, arrays.offsets)).tolist()
-
-
 def _flip(bm, faces):
+    # those that the core would turn over: the fewer ones of each part
     bmesh.ops.reverse_faces(bm, faces=faces)
 
 

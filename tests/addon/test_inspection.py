@@ -1,0 +1,302 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Zebra, curvature colours and the read-out on real objects: shown, switched, saved, and put back exactly."""
+
+import json
+from math import radians
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add, add_suzanne, snapshot
+
+from addon.inspection import attributes, colours, display, override, readout
+from addon.inspection.properties import MODES
+from addon.interface import inspection as panel
+
+SHOWN = [key for key, *_ in MODES if key != "NONE"]
+
+
+def show(target, mode):
+    activate(target)
+    assert bpy.ops.object.fairing_inspect(mode=mode) == {"FINISHED"}
+
+
+def evaluated(target):
+    graph = bpy.context.evaluated_depsgraph_get()
+    return target.evaluated_get(graph).data
+
+
+def shown_materials(target):
+    """Names of the materials that the faces have in the end."""
+    mesh = evaluated(target)
+    return {mesh.materials[p.material_index].name for p in mesh.polygons if mesh.materials}
+
+
+def two_materials(target):
+    """One slot linked to the mesh, one to the object with another one hidden behind it."""
+    red, green, blue = (bpy.data.materials.new(n) for n in ("Red", "Green", "Blue"))
+    target.data.materials.append(red)
+    target.data.materials.append(green)
+    target.material_slots[1].link = "OBJECT"
+    target.material_slots[1].material = blue
+    target.data.polygons[0].material_index = 1
+
+
+def slots(target):
+    return [(s.link, s.material and s.material.name) for s in target.material_slots]
+
+
+@pytest.mark.parametrize("mode", SHOWN)
+def test_all_faces_show_it_and_off_leaves_no_trace(mode):
+    box = add("Box", *CUBE)
+    two_materials(box)
+    before, slots_before = snapshot(box), slots(box)
+    show(box, mode)
+    assert shown_materials(box) == {"Fairing Zebra" if mode == "ZEBRA" else "Fairing Curvature"}
+    assert slots(box) == slots_before
+    show(box, "NONE")
+    assert (snapshot(box), slots(box)) == (before, slots_before)
+    assert not box.modifiers and not bpy.data.node_groups
+    assert {m.name for m in bpy.data.materials} == {"Red", "Green", "Blue"}
+    assert attributes.RANGE not in box.data and "fairing_active_colour" not in box.data
+
+
+def test_switching_through_all_modes_keeps_one_modifier():
+    box = add("Box", *CUBE)
+    for mode in (*SHOWN, *reversed(SHOWN)):
+        show(box, mode)
+        assert len(box.modifiers) == 1 and len(shown_materials(box)) == 1
+    show(box, "NONE")
+    assert shown_materials(box) == set()
+
+
+def test_every_selected_object_is_switched():
+    boxes = [add(name, *CUBE) for name in "AB"]
+    for box in boxes:
+        box.select_set(True)
+    bpy.ops.object.fairing_inspect(mode="ZEBRA")
+    assert [b.discrete_fairing_inspection.mode for b in boxes] == ["ZEBRA", "ZEBRA"]
+    assert len(bpy.data.materials) == 1
+
+
+def test_stays_switchable_after_saving(tmp_path):
+    box = add("Box", *CUBE)
+    two_materials(box)
+    before = slots(box)
+    show(box, "MEAN")
+    path = str(tmp_path / "kept.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    box = bpy.data.objects["Box"]
+    assert box.discrete_fairing_inspection.mode == "MEAN"
+    assert shown_materials(box) == {"Fairing Curvature"}
+    show(box, "NONE")
+    assert slots(box) == before and not box.modifiers and attributes.COLOUR not in box.data.attributes
+
+
+def test_curvature_is_a_plain_attribute_with_the_right_numbers():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, radius=2.0)
+    ball = bpy.context.object
+    show(ball, "GAUSS")
+    for name, expected in (("mean", 0.5), ("gauss", 0.25), ("total", 0.5)):
+        values = np.empty(len(ball.data.vertices), np.float32)
+        ball.data.attributes[f"fair_{name}_curvature"].data.foreach_get("value", values)
+        assert np.median(values) == pytest.approx(expected, rel=0.02)
+    assert ball.data.color_attributes.active_color.name == attributes.COLOUR
+    assert ball.data.attributes[attributes.COLOUR].domain == "POINT"
+
+
+def test_the_users_active_colours_come_back():
+    box = add("Box", *CUBE)
+    box.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
+    box.data.color_attributes.new("Other", "BYTE_COLOR", "CORNER")
+    box.data.color_attributes.active_color = box.data.color_attributes["Mine"]
+    show(box, "TOTAL")
+    show(box, "MEAN")
+    show(box, "NONE")
+    assert box.data.color_attributes.active_color.name == "Mine"
+    assert len(box.data.color_attributes) == 2
+
+
+def test_refresh_measures_a_replaced_mesh():
+    box = add("Box", *CUBE)
+    show(box, "MEAN")
+    box.data = add_suzanne().data
+    assert attributes.COLOUR not in box.data.attributes
+    display.refresh(box, bpy.context.scene.discrete_fairing_inspection)
+    assert len(box.data.attributes[attributes.COLOUR].data) == len(box.data.vertices)
+    assert shown_materials(box) == {"Fairing Curvature"}
+
+
+def test_reading_and_export_can_do_without():
+    box = add("Box", *CUBE)
+    show(box, "ZEBRA")
+    with override.suspended(bpy.context, box):
+        assert shown_materials(box) == set()
+    assert shown_materials(box) == {"Fairing Zebra"}
+
+
+def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
+    one = add("One", *CUBE)
+    two = bpy.data.objects.new("Two", one.data)
+    bpy.context.collection.objects.link(two)
+    show(one, "MEAN")
+    show(two, "MEAN")
+    show(one, "NONE")
+    assert attributes.COLOUR in two.data.attributes and shown_materials(one) == set()
+    show(two, "NONE")
+    assert attributes.COLOUR not in two.data.attributes
+
+
+def test_settings_reach_the_zebra_at_once():
+    show(add("Box", *CUBE), "ZEBRA")
+    settings = bpy.context.scene.discrete_fairing_inspection
+    nodes = bpy.data.materials["Fairing Zebra"].node_tree.nodes
+    settings.stripes = 7
+    assert nodes["Stripes"].inputs[1].default_value == 14
+    settings.direction = radians(90)
+    assert tuple(nodes["Direction"].inputs[1].default_value) == pytest.approx((1, 0, 0), abs=1e-6)
+    settings.fixed_to = "OBJECT"
+    assert nodes["Room"].convert_to == "OBJECT"
+    settings.sharpness = 0.0
+    assert nodes["Edge"].inputs["From Max"].default_value == pytest.approx(1.0)
+
+
+def test_all_nodes_of_both_materials_lead_to_the_output():
+    for mode in ("ZEBRA", "MEAN"):
+        show(add(mode, *CUBE), mode)
+    for material in bpy.data.materials:
+        for node in material.node_tree.nodes:
+            used = [socket for socket in node.outputs if socket.is_linked]
+            assert used or node.type == "OUTPUT_MATERIAL", (material.name, node.name)
+
+
+def test_range_recolours_without_measuring(monkeypatch):
+    ball = add_suzanne()
+    show(ball, "TOTAL")
+    monkeypatch.setattr(attributes, "write_values", None)
+    before = attributes.legend(ball.data)
+    settings = bpy.context.scene.discrete_fairing_inspection
+    settings.range_high = 60.0
+    assert attributes.legend(ball.data)[1] < before[1]
+    settings.use_fixed_range = True
+    settings.fixed_range = 3.0
+    assert attributes.legend(ball.data) == [0.0, 3.0]
+
+
+def test_smooth_while_inspected_is_not_the_mesh():
+    box = add("Box", *CUBE)
+    show(box, "ZEBRA")
+    box.data.shade_flat()
+    assert all(p.use_smooth for p in evaluated(box).polygons)
+    bpy.context.scene.discrete_fairing_inspection.smooth = False
+    assert not any(p.use_smooth for p in evaluated(box).polygons)
+
+
+def test_edit_mode_says_why_not():
+    add("Box", *CUBE)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not bpy.ops.object.fairing_inspect.poll()
+    assert not bpy.ops.object.fairing_measure.poll()
+
+
+def test_flat_is_the_middle_colour_and_beyond_the_ends_nothing_changes():
+    low, middle, high = colours.colours(np.array([-9.0, 0.0, 9.0]), (-1.0, 1.0), True)
+    assert low[2] > low[0] and high[0] > high[2] and np.ptp(middle[:3]) < 0.1
+    assert np.allclose(colours.colours(np.array([1.0]), (-1.0, 1.0), True)[0], high)
+    values = np.array([0.0, 1.0, 2.0, 100.0])
+    assert colours.value_range(values, np.ones(4, bool), True, 0, 50) == (-1.5, 1.5)
+    assert colours.value_range(np.zeros(3), np.ones(3, bool), False, 2, 98) == (0.0, 1.0)
+
+
+def faired_pair():
+    """A control mesh, and a stand-in for what was made of it, with a report."""
+    source = add("Box", *CUBE)
+    target = add("Box Fair", [(x * 1.1, y, z) for x, y, z in CUBE[0]], CUBE[1])
+    report = {"energy": {"polyhedron": {"thin_plate": 9.0}, "result": {"thin_plate": 4.0}}}
+    target[readout.REPORT] = json.dumps(report)
+    return source, target
+
+
+def test_readout_has_before_and_after():
+    source, target = faired_pair()
+    readout.take(bpy.context, target, source)
+    record = json.loads(target[readout.KEY])
+    assert (record["before"]["thin_plate"], record["after"]["thin_plate"]) == (9.0, 4.0)
+    assert record["after"]["deviation"] == pytest.approx(0.1, abs=1e-6)
+    assert record["before"]["worst_fold"] == pytest.approx(90)
+    rows = {label: (before, after) for label, before, after in readout.table(record)}
+    assert rows["Bending energy"] == ("9", "4") and rows["Worst fold"][1] == "90.00°"
+    assert rows["Off the vertices"] == ("", "0.1")
+
+
+def test_readout_of_a_plain_mesh_has_no_before():
+    activate(add("Box", *CUBE))
+    assert bpy.ops.object.fairing_measure() == {"FINISHED"}
+    record = readout.recall(bpy.context.object)
+    assert record["before"] is None
+    assert "Bending energy" not in [row[0] for row in readout.table(record)]
+
+
+def test_readout_goes_stale_with_the_shape_only():
+    box = add("Box", *CUBE)
+    bpy.ops.object.fairing_measure()
+    show(box, "MEAN")
+    assert not readout.is_stale(box, readout.recall(box))
+    box.data.vertices[0].co.x += 0.5
+    box.data.update()
+    bpy.context.view_layer.update()
+    assert readout.is_stale(box, readout.recall(box))
+
+
+def test_source_of_a_result():
+    source, target = faired_pair()
+    target.discrete_fairing.source = source
+    assert readout.source_of(target) == source and readout.source_of(source) is None
+
+
+class Layout:
+    """Stands for bpy.types.UILayout: remembers texts, refuses properties that do not exist."""
+
+    def __init__(self, log=None):
+        self.log = [] if log is None else log
+
+    def row(self, **_):
+        return Layout(self.log)
+
+    column = box = split = row
+
+    def label(self, text="", **_):
+        self.log.append(text)
+
+    def prop(self, owner, name, **_):
+        assert name in owner.bl_rna.properties
+        self.log.append(name)
+
+    def operator(self, name, text="", **_):
+        self.log.append(text or name)
+        return Layout()
+
+
+def draw(shading="SOLID"):
+    class Panel:
+        layout = Layout()
+
+    space = SimpleNamespace(shading=SimpleNamespace(type=shading, color_type="MATERIAL"))
+    context = SimpleNamespace(
+        active_object=bpy.context.active_object, scene=bpy.context.scene, space_data=space
+    )
+    panel.VIEW3D_PT_fairing_inspect.draw(Panel, context)
+    return Panel.layout.log
+
+
+def test_panel_shows_the_controls_of_what_is_shown():
+    box = add("Box", *CUBE)
+    assert "stripes" not in draw()
+    show(box, "ZEBRA")
+    assert "stripes" in draw() and "Material Preview" in draw() and "Material Preview" not in draw("MATERIAL")
+    show(box, "MEAN")
+    assert "range_low" in draw() and "Solid" in draw() and any("hollow" in t for t in draw())
+    bpy.ops.object.fairing_measure()
+    assert "Worst fold" in draw() and "90.00°" in draw()
