@@ -83,6 +83,16 @@ py::dict to_python(const LevelReport& l) {
   return d;
 }
 
+py::dict to_python(const ShapeReport& s) {
+  py::dict d;
+  d["iterations"] = s.finest.iterations;
+  d["residual"] = s.finest.residual;
+  d["converged"] = s.finest.converged;
+  d["largest_deviation"] = s.largest_deviation;
+  d["constraint_rounds"] = s.constraint_rounds;
+  return d;
+}
+
 py::dict to_python(const Report& r) {
   py::dict energy, seconds, d;
   energy["result"] = to_python(r.result);
@@ -101,7 +111,13 @@ py::dict to_python(const Report& r) {
   d["levels"] = levels;
   d["iterations"] = iterations;
   d["residuals"] = residuals;
+  py::list shapes;
+  for (const ShapeReport& s : r.shapes) {
+    shapes.append(to_python(s));
+    converged &= s.finest.converged;
+  }
   d["converged"] = converged;
+  d["shapes"] = shapes;
   d["seconds"] = seconds;
   d["predicted_bytes"] = r.predicted_bytes;
   d["peak_bytes"] = r.peak_bytes;
@@ -192,13 +208,17 @@ FairResult run_watched(const PolygonMesh& mesh, const FairOptions& options, Moni
 }
 
 py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                     const Contiguous<std::int64_t>& offsets, const FairOptions& options, Monitor& monitor,
-                     const py::object& progress) {
+                     const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
+                     FairOptions options, Monitor& monitor, const py::object& progress) {
   const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
+  options.shapes = as_span(shapes);
   FairResult r = run_watched(mesh, options, monitor, progress);
   py::dict d;
   d["report"] = to_python(r.report);
   d["vertices"] = to_numpy(std::move(r.vertices), 3);
+  py::list surfaces;
+  for (Array<double>& shape : r.shapes) surfaces.append(to_numpy(std::move(shape), 3));
+  d["shapes"] = surfaces;
   d["triangles"] = to_numpy(std::move(r.triangles), 3);
   d["quads"] = to_numpy(std::move(r.quads), 4);
   d["triangle_polygon"] = to_numpy(std::move(r.triangle_polygon), 1);
@@ -230,9 +250,9 @@ py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std
 }
 
 py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
-                        const Contiguous<std::int64_t>& offsets, int levels) {
+                        const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes) {
   const std::vector<double> none(3 * std::size_t(vertices));
-  const RunSize size = predict_size(PolygonMesh{none, as_span(corners), as_span(offsets)}, levels);
+  const RunSize size = predict_size(PolygonMesh{none, as_span(corners), as_span(offsets)}, levels, shapes);
   py::dict d;
   d["vertices"] = size.points;
   d["triangles"] = size.triangles;
@@ -336,13 +356,14 @@ PYBIND11_MODULE(_native, m) {
       .def_readwrite("measure", &FairOptions::measure);
 
   m.def("fair", &fair_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("options"), py::arg("monitor"), py::arg("progress"));
+        py::arg("offsets").noconvert(), py::arg("shapes").noconvert(), py::arg("options"), py::arg("monitor"),
+        py::arg("progress"));
   m.def("check", &check_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("repair_orientation"));
   m.def("faces_to_flip", &flipped_faces, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert());
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("levels"));
+        py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"));
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;
 #else

@@ -93,12 +93,12 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
 }
 
 // Interior points in canonical order, segment by segment.
-std::vector<Vec3> refine_canonical(const std::vector<Vec3>& c, bool closed, int subdivisions,
-                                   double exponent) {
+std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const std::vector<Vec3>& c,
+                                   bool closed, int subdivisions, double exponent) {
   const std::size_t segments = closed ? c.size() : c.size() - 1;
   std::vector<double> lengths(segments);
   for (std::size_t s = 0; s < segments; ++s)
-    lengths[s] = std::pow((c[(s + 1) % c.size()] - c[s]).norm(), exponent);
+    lengths[s] = std::pow((parameters[(s + 1) % c.size()] - parameters[s]).norm(), exponent);
 
   const double n = subdivisions;
   const std::vector<Vec3> moments = joint_moments(c, lengths, closed, n);
@@ -118,15 +118,25 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& c, bool closed, int 
 
 std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
                                double exponent) {
+  return refine_chain(vertices, vertices, closed, subdivisions, exponent);
+}
+
+std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices, bool closed,
+                               int subdivisions, double exponent) {
   if (vertices.size() < 2 || subdivisions < 2) return {};
   const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
   const auto inner = std::size_t(subdivisions - 1);
 
-  const std::vector<Order> orders = canonical_orders(vertices, closed);
-  std::vector<Vec3> canonical;
-  for (std::size_t i = 0; i < count; ++i)
-    canonical.push_back(vertices[orders[0](i, count)] + Vec3::Zero());  // −0 becomes 0
-  const std::vector<Vec3> refined = refine_canonical(canonical, closed, subdivisions, exponent);
+  std::vector<Order> orders = canonical_orders(parameters, closed);
+  if (parameters.data() != vertices.data()) orders.resize(1);  // what looks alike there need not here
+  std::vector<Vec3> canonical_parameters, canonical;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = orders[0](i, count);
+    canonical_parameters.push_back(parameters[from] + Vec3::Zero());  // −0 becomes 0
+    canonical.push_back(vertices[from] + Vec3::Zero());
+  }
+  const std::vector<Vec3> refined =
+      refine_canonical(canonical_parameters, canonical, closed, subdivisions, exponent);
 
   // Under several orders, segments at the same place all take the points of the first of them.
   std::vector<Vec3> points(segments * inner);

@@ -19,4 +19,8 @@ namespace fairing {
 std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
                                double exponent);
 
+// The same through `vertices`, but with the chord lengths and the order of `parameters`: a linear map of `vertices`.
+std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices, bool closed,
+                               int subdivisions, double exponent);
+
 }  // namespace fairing

@@ -27,16 +27,26 @@ std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, i
 }  // namespace
 
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
+  return refine_feature_edges(mesh, mesh.positions, subdivisions, exponent);
+}
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> positions, int subdivisions,
+                                   double exponent) {
+  const bool own = positions.data() == mesh.positions.data();
   FeatureCurves curves;
   curves.points_per_edge = subdivisions - 1;
   curves.run.assign(mesh.edges.size(), -1);
   const auto inner = std::size_t(curves.points_per_edge);
   Index runs = 0;
   for (const Chain& chain : mesh.chains) {
-    std::vector<Vec3> vertices;
-    for (Index v : chain.vertices) vertices.push_back(mesh.positions[std::size_t(v)]);
+    std::vector<Vec3> vertices, parameters;
+    for (Index v : chain.vertices) {
+      vertices.push_back(positions[std::size_t(v)]);
+      parameters.push_back(mesh.positions[std::size_t(v)]);
+    }
     std::vector<Vec3> points = chain.straight ? straight_points(vertices, chain.closed, subdivisions)
-                                              : refine_chain(vertices, chain.closed, subdivisions, exponent);
+                                              : refine_chain(own ? vertices : parameters, vertices,
+                                                             chain.closed, subdivisions, exponent);
     for (std::size_t k = 0; k < chain.edges.size(); ++k) {
       const auto edge = std::size_t(chain.edges[k]);
       curves.run[edge] = runs++;

@@ -25,4 +25,8 @@ struct FeatureCurves {
 // bit); all others are refined by refine_chain.
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
 
+// The same through other positions of the control vertices, with the parameters of `mesh`.
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> positions, int subdivisions,
+                                   double exponent);
+
 }  // namespace fairing

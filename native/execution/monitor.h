@@ -33,11 +33,17 @@ class Monitor {
 
   // For the run itself: says where it is; throws FairingError(cancelled) when asked to stop.
   void report(Phase phase, double fraction) {
+    fraction = begin_ + (end_ - begin_) * fraction;
     phase_.store(phase, std::memory_order_relaxed);
     if (fraction >
         fraction_.load(std::memory_order_relaxed))  // only the run writes; progress never goes back
       fraction_.store(fraction, std::memory_order_relaxed);
     check_cancelled();
+  }
+  // Of the run's own thread: what it reports next is this part of the whole.
+  void enter_part(double begin, double end) {
+    begin_ = begin;
+    end_ = end;
   }
   void check_cancelled() const {
     if (cancelled_.load(std::memory_order_relaxed)) throw FairingError(ErrorCode::cancelled, "Cancelled.");
@@ -47,6 +53,7 @@ class Monitor {
   std::atomic<bool> cancelled_{false};
   std::atomic<double> fraction_{0.0};
   std::atomic<Phase> phase_{Phase::check};
+  double begin_ = 0, end_ = 1;
 };
 
 }  // namespace fairing

@@ -44,9 +44,10 @@ double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
   return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
 }
 
-ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, const Unknowns& unknowns,
-                                         const FairOptions& options, double unit, double tolerance)
-    : mesh_(mesh), unknowns_(unknowns), tolerance_(tolerance * aim), unit_(unit) {
+ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> places,
+                                         const Unknowns& unknowns, const FairOptions& options, double unit,
+                                         double tolerance)
+    : mesh_(mesh), places_(places), unknowns_(unknowns), tolerance_(tolerance * aim), unit_(unit) {
   if (!unknowns.any_vertex || options.interpolation == Interpolation::exact) {
     tolerance_ = 0;
     return;
@@ -63,7 +64,7 @@ ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, const Unknowns
 }
 
 double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) const {
-  return (point(x, v) - mesh_.positions[v]).norm();
+  return (point(x, v) - places_[v]).norm();
 }
 
 // The energy is convex, so the force 2 w d at each vertex bounds what the way to its ball's surface could still gain.
@@ -103,13 +104,13 @@ void ToleranceConstraint::settle(SurfaceSystem& system, int level, Array<double>
     if (settled(system.energy(level, x.data()), x)) return;
     adapt(x);
     system.set_weights(weights_, level);
-    system.solve_again(level, mesh_.positions, x, round_tolerance);
+    system.solve_again(level, places_, x, round_tolerance);
     ++rounds_;
   }
 }
 
 LevelReport ToleranceConstraint::finish(SurfaceSystem& system, double relative_residual, Array<double>& x) {
-  std::vector<Vec3> targets = mesh_.positions;
+  std::vector<Vec3> targets(places_.begin(), places_.end());
   for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
     if (!unknowns_.vertex[v] || distance(x, v) <= tolerance_) continue;
     targets[v] = nearest_allowed(x, v);
@@ -124,12 +125,12 @@ LevelReport ToleranceConstraint::finish(SurfaceSystem& system, double relative_r
 }
 
 Vec3 ToleranceConstraint::nearest_allowed(const Array<double>& x, std::size_t v) const {
-  const Vec3& place = mesh_.positions[v];
+  const Vec3& place = places_[v];
   return place + (tolerance_ / distance(x, v)) * (point(x, v) - place);
 }
 
-int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, double epsilon,
-                             Array<double>& x) {
+int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, std::span<const Vec3> places,
+                             double epsilon, Array<double>& x) {
   Unknowns freed = system.shared().unknowns;
   bool any = false;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
@@ -147,7 +148,7 @@ int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, dou
       thin_plate_diagonal(lattice, shared.fine_rows, freed, none, shared.workers, shared.fine_exchange);
   // Neighbouring control vertices share fits on the coarsest lattices: step half as far there.
   const double damping = lattice.level() >= 2 ? 1.0 : 0.5;
-  std::vector<Vec3> targets = mesh.positions;
+  std::vector<Vec3> targets(places.begin(), places.end());
   Array<double> gradient(x.size());
   for (int round = 0; round < release_rounds; ++round) {
     apply_thin_plate(lattice, shared.fine_rows, freed, none, shared.workers, shared.fine_exchange, x.data(),
@@ -155,10 +156,10 @@ int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, dou
     for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
       // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in it.
-      Vec3 offset = targets[v] - damping / double(diagonal[v]) * point(gradient, v) - mesh.positions[v];
+      Vec3 offset = targets[v] - damping / double(diagonal[v]) * point(gradient, v) - places[v];
       const double length = offset.norm();
       if (length > aim * epsilon) offset *= aim * epsilon / length;
-      targets[v] = mesh.positions[v] + offset;
+      targets[v] = places[v] + offset;
       put(x, v, targets[v]);
     }
     system.solve_again(system.top(), targets, x, 1e-8);

@@ -18,9 +18,10 @@ double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 // w |p - c| needs the weight w |p - c| / tolerance.
 class ToleranceConstraint {
  public:
-  // tolerance in working coordinates; <= 0: the caller's weights alone, nothing to find.
-  ToleranceConstraint(const ControlMesh& mesh, const Unknowns& unknowns, const FairOptions& options,
-                      double unit, double tolerance);
+  // `places` of the control vertices, and tolerance, in working coordinates; tolerance <= 0: the caller's weights alone,
+  // nothing to find.
+  ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> places, const Unknowns& unknowns,
+                      const FairOptions& options, double unit, double tolerance);
 
   VertexWeights start_weights() const { return weights_; }
   bool active() const { return tolerance_ > 0; }
@@ -43,6 +44,7 @@ class ToleranceConstraint {
   void adapt(const Array<double>& x);
 
   const ControlMesh& mesh_;
+  std::span<const Vec3> places_;
   const Unknowns& unknowns_;
   double tolerance_, unit_;
   std::vector<double> base_;  // the caller's own weights
@@ -55,7 +57,7 @@ class ToleranceConstraint {
 
 // The epsilon post-process of [Kobbelt 1997a, §5]: interpolated control vertices step to where the energy wants them,
 // at most epsilon (working units) away, and the surface follows; this takes the cusps off. Returns the solves taken.
-int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, double epsilon,
-                             Array<double>& x);
+int release_control_vertices(SurfaceSystem& system, const ControlMesh& mesh, std::span<const Vec3> places,
+                             double epsilon, Array<double>& x);
 
 }  // namespace fairing

@@ -15,6 +15,7 @@
 #include "fair/frame.h"
 #include "fair/memory_plan.h"
 #include "fair/output.h"
+#include "fair/placement.h"
 #include "fair/stopwatch.h"
 #include "fair/surface.h"
 #include "lattice/linear.h"
@@ -40,19 +41,20 @@ Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
 }
 
 // The surface leaves in the caller's coordinates; whatever has not moved comes back to the last bit.
-void to_world(const ControlMesh& mesh, const std::vector<Vec3>& given, const FeatureCurves& world_curves,
-              const Lattice& lattice, const Frame& frame, Workers& workers, Array<double>& x) {
+void to_world(const ControlMesh& mesh, const Placement& place, const Lattice& lattice, const Frame& frame,
+              Workers& workers, Array<double>& x) {
+  const std::vector<Vec3>& given = place.world;
   std::vector<std::uint8_t> kept(given.size());
   for (std::size_t v = 0; v < given.size(); ++v)
-    kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == mesh.positions[v];
+    kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == place.working[v];
   for_each_index(workers, x.size(),
                  [&](std::size_t i) { x[i] = frame.centre[Eigen::Index(i % 3)] + frame.scale * x[i]; });
   for (std::size_t v = 0; v < given.size(); ++v)
     if (kept[v])
       for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = given[v][Eigen::Index(a)];
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (world_curves.run[e] < 0) continue;
-    const auto points = world_curves.of(Index(e));
+    if (place.world_curves.run[e] < 0) continue;
+    const auto points = place.world_curves.of(Index(e));
     for (std::size_t k = 0; k < points.size(); ++k)
       for (std::size_t a = 0; a < 3; ++a)
         x[3 * (std::size_t(lattice.edge_base(Index(e))) + k) + a] = points[k][Eigen::Index(a)];
@@ -67,7 +69,8 @@ double largest_deviation(const std::vector<Vec3>& given, Index input_vertices, c
   return largest;
 }
 
-void warn_unconverged(const LevelReport& level, const FairOptions& options, Report& report) {
+void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+                      Report& report) {
   if (level.converged) return;
   char text[200];
   std::snprintf(
@@ -75,7 +78,7 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, Repo
       "The solver stopped after %d iterations at a relative residual of %.1e (asked: %.1e). The surface is "
       "usable; very thin faces are the usual cause.",
       level.iterations, level.residual, options.relative_residual);
-  report.warnings.push_back({"NOT_CONVERGED", text, {}, ElementKind::mesh});
+  report.warnings.push_back({"NOT_CONVERGED", of + text, {}, ElementKind::mesh});
 }
 
 Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
@@ -84,6 +87,53 @@ Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
     if (mesh.feature_edge[e] && !mesh.edges[e].boundary())
       pairs.insert(pairs.end(), mesh.edges[e].vertex.begin(), mesh.edges[e].vertex.end());
   return pairs;
+}
+
+// What the surfaces of a run have in common.
+struct Solver {
+  const ControlMesh& mesh;
+  const FairOptions& options;
+  const Frame& frame;
+  SurfaceSystem& system;
+  Stopwatch& watch;
+
+  // One surface in working coordinates; the reports of its levels.
+  std::vector<LevelReport> solve(const Placement& place, ToleranceConstraint& constraint, Array<double>& x,
+                                 const std::function<void(const double*)>& on_prediction) {
+    std::vector<LevelReport> levels;
+    watch.enter(Phase::solve, 0);
+    const auto on_level = [&](int level, Array<double>& points) {
+      if (!constraint.active()) return;
+      watch.enter(Phase::constrain, 0.5);
+      constraint.settle(system, level, points);
+      if (level == options.levels)
+        levels.back() = constraint.finish(system, options.relative_residual, points);
+      watch.enter(Phase::solve, 0.5);
+    };
+    if (options.method == Method::back_leg)
+      solve_back_leg(system, place.working, options.sweeps, x, levels, on_prediction);
+    else
+      system.solve_nested(place.working, x, levels, on_prediction, on_level);
+    return levels;
+  }
+
+  // Returns the solves taken.
+  int release(const Placement& place, Array<double>& x) {
+    if (!(options.epsilon > 0)) return 0;
+    watch.enter(Phase::constrain, 0.8);
+    return release_control_vertices(system, mesh, place.working, options.epsilon / frame.scale, x);
+  }
+};
+
+// The number of an earlier surface with the same control positions, 0 for the mesh itself; -1: none.
+std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> shapes, std::size_t shape) {
+  const std::size_t size = input.coordinates.size();
+  const auto own = shapes.subspan(shape * size, size);
+  for (std::size_t s = 0; s <= shape; ++s) {  // surface s + 1 is shape s
+    const auto earlier = s == 0 ? input.coordinates : shapes.subspan((s - 1) * size, size);
+    if (std::equal(own.begin(), own.end(), earlier.begin())) return std::ptrdiff_t(s);
+  }
+  return -1;
 }
 
 FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
@@ -97,37 +147,52 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   CheckResult checked = check(input, {options.repair_orientation});
   report.warnings = std::move(checked.warnings);
   report.flipped_faces = checked.flipped_faces;
+  check_shapes(input, options.shapes);
   require_fit(input, options);
+  const std::size_t shapes = options.shape_count(input.coordinates.size());
+  const auto enter_surface = [&](std::size_t s) {  // 0: the mesh itself
+    monitor.enter_part(double(s) / double(shapes + 1), double(s + 1) / double(shapes + 1));
+  };
+  enter_surface(0);
 
   watch.enter(Phase::hierarchy, 0);
   Workers workers(options.threads);
   report.threads = workers.count();
   ControlMesh mesh = make_control_mesh(input, options.features, checked.flipped_faces);
-  const RunSize size = predict_size(mesh, options.levels);
+  const RunSize size = predict_size(mesh, options.levels, shapes);
   require_fit(size, options);
   report.predicted_bytes = std::size_t(size.bytes);
 
   watch.enter(Phase::curves, 0);
   const double exponent = options.chart.kind == ChartKind::tangent ? 1.0 : options.chart.exponent;
-  const FeatureCurves world_curves = refine_feature_edges(mesh, 1 << options.levels, exponent);
+  const Frame frame = frame_of(mesh);
+  const int subdivisions = 1 << options.levels;
+  const Placement basis = place_basis(mesh, frame, subdivisions, exponent);
+  std::vector<Placement> shape_places;
+  for (std::size_t s = 0; s < shapes; ++s)
+    shape_places.push_back(
+        place_shape(mesh, options.shapes.subspan(s * input.coordinates.size(), input.coordinates.size()),
+                    frame, subdivisions, exponent));
 
   watch.enter(Phase::hierarchy, 0);
-  const std::vector<Vec3> given = mesh.positions;
-  const Frame frame = frame_of(mesh);
-  FeatureCurves curves = world_curves;
-  for (Vec3& p : mesh.positions) p = frame.to_working(p);
-  for (Vec3& p : curves.points) p = frame.to_working(p);
+  mesh.positions = basis.working;
   const Stencils stencils = make_stencils(mesh, options.chart, workers);
   const double energy_unit = std::pow(frame.scale, 2 - 2 * exponent);
 
   Array<double> x;
   {
     const Unknowns unknowns = choose_unknowns(mesh, options);
-    ToleranceConstraint constraint(mesh, unknowns, options, weight_unit(mesh, flatten(mesh, exponent)),
-                                   options.tolerance / frame.scale);
-    require_anchored(mesh, unknowns, constraint.start_weights());
-    SurfaceSystem system(mesh, curves, stencils, unknowns, constraint.start_weights(), options, workers,
+    const double unit = weight_unit(mesh, flatten(mesh, exponent));
+    const auto constraint_of = [&](const Placement& place) {
+      return ToleranceConstraint(mesh, place.working, unknowns, options, unit,
+                                 options.tolerance / frame.scale);
+    };
+    ToleranceConstraint constraint = constraint_of(basis);
+    const VertexWeights start_weights = constraint.start_weights();
+    require_anchored(mesh, unknowns, start_weights);
+    SurfaceSystem system(mesh, basis.working_curves, stencils, unknowns, start_weights, options, workers,
                          monitor);
+    Solver solver{mesh, options, frame, system, watch};
     const Lattice& finest = system.lattice(options.levels);
     const auto energies = [&](const double* points) {
       SurfaceEnergies e;
@@ -136,31 +201,15 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
       return e;
     };
 
-    watch.enter(Phase::solve, 0);
-    const auto on_prediction = [&](const double* start) {
+    report.levels = solver.solve(basis, constraint, x, [&](const double* start) {
       watch.enter(Phase::measure, 0.2);
       report.prediction = energies(start);
       watch.enter(Phase::solve, 0.25);
-    };
-    const auto on_level = [&](int level, Array<double>& points) {
-      if (!constraint.active()) return;
-      watch.enter(Phase::constrain, 0.5);
-      constraint.settle(system, level, points);
-      if (level == options.levels)
-        report.levels.back() = constraint.finish(system, options.relative_residual, points);
-      watch.enter(Phase::solve, 0.5);
-    };
-    if (options.method == Method::back_leg)
-      solve_back_leg(system, mesh.positions, options.sweeps, x, report.levels, on_prediction);
-    else
-      system.solve_nested(mesh.positions, x, report.levels, on_prediction, on_level);
-    warn_unconverged(report.levels.back(), options, report);
+    });
+    warn_unconverged(report.levels.back(), options, "", report);
     report.constraint_rounds = constraint.rounds();
     report.constraint_gap = constraint.gap();
-    if (options.epsilon > 0) {
-      watch.enter(Phase::constrain, 0.8);
-      report.constraint_rounds += release_control_vertices(system, mesh, options.epsilon / frame.scale, x);
-    }
+    report.constraint_rounds += solver.release(basis, x);
 
     watch.enter(Phase::measure, 0.9);
     report.result = energies(x.data());
@@ -171,9 +220,36 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
     }
 
     watch.enter(Phase::output, 0.95);
-    to_world(mesh, given, world_curves, finest, frame, workers, x);
-    report.largest_deviation = largest_deviation(given, mesh.input_vertices, x);
+    to_world(mesh, basis, finest, frame, workers, x);
+    report.largest_deviation = largest_deviation(basis.world, mesh.input_vertices, x);
+
+    for (std::size_t s = 0; s < shapes; ++s) {
+      enter_surface(s + 1);
+      const std::ptrdiff_t same = same_before(input, options.shapes, s);
+      if (same == 0) {
+        result.shapes.push_back(x);
+        report.shapes.push_back({report.levels.back(), report.largest_deviation, 0});
+        continue;
+      }
+      if (same > 0) {
+        result.shapes.push_back(result.shapes[std::size_t(same) - 1]);
+        report.shapes.push_back(report.shapes[std::size_t(same) - 1]);
+        continue;
+      }
+      const Placement& place = shape_places[s];
+      ToleranceConstraint own = constraint_of(place);
+      system.take_shape(place.working_curves, start_weights);
+      Array<double>& points = result.shapes.emplace_back();
+      ShapeReport& shape = report.shapes.emplace_back();
+      shape.finest = solver.solve(place, own, points, {}).back();
+      warn_unconverged(shape.finest, options, "Shape " + std::to_string(s) + ": ", report);
+      shape.constraint_rounds = own.rounds() + solver.release(place, points);
+      watch.enter(Phase::output, 0.95);
+      to_world(mesh, place, finest, frame, workers, points);
+      shape.largest_deviation = largest_deviation(place.world, mesh.input_vertices, points);
+    }
   }
+  monitor.enter_part(0, 1);
   const Lattice finest(mesh, options.levels);
   OutputFaces faces = make_faces(finest, workers);
   result.vertices = std::move(x);

@@ -12,6 +12,7 @@ namespace fairing {
 
 struct FairResult {
   Array<double> vertices;                // 3 a point; the input's vertices first
+  std::vector<Array<double>> shapes;     // the same of every shape
   Array<std::int32_t> triangles;         // 3 a triangle: of the control triangles' lattices
   Array<std::int32_t> quads;             // 4 a quad: of the control quads' lattices
   Array<std::int32_t> triangle_polygon;  // the input face that each comes from

@@ -57,18 +57,19 @@ std::size_t memory_limit(const FairOptions& options) {
   return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
 }
 
-RunSize run_size(const Counts& c, int levels) {
+RunSize run_size(const Counts& c, int levels, std::size_t shapes) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels);
   size.triangles = n * n * (c.triangles + 2 * c.quads);
-  size.bytes = peak_bytes(c, levels);
+  // A shape takes what comes out of it; it is solved where the first surface was.
+  size.bytes = peak_bytes(c, levels) + std::int64_t(shapes) * 24 * size.points;
   return size;
 }
 
 }  // namespace
 
-RunSize predict_size(const PolygonMesh& mesh, int levels) {
+RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes) {
   Counts c;
   c.vertices = mesh.vertex_count();
   std::vector<std::uint64_t> keys;
@@ -92,15 +93,15 @@ RunSize predict_size(const PolygonMesh& mesh, int levels) {
   }
   std::sort(keys.begin(), keys.end());
   c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
-  return run_size(c, levels);
+  return run_size(c, levels, shapes);
 }
 
-RunSize predict_size(const ControlMesh& mesh, int levels) {
+RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
-  return run_size(c, levels);
+  return run_size(c, levels, shapes);
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {
@@ -125,9 +126,11 @@ void require_fit(const RunSize& size, const FairOptions& options) {
 void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
   // Every edge shared, and no vertex more than there are: no run is smaller.
   const auto corners = std::int64_t(mesh.corners.size());
-  const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels);
+  const std::size_t shapes = options.shape_count(mesh.coordinates.size());
+  const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels, shapes);
   const std::size_t limit = memory_limit(options);
-  if (limit && least.bytes > std::int64_t(limit)) require_fit(predict_size(mesh, options.levels), options);
+  if (limit && least.bytes > std::int64_t(limit))
+    require_fit(predict_size(mesh, options.levels, shapes), options);
 }
 
 }  // namespace fairing

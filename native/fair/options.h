@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "chart/chart.h"
@@ -26,6 +27,11 @@ struct FairOptions {
   double tolerance = 0;         // approximate: the farthest that a control vertex may move, in mesh units
   std::vector<double> weights;  // approximate: one a vertex, or empty; 0 frees a vertex where tolerance is 0
   double epsilon = 0;  // afterwards control vertices are let go by as much, to take off cusps; mesh units
+
+  std::span<const double> shapes{};  // further positions of all vertices, shape after shape; the caller's
+  std::size_t shape_count(std::size_t coordinates) const {
+    return coordinates ? shapes.size() / coordinates : 0;
+  }
 
   Method method = Method::multigrid;
   double relative_residual = 1e-8;

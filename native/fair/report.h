@@ -28,6 +28,12 @@ struct LevelReport {
   std::vector<double> residuals;  // after 0, 1, … iterations
 };
 
+struct ShapeReport {
+  LevelReport finest;
+  double largest_deviation = 0;  // as in Report
+  int constraint_rounds = 0;
+};
+
 struct PhaseSeconds {
   std::string phase;
   double seconds;
@@ -36,6 +42,7 @@ struct PhaseSeconds {
 struct Report {
   SurfaceEnergies result, polyhedron, prediction;
   std::vector<LevelReport> levels;
+  std::vector<ShapeReport> shapes;
   std::vector<PhaseSeconds> seconds;
   std::size_t predicted_bytes = 0, peak_bytes = 0;
   double largest_deviation = 0;  // of an input vertex from its place, in mesh units

@@ -43,7 +43,7 @@ SurfaceSystem::SurfaceSystem(const ControlMesh& mesh, const FeatureCurves& curve
                              Unknowns unknowns, VertexWeights weights, const FairOptions& options,
                              Workers& workers, Monitor& monitor)
     : mesh_(mesh),
-      curves_(curves),
+      curves_(&curves),
       options_(options),
       workers_(workers),
       monitor_(monitor),
@@ -87,6 +87,12 @@ void SurfaceSystem::set_weights(const VertexWeights& weights, int level) {
   if (coarse_->direct() && level >= base_ + int(cycle_->base)) coarse_->refactor();
 }
 
+void SurfaceSystem::take_shape(const FeatureCurves& curves, const VertexWeights& weights) {
+  curves_ = &curves;
+  adapts_ = false;
+  if (shared_.weights != weights) set_weights(weights, top());
+}
+
 void SurfaceSystem::set_fixed(int level, std::span<const Vec3> targets, double* x) const {
   const Lattice& lat = lattice(level);
   for (std::size_t v = 0; v < targets.size(); ++v)
@@ -94,8 +100,8 @@ void SurfaceSystem::set_fixed(int level, std::span<const Vec3> targets, double* 
       for (int a = 0; a < 3; ++a) x[3 * v + std::size_t(a)] = targets[v][a];
   const int stride = lattice(top()).n() / lat.n();
   for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
-    if (curves_.run[e] < 0) continue;
-    const auto points = curves_.of(Index(e));
+    if (curves_->run[e] < 0) continue;
+    const auto points = curves_->of(Index(e));
     for (int k = 1; k < lat.n(); ++k)
       for (int a = 0; a < 3; ++a)
         x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
@@ -160,7 +166,7 @@ LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets,
   limits.noise = scale.noise;
   limits.energy_scale = std::sqrt(energy(level, x));
   limits.max_iterations = options_.max_iterations;
-  const bool adapt = options_.smoother_degree == 0 && !report.direct;
+  const bool adapt = adapts_ && options_.smoother_degree == 0 && !report.direct;
   const bool may_factor = adapt && report.unknowns <= direct_limit_of_hard;
   const auto too_hard = [&] { return may_factor && cycle_->degree >= degree_of_hard(report.unknowns); };
   PcgResult result =
@@ -243,7 +249,7 @@ void SurfaceSystem::raise_degree(const PcgResult& result, double tolerance) {
 
 // The same from one level to the next, which is solved further.
 void SurfaceSystem::choose_degree(const LevelReport& report, double tolerance, double next_tolerance) {
-  if (options_.smoother_degree > 0 || report.direct || report.iterations < 4) return;
+  if (!adapts_ || options_.smoother_degree > 0 || report.direct || report.iterations < 4) return;
   const double ahead = report.iterations * std::log(next_tolerance) / std::log(tolerance);
   const double wanted = report.smoother_degree * std::min(2.0, ahead / iterations_wanted);
   cycle_->degree = std::clamp(int(std::ceil(wanted)), cycle_->degree, most_degree);

@@ -30,6 +30,10 @@ class SurfaceSystem {
   ThinPlateShared& shared() { return shared_; }
   Monitor& monitor() { return monitor_; }
 
+  // From here on for another shape: its curves, and the weights to start from. The smoother stays as it is, so that a
+  // surface depends on its own shape alone.
+  void take_shape(const FeatureCurves& curves, const VertexWeights& weights);
+
   // Full multigrid: from the control polyhedron to the solution on the finest level.
   // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
   // `on_prediction` sees the finest level's start; `on_level` may change weights, and x, after each level's solve.
@@ -75,11 +79,12 @@ class SurfaceSystem {
   void choose_degree(const LevelReport& report, double tolerance, double next_tolerance);
 
   const ControlMesh& mesh_;
-  const FeatureCurves& curves_;
+  const FeatureCurves* curves_;
   const FairOptions& options_;
   Workers& workers_;
   Monitor& monitor_;
   int weighted_up_to_ = -1;  // the finest level that knows the present weights; -1: all do
+  bool adapts_ = true;       // the smoother to what it meets
   int base_ = 0;             // the coarsest level with unknowns worth a solve
   std::vector<std::unique_ptr<Lattice>> lattices_;
   ThinPlateShared shared_;

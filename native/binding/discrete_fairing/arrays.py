@@ -24,6 +24,19 @@ def vertex_array(vertices: ArrayLike) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> np.ndarray:
+    """(k, n, 3) float64, C-contiguous. Raises FairingError BAD_SHAPE."""
+    none = np.empty((0, count, 3))
+    array = none if shapes is None else numbers(shapes, "shapes", "iuf")
+    if array.ndim and not len(array):
+        return none
+    if array.shape[1:] != (count, 3):
+        raise fairing_error(
+            "BAD_SHAPE", f"shapes has shape {array.shape}; it must be (k, {count}, 3), one row a vertex."
+        )
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
 def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray]:
     """Corners and offsets, both int64: face f is corners[offsets[f]:offsets[f + 1]].
 
@@ -94,17 +107,18 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
 
 
 def predicted_size(
-    vertex_count: int, faces: ArrayLike | Sequence[Sequence[int]], levels: int
+    vertex_count: int, faces: ArrayLike | Sequence[Sequence[int]], levels: int, shapes: int = 0
 ) -> dict[str, int]:
     """What a run would make and take, without running it (quads that will be split count as quads).
 
     Returns "vertices" and "triangles" of the refined surface, and "bytes", the peak of the run's own arrays.
     Raises FairingError BAD_SHAPE and BAD_OPTION.
     """
-    if vertex_count < 0 or not 0 <= levels <= MOST_LEVELS:
+    if vertex_count < 0 or shapes < 0 or not 0 <= levels <= MOST_LEVELS:
         raise fairing_error(
             "BAD_OPTION",
-            f"{vertex_count} vertices at {levels} levels; it must be from 0, and 0 to {MOST_LEVELS}.",
+            f"{vertex_count} vertices and {shapes} shapes at {levels} levels; it must be from 0, and 0 to "
+            f"{MOST_LEVELS}.",
         )
     corners, offsets = face_arrays(faces)
-    return _native.predicted_size(int(vertex_count), corners, offsets, int(levels))
+    return _native.predicted_size(int(vertex_count), corners, offsets, int(levels), int(shapes))

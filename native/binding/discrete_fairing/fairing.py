@@ -9,7 +9,7 @@ from math import isfinite
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, index_array, numbers, vertex_array
+from .arrays import face_arrays, index_array, numbers, shape_array, vertex_array
 from .errors import fairing_error
 from .result import Result
 
@@ -36,6 +36,7 @@ def fair(
     boundary: str = "curve",
     region: ArrayLike | None = None,
     joint: str = "tangent",
+    shapes: ArrayLike | Sequence[ArrayLike] | None = None,
     repair_orientation: bool = False,
     method: str = "multigrid",
     relative_residual: float = 1e-8,
@@ -92,6 +93,9 @@ def fair(
     joint : "position", "tangent" or "curvature"
         How the region meets the others: in a straight-edged line, in their tangent planes, or with curvature that
         fades out as well. A crease on the joint makes it "position" there.
+    shapes : (k, n, 3) float, or a list of (n, 3)
+        Further positions of the same control vertices, such as shape keys. Each becomes a surface on the charts and
+        stencils of `vertices` (result.shapes), so the surface is one linear map of the positions.
     repair_orientation : bool
         Turn faces over where their neighbours disagree (report["flipped_faces"]).
     method : "multigrid" or "back_leg"
@@ -115,7 +119,7 @@ def fair(
     Returns
     -------
     Result
-        vertices, triangles, faces, report.
+        vertices, triangles, faces, shapes, report.
 
     Raises
     ------
@@ -155,10 +159,10 @@ def fair(
         o.corner_angle = real("corner_angle", corner_angle)
     if region is not None:
         o.region = region_faces(region)
+    points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
-    return Result(
-        _native.fair(vertex_array(vertices), corners, offsets, o, monitor or _native.Monitor(), progress)
-    )
+    others = shape_array(shapes, len(points))
+    return Result(_native.fair(points, corners, offsets, others, o, monitor or _native.Monitor(), progress))
 
 
 def crease_pairs(edges: ArrayLike):

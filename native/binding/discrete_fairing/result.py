@@ -16,6 +16,7 @@ class Result:
     faces: (triangles (T, 3), quads (Q, 4)) int32, counter-clockwise; a control quad stays quads.
     triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face that each output face comes from.
     crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
+    shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
     report: what the run did; see docs/numpy-api.md for its keys.
     """
 
@@ -25,6 +26,7 @@ class Result:
         self.triangle_polygon: np.ndarray = arrays["triangle_polygon"]
         self.quad_polygon: np.ndarray = arrays["quad_polygon"]
         self.crease_edges: np.ndarray = arrays["crease_edges"]
+        self.shapes: list[np.ndarray] = arrays["shapes"]
         self.report: dict[str, Any] = arrays["report"]
 
     @cached_property

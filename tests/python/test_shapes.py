@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shapes: further positions of the control vertices, solved on the charts of the first ones, so by one linear map."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import as_lists, size_of
+
+SAMPLES = ["icosahedron", "cube", "dodecahedron", "house", "creature", "wavy_patch", "roof"]
+
+
+def shaken(points, seed, size=0.2):
+    return points + size * np.random.default_rng(seed).normal(size=points.shape)
+
+
+def sample(name):
+    vertices, faces = meshes.ALL[name]()
+    return np.asarray(vertices, float), as_lists(faces)
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_control_rows_are_exact_and_the_basis_is_the_first_surface(name):
+    vertices, faces = sample(name)
+    shape = shaken(vertices, 1)
+    result = df.fair(vertices, faces, 3, shapes=[shape, vertices, shape])
+    plain = df.fair(vertices, faces, 3)
+    assert np.array_equal(result.vertices, plain.vertices)
+    assert [s.shape for s in result.shapes] == 3 * [result.vertices.shape]
+    assert np.array_equal(result.shapes[0][: len(vertices)], shape)
+    assert np.array_equal(result.shapes[1], result.vertices)
+    assert np.array_equal(result.shapes[2], result.shapes[0])
+    assert len(result.report["shapes"]) == 3 and result.report["converged"]
+    for entry in result.report["shapes"]:
+        assert entry["converged"] and entry["residual"] <= 1e-8 and entry["largest_deviation"] == 0
+
+
+@pytest.mark.parametrize("boundary", ["curve", "linear", "free"])
+@pytest.mark.parametrize("name", SAMPLES)
+def test_mixes_are_linear(name, boundary):
+    vertices, faces = sample(name)
+    a, b = shaken(vertices, 1), shaken(vertices, 2, 0.5) * [1, -2, 1] + [3, 0, 0]
+    result = df.fair(
+        vertices, faces, 3, shapes=[a, b, 0.3 * a + 0.7 * b, 2 * a - b, vertices + (a - b)], boundary=boundary
+    )
+    of_a, of_b, mix, beyond, offset = result.shapes
+    tolerance = 1e-6 * size_of(b)
+    assert np.abs(mix - (0.3 * of_a + 0.7 * of_b)).max() < tolerance
+    assert np.abs(beyond - (2 * of_a - of_b)).max() < tolerance
+    assert np.abs(offset - (result.vertices + of_a - of_b)).max() < tolerance
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_an_affine_image_has_the_affine_surface(name):
+    vertices, faces = sample(name)
+    matrix = np.array([[1, 0.4, 0], [-0.2, 3, 0.1], [0, 0, 0.5]])
+    result = df.fair(vertices, faces, 3, shapes=[vertices @ matrix + [4, 5, 6]])
+    assert np.abs(result.shapes[0] - (result.vertices @ matrix + [4, 5, 6])).max() < 1e-6 * size_of(vertices)
+
+
+def test_a_shape_is_not_the_mesh_of_its_own():
+    """Its charts are those of the basis: what a separate run makes of it is another surface."""
+    vertices, faces = sample("creature")
+    shape = vertices * [1, 1, 6.0]
+    together = df.fair(vertices, faces, 2, shapes=[shape]).shapes[0]
+    assert np.abs(together - df.fair(shape, faces, 2).vertices).max() > 1e-3
+
+
+def test_a_surface_depends_on_its_own_shape_alone():
+    vertices, faces = sample("creature")
+    a, b, c = (shaken(vertices, k) for k in range(3))
+    first = df.fair(vertices, faces, 3, shapes=[a, b, c]).shapes
+    other = df.fair(vertices, faces, 3, shapes=[c, a]).shapes
+    assert np.array_equal(first[0], other[1]) and np.array_equal(first[2], other[0])
+    threads = df.fair(vertices, faces, 3, shapes=np.array([a, b]), threads=3).shapes
+    assert np.array_equal(first[0], threads[0]) and np.array_equal(first[1], threads[1])
+
+
+def test_creases_use_the_parameters_of_the_basis():
+    (vertices, faces), ridge = meshes.roof()
+    a, b = shaken(vertices, 1), shaken(vertices, 2)
+    result = df.fair(vertices, faces, 3, shapes=[a, b, (a + b) / 2], crease_edges=ridge)
+    on_ridge = np.abs(result.vertices[:, 0]) < 1e-12
+    of_a, of_b, mix = (s[on_ridge] for s in result.shapes)
+    assert on_ridge.sum() > 8 * len(ridge)
+    assert np.abs(mix - (of_a + of_b) / 2).max() < 1e-13
+
+
+def test_it_takes_few_iterations():
+    vertices, faces = sample("creature")
+    result = df.fair(vertices, faces, 4, shapes=[shaken(vertices, k, 0.1) for k in range(3)])
+    own = result.report["iterations"][-1]
+    for entry in result.report["shapes"]:
+        assert 0 < entry["iterations"] <= own + 8  # the smoother no longer adapts
+
+
+@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
+def test_with_a_region(joint):
+    vertices, faces = sample("dodecahedron")
+    a, b = shaken(vertices, 1), shaken(vertices, 2)
+    result = df.fair(vertices, faces, 3, shapes=[a, b, a + b - vertices], region=[0, 1, 2], joint=joint)
+    of_a, of_b, mix = result.shapes
+    assert np.abs(mix - (of_a + of_b - result.vertices)).max() < 1e-6
+    outside = result.triangle_polygon > 4
+    ids = np.unique(result.faces[0][outside])
+    # outside only rounding is between the sums
+    assert np.abs((mix - (of_a + of_b - result.vertices))[ids]).max() < 1e-13
+
+
+def test_weights_are_linear_too():
+    vertices, faces = sample("creature")
+    a, b = shaken(vertices, 1), shaken(vertices, 2)
+    weights = np.random.default_rng(3).uniform(0.5, 20, len(vertices))
+    result = df.fair(
+        vertices, faces, 2, interpolation="approximate", weights=weights, shapes=[a, b, (a + b) / 2]
+    )
+    of_a, of_b, mix = result.shapes
+    assert np.abs(mix - (of_a + of_b) / 2).max() < 1e-6
+    assert result.report["shapes"][0]["largest_deviation"] > 1e-3
+
+
+def test_every_shape_keeps_the_tolerance_about_its_own_places():
+    vertices, faces = sample("creature")
+    shapes = [shaken(vertices, k, 0.1) for k in range(3)]
+    result = df.fair(vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes)
+    reverse = df.fair(vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes[::-1])
+    for k, shape in enumerate(shapes):
+        away = np.linalg.norm(result.shapes[k][: len(vertices)] - shape, axis=1)
+        entry = result.report["shapes"][k]
+        assert 0.03 < away.max() <= 0.04 and entry["converged"] and entry["constraint_rounds"] > 0
+        assert entry["largest_deviation"] == pytest.approx(away.max())
+        assert np.array_equal(result.shapes[k], reverse.shapes[2 - k])
+
+
+def test_epsilon_lets_go_around_each_shape_s_own_places():
+    vertices, faces = sample("icosahedron")
+    shape = shaken(vertices, 1) + [0, 0, 9]
+    result = df.fair(vertices, faces, 3, epsilon=0.02, shapes=[shape])
+    away = np.linalg.norm(result.shapes[0][: len(vertices)] - shape, axis=1)
+    assert 0 < away.max() <= 0.02
+
+
+def test_back_leg():
+    vertices, faces = sample("icosahedron")
+    a = shaken(vertices, 1)
+    result = df.fair(vertices, faces, 3, method="back_leg", shapes=[a, 2 * a - vertices])
+    assert np.abs(result.shapes[1] - (2 * result.shapes[0] - result.vertices)).max() < 1e-9
+
+
+def test_isolated_vertices_follow_their_shape():
+    vertices, faces = sample("icosahedron")
+    vertices = np.concatenate([vertices, [[5, 5, 5]]])
+    shape = vertices + [1, 0, 0]
+    result = df.fair(vertices, faces, 2, shapes=[shape])
+    assert np.array_equal(result.shapes[0][:13], shape)
+
+
+def test_memory_is_predicted_and_kept():
+    vertices, faces = meshes.icosahedron()
+    shapes = [shaken(vertices, k) for k in range(4)]
+    size = df.predicted_size(len(vertices), faces, 6)
+    more = df.predicted_size(len(vertices), faces, 6, shapes=4)
+    assert more["bytes"] - size["bytes"] == 4 * 24 * size["vertices"]
+    report = df.fair(vertices, faces, 6, shapes=shapes, measure=False).report
+    assert report["predicted_bytes"] == more["bytes"]
+    assert report["peak_bytes"] <= report["predicted_bytes"]
+    assert report["peak_bytes"] > 0.6 * report["predicted_bytes"]
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, 6, shapes=shapes, memory_limit=(size["bytes"] + more["bytes"]) // 2)
+    assert caught.value.code == "TOO_LARGE"
+
+
+def test_progress_never_goes_back_and_cancel_works_in_a_shape():
+    vertices, faces = meshes.icosahedron()
+    shapes = [shaken(vertices, k) for k in range(5)]
+    seen = []
+    df.fair(vertices, faces, 6, shapes=shapes, progress=lambda f, _: seen.append(f), measure=False)
+    assert seen == sorted(seen) and seen[-1] == 1 and len({round(f, 3) for f in seen}) > 3
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, 7, shapes=shapes, progress=lambda f, _: f < 0.4, measure=False)
+    assert caught.value.code == "CANCELLED"
+
+
+def test_no_shapes():
+    vertices, faces = meshes.icosahedron()
+    for none in (None, [], np.empty((0, 12, 3))):
+        result = df.fair(vertices, faces, 1, shapes=none)
+        assert result.shapes == [] and result.report["shapes"] == []
+
+
+@pytest.mark.parametrize(
+    "shapes", [np.zeros((12, 3)), np.zeros((1, 11, 3)), [np.zeros((12, 3)), np.zeros((5, 3))], 7, "ab"]
+)
+def test_wrong_shapes(shapes):
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(*meshes.icosahedron(), 1, shapes=shapes)
+    assert caught.value.code == "BAD_SHAPE"
+
+
+def test_shapes_that_are_not_finite():
+    vertices, faces = meshes.icosahedron()
+    bad = vertices.copy()
+    bad[[3, 7], 1] = np.nan, np.inf
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, 1, shapes=[vertices, bad])
+    error = caught.value
+    assert (error.code, error.elements, error.kind) == ("NON_FINITE", [3, 7], "vertex")
+    assert "shape 1" in str(error)
