@@ -5,7 +5,7 @@ import numpy as np
 
 
 class Centres:
-    """The centres of all fans. `members`: the control triangles of the fans, in order, fan after fan."""
+    """The centres of all fans. `members` (t,): their triangles among the control triangles, fan after fan."""
 
     def __init__(self, triangles, arrays):
         """`triangles`: ControlFaces of size 3; `arrays`: the input mesh."""
@@ -39,10 +39,7 @@ class Centres:
     def _mean(self, values):
         if not self.count:
             return np.empty((0, values.shape[1]))
-        first = values[self._starts].astype(np.float64)
-        # differences to one of them: equal values give exactly this value
-        rest = (values - np.repeat(first, self._sizes, axis=0)) * self._weights[:, None]
-        return first + np.add.reduceat(rest, self._starts, axis=0)
+        return np.add.reduceat(values * self._weights[:, None], self._starts, axis=0)
 
     def _area_weights(self, positions):
         """(members,) float64: with these the corners' mean is the area centroid, where the core puts the centre.

@@ -29,9 +29,9 @@ def opposite(positions, axis, used):
     SEVERAL for vertices that share their place with others. None if a vertex has no opposite at all.
     """
     ids = np.flatnonzero(used)
-    points = positions[ids] + 0.0  # no -0.0
+    points = positions[ids]
     image = points.copy()
-    image[:, axis] = 0.0 - image[:, axis]
+    image[:, axis] *= -1.0
     order, image_order = np.lexsort(points.T), np.lexsort(image.T)
     in_order = points[order]
     if not np.array_equal(in_order, image[image_order]):

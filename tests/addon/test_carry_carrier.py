@@ -130,6 +130,7 @@ def test_picked_corners_agree_with_picked_points():
     corners = carrier.pick_corner(arrays.corners)
     assert np.array_equal(points[refined_corners(result)], corners)
     assert set(points[refined_corners(result)]) == set(range(9))
+    assert np.array_equal(points[: len(ids)], ids)  # vertex 9 too, which no face uses
 
 
 def test_picked_around_a_centre():
