@@ -7,7 +7,7 @@ _REMEDIES = {
     "NON_FINITE": "Delete these vertices, or type a position for them in the sidebar (N, Item)",
     "REPEATED_VERTEX": "Run Mesh > Clean Up > Degenerate Dissolve",
     "DUPLICATE_FACE": "Delete one of each pair",
-    "NONMANIFOLD_EDGE": "Delete the inner faces, or rip the sheets apart (V in Edit Mode)",
+    "NONMANIFOLD_EDGE": "Find them with Check Mesh, or Select > All by Trait > Non Manifold, and delete the inner faces",
     "NONMANIFOLD_VERTEX": "Separate the parts that touch in one vertex (Mesh > Split > Faces by Edges, or V)",
     "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or switch on Repair Normals",
     "NON_ORIENTABLE": "Cut it open along a row of edges (V in Edit Mode)",
