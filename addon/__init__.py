@@ -14,7 +14,7 @@ from .inspection import properties as inspection_properties
 from .interface import check as check_panel
 from .interface import inspection as inspection_panel
 from .interface import panel
-from .run import operator
+from .run import operator, show_source
 from .settings import presets, properties
 
 _MODULES = (
@@ -24,6 +24,7 @@ _MODULES = (
     inspection_properties,
     freshness,
     operator,
+    show_source,
     check_operators,
     inspection_operators,
     panel,

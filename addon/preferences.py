@@ -67,8 +67,10 @@ def give_scenes_default_levels(*_):
 def register():
     bpy.utils.register_class(DiscreteFairingPreferences)
     bpy.app.handlers.load_post.append(give_scenes_default_levels)
-    # the file that is open now: bpy.data may not be touched while add-ons are being enabled
-    bpy.app.timers.register(give_scenes_default_levels, first_interval=0.0)
+    # the file that is open now: bpy.data may not be touched while add-ons are being enabled. Without a window no timer
+    # ever runs, and one that waits would keep the bpy module from ending.
+    if not bpy.app.background:
+        bpy.app.timers.register(give_scenes_default_levels, first_interval=0.0)
 
 
 def unregister():

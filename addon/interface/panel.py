@@ -8,7 +8,8 @@ from ..read.source import source_objects
 from ..request import size
 from ..run.modal import running, status_text
 from ..run.operator import OBJECT_OT_fair_recompute, OBJECT_OT_fair_surface
-from ..settings.layout import draw_advanced, draw_creases, draw_result, draw_settings, draw_shape, draw_source
+from ..run.show_source import OBJECT_OT_fair_show_source
+from ..settings.layout import draw_advanced, draw_creases, draw_result, draw_shape, draw_source
 from ..settings.presets import draw_presets
 from ..settings.properties import copy_settings
 from .notice import draw_notice
@@ -25,24 +26,44 @@ class Sidebar:
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
     bl_label = "Fair Surface"
 
-    def draw_header_preset(self, _context):
-        draw_presets(self.layout)
+    def draw_header_preset(self, context):
+        if remembered(context) is None:
+            draw_presets(self.layout)
 
     def draw(self, context):
-        layout, settings = _split(self.layout), context.scene.discrete_fairing
+        layout = _split(self.layout)
         if native.why_missing():
             draw_notice(layout, native.why_missing())
             return
-        triangles = sum(
-            size.triangle_count(size.face_sizes(o.data), settings.levels) for o in source_objects(context)
-        )
+        memory = remembered(context)
+        if memory is not None:
+            _draw_source(layout, memory)
+        settings = settings_at_hand(context)
+        sources = source_objects(context) if memory is None else [memory.source]
+        triangles = sum(size.triangle_count(size.face_sizes(o.data), settings.levels) for o in sources)
         draw_shape(layout, settings, size.count_text(triangles) if triangles else "")
         if triangles >= size.LARGE:
             draw_notice(layout, size.why_too_large(triangles) or "A large result: this takes a while")
         if running():
             _draw_progress(layout, running())
+        elif memory is not None:
+            _draw_button(layout, OBJECT_OT_fair_recompute, "FILE_REFRESH")
         else:
-            _draw_buttons(layout, context, settings)
+            text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
+            copy_settings(settings, _draw_button(layout, OBJECT_OT_fair_surface, "SURFACE_DATA", text))
+
+
+def remembered(context):
+    """What the active object remembers of its making; None if it is no faired surface, or its source is gone."""
+    active = context.active_object
+    if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
+        return None
+    return active.discrete_fairing
+
+
+def settings_at_hand(context):
+    """Those of the faired surface that is active, else those for the next one."""
+    return remembered(context) or context.scene.discrete_fairing
 
 
 class _Folded(Sidebar):
@@ -50,7 +71,7 @@ class _Folded(Sidebar):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        self.draw_body(_split(self.layout), context.scene.discrete_fairing)
+        self.draw_body(_split(self.layout), settings_at_hand(context))
 
 
 class VIEW3D_PT_fairing_source(_Folded, bpy.types.Panel):
@@ -73,42 +94,29 @@ class VIEW3D_PT_fairing_advanced(_Folded, bpy.types.Panel):
     draw_body = staticmethod(draw_advanced)
 
 
-class VIEW3D_PT_fairing_memory(Sidebar, bpy.types.Panel):
-    """What the active object remembers of its making, to be changed and computed again"""
-
-    bl_label = "This Surface"
-
-    @classmethod
-    def poll(cls, context):
-        active = context.active_object
-        return active is not None and active.type == "MESH" and "fairing_report" in active
-
-    def draw(self, context):
-        layout, memory = _split(self.layout), context.active_object.discrete_fairing
-        if memory.source is None:
-            draw_notice(layout, "Its source was deleted, so it cannot be computed again", icon="INFO")
-            return
-        layout.prop(memory, "source")
-        draw_settings(layout, memory, "discrete_fairing.memory")
-        layout.operator(OBJECT_OT_fair_recompute.bl_idname, icon="FILE_REFRESH")
-
-
 def _split(layout):
     layout.use_property_split = True
     layout.use_property_decorate = False
     return layout
 
 
-def _draw_buttons(layout, context, settings):
-    button = layout.row()
-    button.scale_y = 1.5
-    text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-    copy_settings(settings, button.operator(OBJECT_OT_fair_surface.bl_idname, text=text, icon="SURFACE_DATA"))
+def _draw_source(layout, memory):
+    """Whose surface this is, and the way to what controls it."""
+    row = layout.row(align=True)
+    row.prop(memory, "source")
+    row.operator(OBJECT_OT_fair_show_source.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
+
+
+def _draw_button(layout, operator, icon, text=None):
+    """The one large button; returns its operator's properties."""
+    row = layout.row()
+    row.scale_y = 1.5
+    return row.operator(operator.bl_idname, text=text or operator.bl_label, icon=icon)
 
 
 def _draw_progress(layout, queue):
     layout.progress(factor=queue.fraction, text=status_text(queue))
-    layout.label(text="ESC: Cancel", icon="EVENT_ESC")
+    layout.label(text="Cancel", icon="EVENT_ESC")
 
 
 CLASSES = (
@@ -117,7 +125,6 @@ CLASSES = (
     VIEW3D_PT_fairing_creases,
     VIEW3D_PT_fairing_result,
     VIEW3D_PT_fairing_advanced,
-    VIEW3D_PT_fairing_memory,
 )
 
 

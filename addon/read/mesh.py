@@ -18,8 +18,6 @@ class ControlArrays:
     edge_crease: np.ndarray | None  # (e,) float32
     vertex_crease: np.ndarray | None  # (n,) float32
     sharp_edge: np.ndarray | None  # (e,) bool
-    material_index: np.ndarray | None  # (m,) int32; None: all 0
-    sharp_face: np.ndarray | None  # (m,) bool, flat shaded; None: all smooth
 
     @property
     def face_sizes(self):
@@ -41,8 +39,6 @@ def read_mesh(mesh):
         edge_crease=_optional(mesh, "crease_edge", "EDGE", "FLOAT", edges),
         vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT", vertices),
         sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN", edges),
-        material_index=_optional(mesh, "material_index", "FACE", "INT", faces),
-        sharp_face=_optional(mesh, "sharp_face", "FACE", "BOOLEAN", faces),
     )
 
 

@@ -4,10 +4,10 @@
 from .features import corner_vertices, crease_edges
 
 
-def fair_arguments(arrays, settings, preferences, region=None):
+def fair_arguments(arrays, settings, preferences, region=None, shapes=None):
     """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
 
-    `region`: (r,) ids of the faces to fair, None for all.
+    `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions, such as shape keys.
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     approximate = settings.interpolation == "APPROXIMATE"
@@ -31,4 +31,6 @@ def fair_arguments(arrays, settings, preferences, region=None):
     }
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
+    if shapes is not None and len(shapes):
+        arguments["shapes"] = shapes
     return arguments

@@ -76,6 +76,8 @@ class _Fairing(ModalRun):
             bpy.ops.object.mode_set(mode="OBJECT")
         written = [job.write(context) for job in jobs]
         for job in jobs:
+            for sentence in job.notes:
+                self.report({"INFO"}, f"{job.name}: {sentence}")
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
         select_only(context, written)

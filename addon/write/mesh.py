@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A result of the core as a new Blender mesh, in bulk, with what its faces inherit from the control faces."""
+"""A result of the core as a new Blender mesh, in bulk."""
 
 import bpy
 import numpy as np
@@ -7,22 +7,16 @@ import numpy as np
 from ..carry.lattice import mark_pairs
 
 
-def write_mesh(name, result, arrays, sharp_pairs, materials=(), shade_smooth=False):
-    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; vertex i < n is control vertex i of `arrays`.
+def write_mesh(name, result, sharp_pairs, materials=()):
+    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices come first.
 
     The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
     """
     triangles, quads = result.faces
-    origin = np.concatenate([result.triangle_polygon, result.quad_polygon])
-
     mesh = bpy.data.meshes.new(name)
     _write_faces(mesh, result.vertices, triangles, quads)
     for material in materials:
         mesh.materials.append(material)
-    if arrays.material_index is not None and arrays.material_index.any():
-        _write(mesh, "material_index", "INT", "FACE", arrays.material_index[origin])
-    if not shade_smooth and arrays.sharp_face is not None and arrays.sharp_face.any():
-        _write(mesh, "sharp_face", "BOOLEAN", "FACE", arrays.sharp_face[origin])
     mesh.update(calc_edges=True)
     if len(sharp_pairs):
         _mark_sharp(mesh, sharp_pairs)

@@ -20,7 +20,7 @@ def refine(source, levels=2, leave_out=(), sharp_pairs=NO_PAIRS, **settings):
     """The refined object `target` of `source`, and all that went into it."""
     arrays, data = read_mesh(source.data), read_data(source, source.data)
     result, carrier = core_run(arrays, levels, **settings)
-    target = bpy.data.objects.new("Refined", write_mesh("Refined", result, arrays, sharp_pairs))
+    target = bpy.data.objects.new("Refined", write_mesh("Refined", result, sharp_pairs))
     bpy.context.collection.objects.link(target)
     write_data(target, data, carrier, leave_out)
     return SimpleNamespace(

@@ -10,7 +10,7 @@ from addon.request.features import corner_vertices, crease_edges
 
 def triangle(**attributes):
     """One triangle 0 1 2 and a loose edge 2 3."""
-    nothing = dict.fromkeys(("edge_crease", "vertex_crease", "sharp_edge", "material_index", "sharp_face"))
+    nothing = dict.fromkeys(("edge_crease", "vertex_crease", "sharp_edge"))
     return ControlArrays(
         positions=np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 2, 0)], float),
         edges=np.array([(0, 1), (1, 2), (0, 2), (2, 3)], np.int32),

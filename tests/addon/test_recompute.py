@@ -102,22 +102,28 @@ def test_a_failure_leaves_the_surface():
     assert np.array_equal(positions(result.data), before)
 
 
-def test_deleted_source_is_said():
+def test_without_its_source_it_is_a_mesh_like_any_other():
     source = add("Box", *CUBE)
     result = fair(levels=1)
     bpy.data.objects.remove(source)
     assert result.discrete_fairing.source is None
     assert not bpy.ops.object.fair_recompute.poll()
-    assert any("deleted" in text for text in draw(panel.VIEW3D_PT_fairing_memory))
+    assert "object.fair_surface" in draw(panel.VIEW3D_PT_fairing)
+    assert not bpy.ops.object.fair_show_source.poll()
 
 
 def test_panel_shows_what_is_remembered():
     source = add("Box", *CUBE)
-    assert not panel.VIEW3D_PT_fairing_memory.poll(bpy.context)
+    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
+    assert "tolerance" in draw(panel.VIEW3D_PT_fairing)
     fair(levels=1)
-    assert panel.VIEW3D_PT_fairing_memory.poll(bpy.context)
-    assert "levels" in draw(panel.VIEW3D_PT_fairing_memory)
-    activate(source)
+    log = draw(panel.VIEW3D_PT_fairing)
+    assert "object.fair_recompute" in log and "object.fair_surface" not in log
+    assert "source" in log and "tolerance" not in log, "its own settings, not the scene's"
+    assert "48 triangles" in log, "counted from its source"
+    assert bpy.ops.object.fair_show_source() == {"FINISHED"}
+    assert bpy.context.active_object == source and source.visible_get()
+    assert "object.fair_surface" in draw(panel.VIEW3D_PT_fairing)
 
 
 def test_survives_saving(tmp_path):

@@ -9,7 +9,7 @@ CLASSES = (
     "OBJECT_OT_fair_recompute",
     "OBJECT_OT_fairing_preset_add",
     "VIEW3D_PT_fairing",
-    "VIEW3D_PT_fairing_memory",
+    "OBJECT_OT_fair_show_source",
     "VIEW3D_PT_fairing_source",
     "VIEW3D_PT_fairing_creases",
     "VIEW3D_PT_fairing_advanced",

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator from end to end: what the source carries arrives on the new object."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add, add_suzanne, fair, positions
+
+from addon.inspection import override
+
+
+def test_uv_groups_and_materials_arrive():
+    source = add_suzanne()
+    source.data.materials.append(bpy.data.materials.new("Fur"))
+    source.vertex_groups.new(name="Head").add(range(50), 0.25, "REPLACE")
+    result = fair(levels=2)
+    assert [layer.name for layer in result.data.uv_layers] == [layer.name for layer in source.data.uv_layers]
+    assert result.vertex_groups["Head"].weight(0) == 0.25
+    assert not result.data.validate()
+
+
+def test_shape_keys_are_faired_too():
+    source = add("Box", *CUBE)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Twice").data.foreach_set("co", 2.0 * positions(source.data).ravel())
+    source.data.shape_keys.key_blocks["Twice"].value = 0.5
+    result = fair(levels=2)
+    keys = result.data.shape_keys.key_blocks
+    assert keys["Twice"].value == 0.5
+    twice = np.empty(3 * len(result.data.vertices), np.float32)
+    keys["Twice"].data.foreach_get("co", twice)
+    assert np.allclose(twice.reshape(-1, 3), 2.0 * positions(result.data), atol=1e-5), (
+        "faired, not interpolated"
+    )
+    activate_shown(source)
+    assert fair(levels=2, use_shape_keys=False).data.shape_keys is None
+
+
+def activate_shown(source):
+    source.hide_set(False)
+    activate(source)
+
+
+def test_recompute_brings_the_keys_again():
+    source = add("Box", *CUBE)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 1.0
+    result = fair(levels=1)
+    source.data.shape_keys.key_blocks["Up"].data[0].co.z += 1.0
+    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    keys = result.data.shape_keys.key_blocks
+    assert keys["Up"].data[0].co.z == source.data.shape_keys.key_blocks["Up"].data[0].co.z
+
+
+def mirror_defect(points):
+    """How far the points are from being their own mirror images in x, exactly."""
+    there, back = {tuple(p) for p in points.tolist()}, {(-x, y, z) for x, y, z in points.tolist()}
+    return len(there ^ back)
+
+
+def test_symmetry_is_exact():
+    source = add_suzanne()
+    # Suzanne as Blender makes her is symmetric to rounding only
+    points = positions(source.data)
+    assert mirror_defect(points) == 0
+    result = fair(levels=3)
+    assert mirror_defect(positions(result.data) + np.float32(0.0)) == 0
+    activate_shown(source)
+    loose = fair(levels=3, keep_symmetry=False)
+    assert mirror_defect(positions(loose.data) + np.float32(0.0)) > 0, "else the test says nothing"
+
+
+def test_modifiers_are_copied_on_request_only():
+    source = add("Box", *CUBE)
+    source.modifiers.new("Thick", "SOLIDIFY").thickness = 0.25
+    assert not fair(levels=1).modifiers
+    activate_shown(source)
+    assert fair(levels=1, copy_modifiers=True).modifiers["Thick"].thickness == 0.25
+
+
+def test_modifiers_put_on_later_survive_a_recomputation():
+    source = add("Box", *CUBE)
+    source.modifiers.new("Thick", "SOLIDIFY")
+    result = fair(levels=1, copy_modifiers=True)
+    result.modifiers.remove(result.modifiers["Thick"])
+    result.modifiers.new("Mine", "BEVEL")
+    bpy.ops.object.fair_recompute()
+    assert [m.name for m in result.modifiers] == ["Mine"]
+
+
+@pytest.mark.parametrize("mode", ["ZEBRA", "MEAN"])
+def test_inspection_is_no_part_of_the_source(mode):
+    source = add("Box", *CUBE)
+    bpy.ops.object.fairing_inspect(mode=mode)
+    evaluated = fair(levels=1, mesh_source="EVALUATED")
+    assert override.find(source) and not evaluated.data.materials
+    activate_shown(source)
+    assert override.find(fair(levels=1, copy_modifiers=True)) is None
+
+
+def test_inspected_surface_stays_inspected():
+    source = add("Box", *CUBE)
+    result = fair(levels=2)
+    bpy.ops.object.fairing_inspect(mode="GAUSS")
+    source.data.vertices[0].co *= 2.0
+    bpy.ops.object.fair_recompute()
+    assert override.find(result) and "fair_gauss_curvature" in result.data.attributes
+
+
+def test_notes_are_told(capfd):
+    source = add("Box", *CUBE)
+    source.data.normals_split_custom_set([(0.0, 0.0, 1.0)] * 24)
+    fair(levels=1)
+    assert "Custom normals are dropped" in capfd.readouterr().out
