@@ -3,7 +3,7 @@
 
 import textwrap
 
-WIDTH = 36  # characters that fit a sidebar of its usual width
+WIDTH = 33  # characters that fit a sidebar of its usual width
 
 
 def draw_notice(layout, text, icon="ERROR"):

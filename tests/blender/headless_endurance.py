@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Two hundred runs in one process: memory stays where it is, and no mesh ever needs mending."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+
+RUNS = 200
+SETTLED = 40  # runs after which caches and the allocator's reserves are full
+ALLOWED = 1.01
+
+
+def resident_bytes():
+    """Memory of this process that is in use."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
+def once(source, **settings):
+    """Fairs `source`, checks the mesh, and removes the result again."""
+    bpy.context.view_layer.objects.active = source
+    source.select_set(True)
+    assert bpy.ops.object.fair_surface(levels=2, hide_source=False, **settings) == {"FINISHED"}
+    result = bpy.context.active_object
+    assert result != source and not result.data.validate(verbose=True), "validate() had to mend the mesh"
+    mesh = result.data
+    bpy.data.objects.remove(result)
+    bpy.data.meshes.remove(mesh)
+
+
+def test_two_hundred_runs():
+    bpy.ops.mesh.primitive_monkey_add()
+    source = bpy.context.active_object
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Smile")
+    source.vertex_groups.new(name="Skull").add(range(100), 0.5, "REPLACE")
+    settled = 0
+    for run in range(RUNS):
+        once(source, interpolation="APPROXIMATE" if run % 4 == 3 else "EXACT", tolerance=0.01)
+        if run + 1 == SETTLED:
+            settled = resident_bytes()
+    end = resident_bytes()
+    print(f"memory after {SETTLED} runs {settled / 2**20:.1f} MB, after {RUNS} {end / 2**20:.1f} MB")
+    assert end <= ALLOWED * settled, f"{end / settled - 1:.1%} more memory"
+
+
+def test_two_hundred_recomputations():
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.object.fair_surface(levels=2)
+    result = bpy.context.active_object
+    settled = 0
+    for run in range(RUNS):
+        assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+        assert bpy.context.active_object == result and not result.data.validate()
+        if run + 1 == SETTLED:
+            settled = resident_bytes()
+    end = resident_bytes()
+    print(
+        f"memory after {SETTLED} recomputations {settled / 2**20:.1f} MB, after {RUNS} {end / 2**20:.1f} MB"
+    )
+    assert end <= ALLOWED * settled, f"{end / settled - 1:.1%} more memory"
+    assert len(bpy.data.meshes) == 2
+
+
+harness.run(globals())

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check Mesh and Inspect in a real window."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bmesh
+import bpy
+import harness
+
+STRIPES = 0.25  # contrast of black and white stripes; clay has less than a third of it
+
+
+def unfold(*panels):
+    """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
+    for name in panels:
+        cls = getattr(bpy.types, name)
+        bpy.utils.unregister_class(cls)
+        cls.bl_options = set()
+        bpy.utils.register_class(cls)
+    yield from harness.open_sidebar("Fairing")
+    yield 0.5
+
+
+def suzanne():
+    """Suzanne, alone in the scene, and the viewport turned to her face."""
+    for other in list(bpy.data.objects):
+        bpy.data.objects.remove(other)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_monkey_add(size=4)
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
+        bpy.ops.view3d.view_selected()
+    return bpy.data.objects["Suzanne"]
+
+
+def wait_for_shading(name, least):
+    """Until the middle of the viewport has that many colours: shaders take their time to compile. A generator."""
+    view = harness.view()
+    width, height = view["region"].width, view["region"].height
+    crop = f"{width // 4}x{height // 3}+{width // 3}+{height // 3}"
+    for _ in range(40):
+        view["area"].tag_redraw()
+        yield 3.0
+        if contrast(harness.photograph(name), crop) > least:
+            return
+    raise AssertionError(f"{name} is not seen")
+
+
+def contrast(path, crop):
+    """Standard deviation of a part of a picture, 0 to 1, over all channels."""
+    words = ["convert", path, "-crop", crop, "-format", "%[fx:standard_deviation]", "info:"]
+    return float(subprocess.run(words, capture_output=True, check=True, text=True, timeout=60).stdout)
+
+
+def test_check_selects_what_is_wrong():
+    source = suzanne()
+    bm = bmesh.new()
+    bm.from_mesh(source.data)
+    bm.faces.ensure_lookup_table()
+    for index in (100, 250):
+        bm.faces[index].normal_flip()
+    a, b = bm.faces[320].edges[0].verts
+    bm.faces.new((a, b, bm.verts.new(0.5 * (a.co + b.co) + bm.faces[320].normal * 0.4)))
+    bm.to_mesh(source.data)
+    bm.free()
+    yield from unfold("VIEW3D_PT_fairing_check")
+    with bpy.context.temp_override(**harness.view(), active_object=source, object=source):
+        assert bpy.ops.mesh.fairing_check("INVOKE_DEFAULT") == {"FINISHED"}
+    yield 1.0
+    assert source.mode == "EDIT", "the defects are shown in Edit Mode"
+    selected = [edge for edge in bmesh.from_edit_mesh(source.data).edges if edge.select]
+    assert selected, "something is selected"
+    harness.photograph("check")
+
+
+def test_zebra_and_curvature_are_seen():
+    source = suzanne()
+    yield from unfold("VIEW3D_PT_fairing_inspect")
+    with bpy.context.temp_override(**harness.view(), active_object=source, selected_objects=[source]):
+        assert bpy.ops.object.fair_surface(levels=3) == {"FINISHED"}
+    result = bpy.data.objects["Suzanne Fair"]
+    view = harness.view()
+    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+        assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
+        assert bpy.ops.view3d.fairing_viewport(shading="MATERIAL") == {"FINISHED"}
+        assert bpy.ops.object.fairing_measure() == {"FINISHED"}
+    yield from wait_for_shading("inspect", STRIPES)
+    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+        assert bpy.ops.object.fairing_inspect(mode="MEAN") == {"FINISHED"}
+        assert bpy.ops.view3d.fairing_viewport(shading="ATTRIBUTE") == {"FINISHED"}
+    yield 2.0
+    harness.photograph("curvature")
+    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+        assert bpy.ops.object.fairing_inspect(mode="NONE") == {"FINISHED"}
+    yield 0.5
+    assert not result.modifiers
+
+
+harness.run_in_window(globals())

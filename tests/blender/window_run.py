@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A user's hour in a real window: press the button, watch the progress, ESC, redo, undo, recompute, save, reload."""
+
+import importlib
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+import numpy as np
+
+LONG = 5  # levels of Suzanne that take long enough to be watched
+TOO_LONG = 7  # and to be cancelled
+PATIENCE = 120.0  # seconds until a run must have ended
+
+
+def add_suzanne():
+    """Suzanne, alone in the scene."""
+    for other in list(bpy.data.objects):
+        bpy.data.objects.remove(other)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_monkey_add(size=4)
+        bpy.ops.ed.undo_push(message="Suzanne is there")
+    return bpy.data.objects["Suzanne"]
+
+
+def running():
+    """The extension's queue at work, or None."""
+    return importlib.import_module(f"{harness.EXTENSION}.run.modal").running()
+
+
+def pixels(path):
+    """A picture as (height, width) brightness, first row at the top."""
+    image = bpy.data.images.load(str(path))
+    width, height = image.size
+    values = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(values)
+    bpy.data.images.remove(image)
+    return values.reshape(height, width, 4)[::-1, :, :3].sum(axis=2)
+
+
+def xdotool(*words):
+    """Mouse and keyboard of the X server."""
+    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
+
+
+def find_button(settings):
+    """Where the button is on the screen: its text is all that changes with this setting. A generator; returns (x, y)."""
+    yield 0.7  # the viewport smooths its edges for a moment
+    before = pixels(harness.photograph("button_before"))
+    settings.use_selection = True
+    yield 0.7
+    after = pixels(harness.photograph("button_after"))
+    settings.use_selection = False
+    yield 0.7
+    for name in ("button_before", "button_after"):
+        (Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png").unlink()
+    sidebar = next(region for region in harness.view()["area"].regions if region.type == "UI")
+    difference = np.abs(after - before)[:, sidebar.x : sidebar.x + sidebar.width]
+    rows, columns = np.nonzero(difference > 0.5)
+    assert len(rows), "the button's text has not changed"
+    assert np.ptp(rows) < 40, "more than one line has changed"
+    return sidebar.x + int(columns.mean()), int(rows.mean())
+
+
+def press(settings):
+    """Clicks the button Fair Surface with the mouse; a generator."""
+    x, y = yield from find_button(settings)
+    xdotool("mousemove", x, y)
+    yield 0.5
+    xdotool("click", 1)
+    yield 0.3
+
+
+def wait_for_the_end():
+    """Until the run is over; a generator. The number of times that progress was seen to advance."""
+    waited, seen = 0.0, [0.0]
+    while running():
+        if running().fraction > seen[-1]:
+            seen.append(running().fraction)
+        assert waited < PATIENCE, "the run does not end"
+        waited += 0.2
+        yield 0.2
+    yield 0.5
+    return len(seen) - 1
+
+
+def open_panel(levels):
+    """Suzanne and the sidebar, as a user would have them; a generator that returns the source and the settings."""
+    source = add_suzanne()
+    settings = bpy.context.scene.discrete_fairing
+    settings.levels = levels
+    yield from harness.open_sidebar("Fairing")
+    return source, settings
+
+
+def test_a_click_makes_the_surface():
+    source, settings = yield from open_panel(3)
+    yield from press(settings)
+    yield from wait_for_the_end()
+    result = bpy.data.objects["Suzanne Fair"]
+    assert bpy.context.view_layer.objects.active == result and source.hide_get()
+    assert len(result.data.polygons) >= 500 * 4**3
+    harness.photograph("result")
+
+
+def test_progress_is_shown_and_the_surface_comes():
+    _, settings = yield from open_panel(LONG)
+    yield from press(settings)
+    assert running(), "a long run does not block"
+    yield 1.0
+    harness.photograph("progress")
+    advanced = yield from wait_for_the_end()
+    assert advanced > 3, f"progress was seen to advance {advanced} times only"
+    assert len(bpy.data.objects["Suzanne Fair"].data.polygons) >= 500 * 4**LONG
+
+
+def test_escape_leaves_the_scene_as_it_was():
+    source, settings = yield from open_panel(TOO_LONG)
+    meshes = set(bpy.data.meshes)
+    yield from press(settings)
+    yield 0.5
+    assert running()
+    xdotool("key", "Escape")
+    yield from wait_for_the_end()
+    assert list(bpy.data.objects) == [source] and set(bpy.data.meshes) == meshes
+    assert not source.hide_get() and source.select_get()
+    yield from press(bpy.context.scene.discrete_fairing)
+    assert running(), "the button works again"
+    xdotool("key", "Escape")
+    yield from wait_for_the_end()
+
+
+def redo_panel():
+    """The region of Adjust Last Operation."""
+    return next(region for region in harness.view()["area"].regions if region.type == "HUD")
+
+
+def line_of(region, number):
+    """Where the value of a panel's line is on the screen; its title is line 0."""
+    unit = bpy.context.preferences.system.ui_scale
+    top = harness.view()["window"].height - (region.y + region.height)
+    return int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)
+
+
+def unfold(region):
+    """Opens a closed panel by a click on its title; a generator."""
+    assert region.width > 50, "Adjust Last Operation is not shown"
+    if region.height < 60:
+        xdotool("mousemove", *line_of(region, 0))
+        yield 0.5
+        xdotool("click", 1)
+        yield 1.0
+    harness.photograph("unfolded")
+
+
+def test_redo_with_another_level_then_undo():
+    _, settings = yield from open_panel(2)
+    yield from press(settings)
+    yield from wait_for_the_end()
+    yield 0.5
+    faces = len(bpy.data.objects["Suzanne Fair"].data.polygons)
+    yield from unfold(redo_panel())
+    levels = line_of(redo_panel(), 2)  # line 1 has the presets
+    xdotool("mousemove", *levels)
+    yield 0.5
+    xdotool("keydown", "ctrl", "click", 4, "keyup", "ctrl")  # raises a number under the mouse
+    yield 2.0
+    harness.photograph("redo")
+    assert len(bpy.data.objects["Suzanne Fair"].data.polygons) == 4 * faces, "redone with one level more"
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 0.5
+    assert "Suzanne Fair" not in bpy.data.objects
+    assert not bpy.data.objects["Suzanne"].hide_get()
+
+
+def test_recompute_save_and_reload():
+    source, settings = yield from open_panel(3)
+    yield from press(settings)
+    yield from wait_for_the_end()
+    source.data.vertices[0].co.z += 1.0
+    result = bpy.data.objects["Suzanne Fair"]
+    with bpy.context.temp_override(**harness.view(), active_object=result, selected_objects=[result]):
+        assert bpy.ops.object.fair_recompute("INVOKE_DEFAULT") <= {"FINISHED", "RUNNING_MODAL"}
+    yield from wait_for_the_end()
+    assert (result.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "kept.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        yield 1.0
+    result = bpy.data.objects["Suzanne Fair"]
+    assert result.discrete_fairing.source == bpy.data.objects["Suzanne"]
+    yield from harness.open_sidebar("Fairing")
+    harness.photograph("recompute")
+
+
+def test_edit_mode_and_a_region():
+    source, settings = yield from open_panel(TOO_LONG)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.object.fair_surface("INVOKE_DEFAULT", levels=TOO_LONG, use_selection=True) == {
+            "RUNNING_MODAL"
+        }
+    yield 0.5
+    xdotool("key", "Escape")
+    yield from wait_for_the_end()
+    assert source.mode == "EDIT" and len(bpy.data.objects) == 1, "cancelled: still in Edit Mode"
+
+
+def test_disable_while_nothing_runs():
+    yield from open_panel(2)
+    bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
+    yield 0.5
+    assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
+    harness.photograph("disabled")
+    bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
+    yield 0.5
+    assert hasattr(bpy.types, "VIEW3D_PT_fairing")
+
+
+harness.run_in_window(globals())
