@@ -11,11 +11,23 @@ CREASE = (0.62, 0.07, 0.025)
 
 def dress_in_clay(control, result):
     for target in (control, result):
-        dress(target, _matte("Clay", CLAY, roughness=0.5))
-    wires = [_wire(control, "Wire", WIRE, 0.0055, creased=False)]
-    if "crease_edge" in control.data.attributes:
-        wires.append(_wire(control, "Crease", CREASE, 0.012, creased=True))
+        dress(target, clay())
+    creased = creased_edges(control.data)
+    plain = sorted({*range(len(control.data.edges))} - {*creased})
+    wires = [add_wire(control, plain, "Wire", WIRE, 0.0055)]
+    if creased:
+        wires.append(add_wire(control, creased, "Crease", CREASE, 0.012))
     return wires
+
+
+def clay():
+    return _matte("Clay", CLAY, roughness=0.5)
+
+
+def creased_edges(mesh):
+    """Ids of the edges with a crease weight, in ascending order."""
+    creases = mesh.attributes.get("crease_edge")
+    return [] if creases is None else [i for i, crease in enumerate(creases.data) if crease.value > 0]
 
 
 def _matte(name, colour, roughness):
@@ -28,20 +40,17 @@ def _matte(name, colour, roughness):
     return material
 
 
-def _wire(source, name, colour, thickness, creased):
-    """The edges of `source` (or its creases alone) as thin round bars, `thickness` across in the picture's units."""
+def add_wire(source, edges, name, colour, thickness):
+    """These `edges` (ids) of `source` as thin round bars, `thickness` across in the picture's units."""
     mesh = source.data
-    creases = mesh.attributes.get("crease_edge")
     curve = bpy.data.curves.new(name, "CURVE")
     curve.dimensions = "3D"
     curve.bevel_depth = thickness / 2 / source.scale[0]
     curve.bevel_resolution = 2
-    for edge in mesh.edges:
-        if (creases is not None and creases.data[edge.index].value > 0) != creased:
-            continue
+    for edge in edges:
         spline = curve.splines.new("POLY")
         spline.points.add(1)
-        for point, vertex in zip(spline.points, edge.vertices, strict=True):
+        for point, vertex in zip(spline.points, mesh.edges[edge].vertices, strict=True):
             point.co = (*mesh.vertices[vertex].co, 1)
     curve.materials.append(_matte(name, colour, roughness=0.8))
     wire = bpy.data.objects.new(name, curve)

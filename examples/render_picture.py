@@ -40,7 +40,7 @@ def compose(pairs, path):
         row, column = divmod(i, COLUMNS)
         for below, tile in enumerate(pair):
             top = (2 * row + below) * height
-            _lay(sheet[top : top + height, column * width : (column + 1) * width], _pixels(tile))
+            _lay(sheet[top : top + height, column * width : (column + 1) * width], load_pixels(tile))
     _save(sheet, path)
 
 
@@ -52,7 +52,7 @@ def _lay(paper, tile):
     paper[..., :3] = alpha * tile[..., :3] + (1 - alpha) * paper[..., :3]
 
 
-def _pixels(path):
+def load_pixels(path):
     """(height, width, 4) float32 as displayed, top row first."""
     image = bpy.data.images.load(str(path))
     width, height = image.size

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture for each setting: the same object with different values, side by side, for docs/settings.md and docs/guide.md.
+
+    .venv/bin/python examples/render_settings.py            all of them, to docs/images/settings/
+    .venv/bin/python examples/render_settings.py levels     only those named
+
+`python3 build_tools/dev.py setup` makes `.venv`. The pictures are made by the operator itself and rendered by Cycles on
+the processor, one after the other: about two minutes for all.
+"""
+
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import bpy
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
+
+import settings_meshes as meshes  # noqa: E402
+from render_row import View, compose_row, render_tile  # noqa: E402
+
+import addon  # noqa: E402
+
+OUT = ROOT / "docs" / "images" / "settings"
+
+
+@dataclass(frozen=True)
+class Variant:
+    label: str
+    settings: dict = field(default_factory=dict)
+    key: float = 0.0  # the value of the second shape key, if there is one
+    as_it_is: bool = False  # the control mesh itself, not faired
+
+
+@dataclass(frozen=True)
+class Figure:
+    make: object  # a function of settings_meshes
+    view: View
+    variants: tuple
+    common: dict = field(default_factory=dict)  # settings of all variants
+    shows_source: bool = False  # beside the surface, where it has not been hidden
+
+
+def _values(name, *values, label="{}", **others):
+    return tuple(Variant(label.format(value), {name: value, **others}) for value in values)
+
+
+SMOOTH = {"shade_smooth": True, "levels": 4}
+
+FIGURES = {
+    "levels": Figure(
+        meshes.vase,
+        View(3.0, turn=10, height=1.0, wires=True),
+        (Variant("Control mesh", as_it_is=True), *_values("levels", 1, 2, 3, label="Levels {}")),
+    ),
+    "vertices": Figure(
+        meshes.scan,
+        View(2.5, look="zebra", height=0.9, stripes=9),
+        (
+            Variant("Through"),
+            Variant("Near, 0.01", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
+            Variant("Near, 0.04", {"interpolation": "APPROXIMATE", "tolerance": 0.04}),
+        ),
+        SMOOTH,
+    ),
+    "boundary": Figure(
+        meshes.tent,
+        View(3.4, turn=20, elevation=30, height=0.55),
+        (
+            Variant("Control mesh", as_it_is=True),
+            Variant("Smooth", {"boundary": "CURVE"}),
+            Variant("Straight", {"boundary": "LINEAR"}),
+            Variant("Free", {"boundary": "FREE"}),
+        ),
+        SMOOTH,
+    ),
+    "creases": Figure(
+        meshes.rimmed_box,
+        View(1.9, turn=30, elevation=28, height=0.42),
+        (
+            Variant("Control mesh", as_it_is=True),
+            Variant("Edge Creases off", {"use_crease_attribute": False}),
+            Variant("Edge Creases on"),
+            Variant("On, Corner Angle 60°", {"use_corner_angle": True}),
+        ),
+        SMOOTH,
+    ),
+    "threshold": Figure(
+        lambda: meshes.rimmed_box(0.8, 0.3),
+        View(1.9, turn=30, elevation=12, height=0.42),
+        (
+            Variant("Creases 0.8 and 0.3", as_it_is=True),
+            *_values("crease_threshold", 0.2, 0.5, 1.0, label="Threshold {}"),
+        ),
+        SMOOTH,
+    ),
+    "crease_angle": Figure(
+        meshes.can,
+        View(2.9, turn=5, elevation=25, height=0.75),
+        (
+            Variant("Off"),
+            Variant("Crease Angle 40°", {"use_crease_angle": True}),
+            Variant("Crease Angle 20°", {"use_crease_angle": True, "crease_angle": 0.349}),
+        ),
+        SMOOTH,
+    ),
+    "sharp_edges": Figure(
+        meshes.marked_can,
+        View(2.9, turn=5, elevation=25, height=0.75),
+        (
+            Variant("Control mesh", as_it_is=True),
+            Variant("Sharp Edges off"),
+            Variant("Sharp Edges on", {"use_sharp_edges": True}),
+        ),
+        SMOOTH,
+    ),
+    "spacing": Figure(
+        meshes.uneven,
+        View(3.0, elevation=12, height=1.1),
+        (
+            Variant("Control mesh", as_it_is=True),
+            *(
+                Variant(f"Spacing {text}", {"metric_exponent": value})
+                for text, value in (("0", 0), ("½", 0.5), ("1", 1))
+            ),
+        ),
+        SMOOTH,
+    ),
+    "release": Figure(
+        meshes.icosahedron,
+        View(2.4, turn=20, elevation=25, height=0.95, look="zebra", stripes=9),
+        _values("epsilon", 0, 0.02, 0.06, label="Release {}"),
+        SMOOTH | {"levels": 5},
+    ),
+    "joint": Figure(
+        meshes.ramp,
+        View(4.6, turn=35, elevation=30, height=0.4, look="zebra", stripes=8),
+        (
+            Variant("Touching", {"joint": "POSITION"}),
+            Variant("Tangent", {"joint": "TANGENT"}),
+            Variant("Curvature", {"joint": "CURVATURE"}),
+        ),
+        SMOOTH | {"use_selection": True},
+    ),
+    "control_mesh": Figure(
+        meshes.half_suzanne,
+        View(3.1, turn=20, height=0.85),
+        (Variant("As Modelled"), Variant("With Modifiers", {"mesh_source": "EVALUATED"})),
+        SMOOTH | {"levels": 3},
+    ),
+    "shade_smooth": Figure(
+        meshes.suzanne,
+        View(3.1, turn=20, height=0.85),
+        (Variant("Shade Smooth off"), Variant("Shade Smooth on", {"shade_smooth": True})),
+        {"levels": 2},
+    ),
+    "shape_keys": Figure(
+        meshes.suzanne_with_key,
+        View(3.4, turn=10, height=1.0),
+        tuple(Variant(f"Value {key:.1f}", key=key) for key in (0.0, 0.5, 1.0)),
+        SMOOTH | {"levels": 3},
+    ),
+    "copy_modifiers": Figure(
+        meshes.bent_column,
+        View(3.2, turn=0, elevation=12, height=1.15),
+        (
+            Variant("The source, bent", as_it_is=True),
+            Variant("Copy Modifiers off"),
+            Variant("Copy Modifiers on", {"copy_modifiers": True}),
+        ),
+        SMOOTH,
+    ),
+    "hide_source": Figure(
+        meshes.suzanne,
+        View(3.1, turn=20, height=0.85),
+        (Variant("Hide Source off", {"hide_source": False}), Variant("Hide Source on")),
+        SMOOTH | {"levels": 3},
+        shows_source=True,
+    ),
+}
+
+
+def main(names):
+    unknown = {*names} - {*FIGURES}
+    if unknown:
+        sys.exit(f"No such picture: {', '.join(sorted(unknown))}. There are {', '.join(FIGURES)}.")
+    OUT.mkdir(parents=True, exist_ok=True)
+    addon.register()
+    try:
+        for name in names or FIGURES:
+            draw(FIGURES[name], OUT / f"{name}.png")
+    finally:
+        addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
+
+
+def draw(figure, path):
+    with TemporaryDirectory() as folder:
+        tiles = [Path(folder) / f"{i}.png" for i in range(len(figure.variants))]
+        for tile, variant in zip(tiles, figure.variants, strict=True):
+            draw_variant(figure, variant, tile)
+        compose_row(tiles, path)
+    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
+
+
+def draw_variant(figure, variant, tile):
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    control = figure.make()
+    surfaces = [control]
+    wired = variant.as_it_is or figure.view.wires
+    if not variant.as_it_is:
+        bpy.ops.object.fair_surface(**figure.common | variant.settings)
+        surfaces = [bpy.context.active_object]
+        if surfaces[0].data.shape_keys:
+            surfaces[0].data.shape_keys.key_blocks[1].value = variant.key
+        if figure.shows_source and not control.hide_get():
+            surfaces.append(control)
+    render_tile(tile, variant.label, figure.view, control, surfaces, wired)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
