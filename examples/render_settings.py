@@ -135,9 +135,10 @@ FIGURES = {
         SMOOTH | {"levels": 5},
     ),
     "joint": Figure(
-        meshes.ramp,
-        View(4.6, turn=35, elevation=30, height=0.4, look="zebra", stripes=8),
+        meshes.bump,
+        View(7.0, turn=20, elevation=22, height=0.5),
         (
+            Variant("Control mesh", as_it_is=True),
             Variant("Touching", {"joint": "POSITION"}),
             Variant("Tangent", {"joint": "TANGENT"}),
             Variant("Curvature", {"joint": "CURVATURE"}),
@@ -152,7 +153,7 @@ FIGURES = {
     ),
     "shade_smooth": Figure(
         meshes.suzanne,
-        View(3.1, turn=20, height=0.85),
+        View(2.8, turn=20, height=0.85),
         (Variant("Shade Smooth off"), Variant("Shade Smooth on", {"shade_smooth": True})),
         {"levels": 2},
     ),

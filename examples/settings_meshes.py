@@ -156,20 +156,19 @@ def _lathe(profile, sides):
     return add(vertices, faces)
 
 
-def ramp():
-    """Two plates at different heights, the faces between them selected."""
-    xs = np.linspace(-2.4, 2.4, 9)
-    ys = np.linspace(-0.9, 0.9, 4)
-    heights = np.interp(xs, (-0.9, 0.9), (0.0, 0.9))
-    vertices = [(x, y, z) for x, z in zip(xs, heights) for y in ys]
-    rows = len(ys)
-    faces = []
-    for i, j in product(range(len(xs) - 1), range(rows - 1)):
-        a, b = i * rows + j, (i + 1) * rows + j
-        faces.append((a, b, b + 1, a + 1))
+def bump():
+    """A flat sheet with a bump of four by four faces, which are selected."""
+    at = range(-4, 5)
+    height = {0: 1.5, 1: 0.95}
+    vertices = [(x, y, height.get(max(abs(x), abs(y)), 0.0)) for x in at for y in at]
+    count = len(at)
+    faces = [
+        (i * count + j, (i + 1) * count + j, (i + 1) * count + j + 1, i * count + j + 1)
+        for i, j in product(range(count - 1), repeat=2)
+    ]
     control = add(vertices, faces)
     for face in control.data.polygons:
-        face.select = abs(face.center.x) < 1.2
+        face.select = max(abs(face.center.x), abs(face.center.y)) < 2
     return control
 
 

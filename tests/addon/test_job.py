@@ -7,6 +7,7 @@ import pytest
 from scenes import CUBE, activate, add, add_suzanne, fair, positions
 
 from addon.inspection import override
+from addon.run.job import Job
 
 
 def test_uv_groups_and_materials_arrive():
@@ -112,3 +113,12 @@ def test_notes_are_told(capfd):
     source.data.normals_split_custom_set([(0.0, 0.0, 1.0)] * 24)
     fair(levels=1)
     assert "Custom normals are dropped" in capfd.readouterr().out
+
+
+def test_a_source_that_is_deleted_meanwhile_is_noticed():
+    source = add("Box", *CUBE)
+    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job.compute()
+    assert job.is_writable()
+    bpy.data.objects.remove(source)
+    assert not job.is_writable()

@@ -96,6 +96,19 @@ def view():
     return {"window": window, "screen": window.screen, "area": area, "region": region}
 
 
+def add_suzanne():
+    """Suzanne, alone in the scene, with the viewport before her; for a window."""
+    for other in list(bpy.data.objects):
+        bpy.data.objects.remove(other)
+    with bpy.context.temp_override(**view()):
+        bpy.ops.mesh.primitive_monkey_add(size=4)
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Suzanne is there")
+    return bpy.data.objects["Suzanne"]
+
+
 def open_sidebar(category):
     """Opens the viewport's sidebar at a tab; a generator, as the sidebar has to be drawn once before."""
     area = view()["area"]

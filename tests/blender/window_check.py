@@ -25,18 +25,6 @@ def unfold(*panels):
     yield 0.5
 
 
-def suzanne():
-    """Suzanne, alone in the scene, and the viewport turned to her face."""
-    for other in list(bpy.data.objects):
-        bpy.data.objects.remove(other)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.primitive_monkey_add(size=4)
-        bpy.ops.view3d.view_axis(type="FRONT")
-        bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
-        bpy.ops.view3d.view_selected()
-    return bpy.data.objects["Suzanne"]
-
-
 def wait_for_shading(name, least):
     """Until the middle of the viewport has that many colours: shaders take their time to compile. A generator."""
     view = harness.view()
@@ -57,7 +45,7 @@ def contrast(path, crop):
 
 
 def test_check_selects_what_is_wrong():
-    source = suzanne()
+    source = harness.add_suzanne()
     bm = bmesh.new()
     bm.from_mesh(source.data)
     bm.faces.ensure_lookup_table()
@@ -78,7 +66,7 @@ def test_check_selects_what_is_wrong():
 
 
 def test_zebra_and_curvature_are_seen():
-    source = suzanne()
+    source = harness.add_suzanne()
     yield from unfold("VIEW3D_PT_fairing_inspect")
     with bpy.context.temp_override(**harness.view(), active_object=source, selected_objects=[source]):
         assert bpy.ops.object.fair_surface(levels=3) == {"FINISHED"}

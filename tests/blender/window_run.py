@@ -19,16 +19,6 @@ TOO_LONG = 7  # and to be cancelled
 PATIENCE = 120.0  # seconds until a run must have ended
 
 
-def add_suzanne():
-    """Suzanne, alone in the scene."""
-    for other in list(bpy.data.objects):
-        bpy.data.objects.remove(other)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.primitive_monkey_add(size=4)
-        bpy.ops.ed.undo_push(message="Suzanne is there")
-    return bpy.data.objects["Suzanne"]
-
-
 def running():
     """The extension's queue at work, or None."""
     return importlib.import_module(f"{harness.EXTENSION}.run.modal").running()
@@ -92,7 +82,7 @@ def wait_for_the_end():
 
 def open_panel(levels):
     """Suzanne and the sidebar, as a user would have them; a generator that returns the source and the settings."""
-    source = add_suzanne()
+    source = harness.add_suzanne()
     settings = bpy.context.scene.discrete_fairing
     settings.levels = levels
     yield from harness.open_sidebar("Fairing")
@@ -118,6 +108,10 @@ def test_progress_is_shown_and_the_surface_comes():
     advanced = yield from wait_for_the_end()
     assert advanced > 3, f"progress was seen to advance {advanced} times only"
     assert len(bpy.data.objects["Suzanne Fair"].data.polygons) >= 500 * 4**LONG
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 0.5
+    assert list(bpy.data.objects.keys()) == ["Suzanne"], "undone in one step"
 
 
 def test_escape_leaves_the_scene_as_it_was():
@@ -201,6 +195,21 @@ def test_recompute_save_and_reload():
     harness.photograph("recompute")
 
 
+def test_several_objects_queue():
+    first = harness.add_suzanne()
+    second = first.copy()
+    second.data = first.data.copy()
+    bpy.context.collection.objects.link(second)
+    second.location.x = 4.0
+    for source in (first, second):
+        source.select_set(True)
+    with bpy.context.temp_override(**harness.view()):
+        assert bpy.ops.object.fair_surface("INVOKE_DEFAULT", levels=4) == {"RUNNING_MODAL"}
+    assert running().position == (1, 2)
+    yield from wait_for_the_end()
+    assert {o.name for o in bpy.context.view_layer.objects.selected} == {"Suzanne Fair", "Suzanne.001 Fair"}
+
+
 def test_edit_mode_and_a_region():
     source, settings = yield from open_panel(TOO_LONG)
     with bpy.context.temp_override(**harness.view()):
@@ -224,6 +233,31 @@ def test_disable_while_nothing_runs():
     bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
     yield 0.5
     assert hasattr(bpy.types, "VIEW3D_PT_fairing")
+
+
+def start_long_run():
+    """A run that would take minutes, begun."""
+    harness.add_suzanne()
+    with bpy.context.temp_override(**harness.view()):
+        assert bpy.ops.object.fair_surface("INVOKE_DEFAULT", levels=TOO_LONG) == {"RUNNING_MODAL"}
+    assert running()
+
+
+def test_another_file_is_opened_meanwhile():
+    start_long_run()
+    yield 0.5
+    harness.fresh_scene(empty=False)
+    yield 0.5
+    assert running() is None, "the run ends with its file"
+    _, settings = yield from open_panel(2)
+    yield from press(settings)
+    assert "Suzanne Fair" in bpy.data.objects
+
+
+def test_quitting_meanwhile():
+    """The last one: Blender has to end by itself afterwards, which the time limit of the script sees to."""
+    start_long_run()
+    yield 0.5
 
 
 harness.run_in_window(globals())
