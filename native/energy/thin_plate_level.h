@@ -45,6 +45,7 @@ class ThinPlateLevel final : public LevelOperator {
   }
 
   std::size_t points() const override { return lattice_.size(); }
+  std::size_t components() const override { return 3; }
   void apply(const double* x, double* y) override {
     apply_thin_plate(lattice_, shared_.fine_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.fine_exchange, x, y);

@@ -23,7 +23,7 @@ struct Unknowns {
 };
 
 // The slots of one level. May serve smaller levels too (`fit` grows them).
-template <class T>
+template <class T, int C = 3>
 struct Exchange {
   Array<T> row;    // per side: what the edge adds to the face's first row, in the edge's direction
   Array<T> side;   // per side: what the face adds to its points 0 … n - 1
@@ -33,10 +33,10 @@ struct Exchange {
   void fit(const Lattice& lattice) {
     const auto& mesh = lattice.mesh();
     const std::size_t n = std::size_t(lattice.n()), sides = mesh.sides.size();
-    grow(row, sides * lane_stride(lattice.n()));
-    grow(side, 3 * sides * n);
-    grow(end, 6 * mesh.edges.size());
-    grow(spoke, 6 * mesh.spokes.size());
+    grow(row, sides * lane_stride<C>(lattice.n()));
+    grow(side, C * sides * n);
+    grow(end, 2 * C * mesh.edges.size());
+    grow(spoke, 2 * C * mesh.spokes.size());
   }
 
  private:
@@ -52,25 +52,25 @@ inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 2048 / 
 // `unknowns` is null). Bodies:
 //   vertex_body(v, centre, spokes, scratch)   adds to zeros. centre: one point; spokes: two points a spoke of v's ring
 //   edge_body(e, run, left, right, scratch)   sets all. run: points 0 … n of the edge; left, right: the rows next to
-//                                             it, in its direction (null without a face); lane_stride(n) numbers each
+//                                             it, in its direction (null without a face); lane_stride<C>(n) numbers each
 //   face_body(f, closed, scratch)             sets all. closed: the closed face, row by row, and a block more; not
 //                                             called for faces that are not unknowns, around which nothing is
 // `scratch` is a vector of the calling thread's to work in.
-template <class T, class VertexBody, class EdgeBody, class FaceBody>
-void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange, const Unknowns* unknowns,
+template <class T, int C, class VertexBody, class EdgeBody, class FaceBody>
+void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchange, const Unknowns* unknowns,
                 T* out, VertexBody&& vertex_body, EdgeBody&& edge_body, FaceBody&& face_body) {
   const ControlMesh& mesh = lattice.mesh();
   const int n = lattice.n();
-  const std::size_t un = std::size_t(n), row_stride = lane_stride(n), side_stride = 3 * un;
+  const std::size_t un = std::size_t(n), row_stride = lane_stride<C>(n), side_stride = C * un;
   exchange.fit(lattice);
 
   workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<T> scratch;
     for (std::size_t v = begin; v < end; ++v) {
-      T* spokes = exchange.spoke.data() + 6 * std::size_t(mesh.ring_offset[v]);
-      std::fill(spokes, exchange.spoke.data() + 6 * std::size_t(mesh.ring_offset[v + 1]), T(0));
-      std::fill(out + 3 * v, out + 3 * v + 3, T(0));
-      vertex_body(Index(v), out + 3 * v, spokes, scratch);
+      T* spokes = exchange.spoke.data() + 2 * C * std::size_t(mesh.ring_offset[v]);
+      std::fill(spokes, exchange.spoke.data() + 2 * C * std::size_t(mesh.ring_offset[v + 1]), T(0));
+      std::fill(out + C * v, out + C * v + C, T(0));
+      vertex_body(Index(v), out + C * v, spokes, scratch);
     }
   });
 
@@ -83,22 +83,22 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
         rows[h] = edge.side[h] < 0 ? nullptr : exchange.row.data() + row_stride * std::size_t(edge.side[h]);
       }
       edge_body(Index(e), run.data(), rows[0], rows[1], scratch);
-      T* end_slot = exchange.end.data() + 6 * e;
-      copy_point(end_slot, run.data());
-      copy_point(end_slot + 3, run.data() + 3 * n);
-      std::copy(run.begin() + 3, run.begin() + 3 * n, out + 3 * std::size_t(lattice.edge_base(Index(e))));
+      T* end_slot = exchange.end.data() + 2 * C * e;
+      copy_point<C>(end_slot, run.data());
+      copy_point<C>(end_slot + C, run.data() + C * n);
+      std::copy(run.begin() + C, run.begin() + C * n, out + C * std::size_t(lattice.edge_base(Index(e))));
     }
   });
 
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<T> closed(3 * closed_size(true, un) + lane_block), scratch;
+    std::vector<T> closed(C * closed_size(true, un) + lane_block), scratch;
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];
       const bool quad = face.quad();
       T* side = exchange.side.data() + side_stride * std::size_t(face.first_side);
       if (unknowns && !unknowns->has_face(f)) {
-        T* inside = out + 3 * std::size_t(lattice.face_base(Index(f)));
-        std::fill(inside, inside + 3 * interior_size(quad, n), T(0));
+        T* inside = out + C * std::size_t(lattice.face_base(Index(f)));
+        std::fill(inside, inside + C * interior_size(quad, n), T(0));
         std::fill(side, side + side_stride * std::size_t(face.size), T(0));
         continue;
       }
@@ -109,17 +109,17 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
         const int m = fixed ? fixed : n;
         for (int s = 0; s < (four ? 4 : 3) && m > 1; ++s) {
           const T* row = rows + row_stride * std::size_t(s);
-          const std::ptrdiff_t step = sides[s].reversed ? -3 : 3;
-          if (step < 0) row += 3 * (row_size(four, m) - 1);
+          const std::ptrdiff_t step = sides[s].reversed ? -C : C;
+          if (step < 0) row += C * (row_size(four, m) - 1);
           SideWalk walk = side_walk(four, m, s, 0, 1);
           for (int k = 0; k < row_size(four, m); ++k, walk.next(), row += step)
-            add_point(closed.data() + 3 * walk.offset, row);
+            add_point<C>(closed.data() + C * walk.offset, row);
         }
       });
       for (int c = 0; c < 4 && quad; ++c) {
         const Index spoke = mesh.spoke_of_side[std::size_t(face.first_side + c)];
-        add_point(&closed[3 * side_offset(true, n, c, 1, 1)],
-                  exchange.spoke.data() + 6 * std::size_t(spoke) + 3);
+        add_point<C>(&closed[C * side_offset(true, n, c, 1, 1)],
+                     exchange.spoke.data() + 2 * C * std::size_t(spoke) + C);
       }
       scatter_interior(lattice, closed.data(), Index(f), out);
       with_shape(quad, n, [&]<bool four, int fixed>() {
@@ -127,7 +127,8 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
         T* to = side;
         for (int s = 0; s < (four ? 4 : 3); ++s) {
           SideWalk walk = side_walk(four, m, s, 0, 0);
-          for (int k = 0; k < m; ++k, walk.next(), to += 3) copy_point(to, closed.data() + 3 * walk.offset);
+          for (int k = 0; k < m; ++k, walk.next(), to += C)
+            copy_point<C>(to, closed.data() + C * walk.offset);
         }
       });
     }
@@ -136,47 +137,49 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T>& exchange,
   workers.for_parts(mesh.edges.size(), element_grain(n) * un, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end && n > 1; ++e) {
       const Edge& edge = mesh.edges[e];
-      T* run = out + 3 * std::size_t(lattice.edge_base(Index(e)));
+      T* run = out + C * std::size_t(lattice.edge_base(Index(e)));
       if (unknowns && !unknowns->edge[e]) {
-        std::fill(run, run + 3 * (n - 1), T(0));
+        std::fill(run, run + C * (n - 1), T(0));
         continue;
       }
       if (edge.side[0] >= 0) {
         const T* side = exchange.side.data() + side_stride * std::size_t(edge.side[0]);
-        for (int k = 3; k < 3 * n; ++k) run[k - 3] += side[k];
+        for (int k = C; k < C * n; ++k) run[k - C] += side[k];
       }
       if (edge.side[1] >= 0) {
         const T* side = exchange.side.data() + side_stride * std::size_t(edge.side[1]);
-        for (int k = 1; k < n; ++k) add_point(run + 3 * (k - 1), side + 3 * (n - k));
+        for (int k = 1; k < n; ++k) add_point<C>(run + C * (k - 1), side + C * (n - k));
       }
       for (std::size_t h = 0; h < 2; ++h)
-        add_point(run + (h == 0 ? 0 : 3 * (n - 2)),
-                  exchange.spoke.data() + 6 * std::size_t(mesh.spoke_of_edge[2 * e + h]));
+        add_point<C>(run + (h == 0 ? 0 : C * (n - 2)),
+                     exchange.spoke.data() + 2 * C * std::size_t(mesh.spoke_of_edge[2 * e + h]));
     }
   });
 
   if (unknowns && !unknowns->any_vertex) {
-    std::fill(out, out + 3 * std::size_t(mesh.vertex_count()), T(0));
+    std::fill(out, out + C * std::size_t(mesh.vertex_count()), T(0));
     return;
   }
   workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      T* centre = out + 3 * v;
+      T* centre = out + C * v;
       if (unknowns && !unknowns->vertex[v]) {
-        std::fill(centre, centre + 3, T(0));
+        std::fill(centre, centre + C, T(0));
         continue;
       }
       for (const Spoke& spoke : mesh.ring(Index(v))) {
-        add_point(centre, exchange.end.data() + 6 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 3));
+        add_point<C>(centre, exchange.end.data() + 2 * C * std::size_t(spoke.edge) + (spoke.outward ? 0 : C));
         if (spoke.face >= 0) {
           const Face& face = mesh.faces[std::size_t(spoke.face)];
-          add_point(centre, exchange.side.data() + side_stride * std::size_t(face.first_side + spoke.corner));
+          add_point<C>(centre,
+                       exchange.side.data() + side_stride * std::size_t(face.first_side + spoke.corner));
         }
         if (n == 1)
-          add_point(
+          add_point<C>(
               centre,
               exchange.spoke.data() +
-                  6 * std::size_t(mesh.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 1 : 0)]));
+                  2 * C *
+                      std::size_t(mesh.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 1 : 0)]));
       }
     }
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A closed face as one padded buffer, and the row next to a side: what the branch-free loops run on.
-// Vectors hold three interleaved coordinates a point.
+// Vectors hold C interleaved numbers a point: three coordinates, or one displacement.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,14 @@
 
 namespace fairing {
 
-template <class T>
+template <int C = 3, class T>
 inline void copy_point(T* to, const T* from) {
-  to[0] = from[0];
-  to[1] = from[1];
-  to[2] = from[2];
+  for (int a = 0; a < C; ++a) to[a] = from[a];
 }
 
-template <class T>
+template <int C = 3, class T>
 inline void add_point(T* to, const T* from) {
-  to[0] += from[0];
-  to[1] += from[1];
-  to[2] += from[2];
+  for (int a = 0; a < C; ++a) to[a] += from[a];
 }
 
 // Offset in a closed face of point k of side s.
@@ -35,15 +31,16 @@ constexpr int row_size(bool quad, int n) { return quad ? n + 1 : n; }
 
 // Numbers of an edge's lane: points 0 … n in whole blocks.
 constexpr int lane_block = 8;
+template <int C = 3>
 constexpr std::size_t lane_stride(int n) {
-  return std::size_t((3 * (n + 1) + lane_block - 1) / lane_block * lane_block);
+  return std::size_t((C * (n + 1) + lane_block - 1) / lane_block * lane_block);
 }
 
 // Zeros on an edge's run and the rows beside it.
-template <class T>
+template <int C = 3, class T>
 void clear_lanes(int n, T* run, T* left, T* right) {
   for (T* lane : {run, left, right})
-    if (lane) std::fill(lane, lane + lane_stride(n), T(0));
+    if (lane) std::fill(lane, lane + lane_stride<C>(n), T(0));
 }
 
 // Walks point k = first … last of side coordinates (k, r) in closed storage: offset of the first, then steps. In a
@@ -95,33 +92,34 @@ inline SideWalk interior_walk(bool quad, int n, int s, int k) {
 }
 
 // x on the edge's points 0 … n.
-template <class T>
+template <int C = 3, class T>
 void gather_edge(const Lattice& lattice, const T* x, Index e, T* run) {
   const Edge& edge = lattice.mesh().edges[std::size_t(e)];
   const int n = lattice.n();
-  copy_point(run, x + 3 * std::size_t(edge.vertex[0]));
-  std::memcpy(run + 3, x + 3 * std::size_t(lattice.edge_base(e)), std::size_t(3 * (n - 1)) * sizeof(T));
-  copy_point(run + 3 * n, x + 3 * std::size_t(edge.vertex[1]));
+  copy_point<C>(run, x + C * std::size_t(edge.vertex[0]));
+  std::memcpy(run + C, x + C * std::size_t(lattice.edge_base(e)), std::size_t(C * (n - 1)) * sizeof(T));
+  copy_point<C>(run + C * n, x + C * std::size_t(edge.vertex[1]));
 }
 
 // x on the row next to a side (side coordinates (0 … , 1)), in the direction of the side's edge.
-template <class T>
+template <int C = 3, class T>
 void gather_row(const Lattice& lattice, const T* x, const Side& side, T* row) {
   const Face& face = lattice.mesh().faces[std::size_t(side.face)];
   const int n = lattice.n(), size = row_size(face.quad(), n), sides = face.size;
-  const std::ptrdiff_t step = side.reversed ? -3 : 3;
-  if (side.reversed) row += 3 * (size - 1);
+  const std::ptrdiff_t step = side.reversed ? -C : C;
+  if (side.reversed) row += C * (size - 1);
   const auto side_at = [&](int s) -> const Side& {
     return lattice.mesh().sides[std::size_t(face.first_side + s)];
   };
-  copy_point(row, x + 3 * std::size_t(lattice.side_point(side_at((side.local + sides - 1) % sides), n - 1)));
+  copy_point<C>(row,
+                x + C * std::size_t(lattice.side_point(side_at((side.local + sides - 1) % sides), n - 1)));
   if (size > 2) {
-    const T* inside = x + 3 * std::size_t(lattice.face_base(side.face));
+    const T* inside = x + C * std::size_t(lattice.face_base(side.face));
     SideWalk walk = interior_walk(face.quad(), n, side.local, 1);
-    for (int k = 1; k < size - 1; ++k, walk.next()) copy_point(row + step * k, inside + 3 * walk.offset);
+    for (int k = 1; k < size - 1; ++k, walk.next()) copy_point<C>(row + step * k, inside + C * walk.offset);
   }
-  copy_point(row + step * (size - 1),
-             x + 3 * std::size_t(lattice.side_point(side_at((side.local + 1) % sides), 1)));
+  copy_point<C>(row + step * (size - 1),
+                x + C * std::size_t(lattice.side_point(side_at((side.local + 1) % sides), 1)));
 }
 
 // Calls body.template operator()<quad, n>(): the small n that most meshes are refined to are known to the compiler, all
@@ -143,45 +141,45 @@ inline void with_shape(bool quad, int n, Body&& body) {
 }
 
 // x on the whole closed face, row by row.
-template <class T>
+template <int C = 3, class T>
 void gather_face(const Lattice& lattice, const T* x, Index f, T* closed) {
   const Face& face = lattice.mesh().faces[std::size_t(f)];
   const Side* sides = lattice.mesh().sides.data() + face.first_side;
-  const T* inside = x + 3 * std::size_t(lattice.face_base(f));
+  const T* inside = x + C * std::size_t(lattice.face_base(f));
   with_shape(face.quad(), lattice.n(), [&]<bool quad, int fixed>() {
     const int n = fixed ? fixed : lattice.n();
     for (int s = 0; s < (quad ? 4 : 3); ++s) {
       SideWalk walk = side_walk(quad, n, s, 0, 0);
-      copy_point(closed + 3 * walk.offset, x + 3 * std::size_t(face.vertex[std::size_t(s)]));
+      copy_point<C>(closed + C * walk.offset, x + C * std::size_t(face.vertex[std::size_t(s)]));
       walk.next();
       const bool back = sides[s].reversed;
-      const std::ptrdiff_t step = back ? -3 : 3;
-      const T* from = x + 3 * (std::size_t(lattice.edge_base(sides[s].edge)) + std::size_t(back ? n - 2 : 0));
-      for (int k = 1; k < n; ++k, walk.next(), from += step) copy_point(closed + 3 * walk.offset, from);
+      const std::ptrdiff_t step = back ? -C : C;
+      const T* from = x + C * (std::size_t(lattice.edge_base(sides[s].edge)) + std::size_t(back ? n - 2 : 0));
+      for (int k = 1; k < n; ++k, walk.next(), from += step) copy_point<C>(closed + C * walk.offset, from);
     }
-    T* to = closed + 3 * (n + 2);
+    T* to = closed + C * (n + 2);
     const T* from = inside;
     for (int j = 1, width = quad ? n - 1 : n - 2; j < n && width > 0; ++j) {
-      std::memcpy(to, from, std::size_t(3 * width) * sizeof(T));
-      from += 3 * width;
-      to += 3 * (quad ? n + 1 : n + 1 - j);
+      std::memcpy(to, from, std::size_t(C * width) * sizeof(T));
+      from += C * width;
+      to += C * (quad ? n + 1 : n + 1 - j);
       if (!quad) --width;
     }
   });
 }
 
 // Writes the interior points of a closed face back.
-template <class T>
+template <int C = 3, class T>
 void scatter_interior(const Lattice& lattice, const T* closed, Index f, T* x) {
-  T* inside = x + 3 * std::size_t(lattice.face_base(f));
+  T* inside = x + C * std::size_t(lattice.face_base(f));
   with_shape(lattice.mesh().faces[std::size_t(f)].quad(), lattice.n(), [&]<bool quad, int fixed>() {
     const int n = fixed ? fixed : lattice.n();
-    const T* from = closed + 3 * (n + 2);
+    const T* from = closed + C * (n + 2);
     T* to = inside;
     for (int j = 1, width = quad ? n - 1 : n - 2; j < n && width > 0; ++j) {
-      std::memcpy(to, from, std::size_t(3 * width) * sizeof(T));
-      to += 3 * width;
-      from += 3 * (quad ? n + 1 : n + 1 - j);
+      std::memcpy(to, from, std::size_t(C * width) * sizeof(T));
+      to += C * width;
+      from += C * (quad ? n + 1 : n + 1 - j);
       if (!quad) --width;
     }
   });

@@ -56,19 +56,19 @@ struct EdgeRingLanes {
 
 // The edge and the rows beside it, gathered into scratch; all run with the edge. Each lane has room for a
 // block more.
-template <class T>
+template <class T, int C = 3>
 struct EdgeLanes {
   T* lane[3];
 
   EdgeLanes(const Lattice& lattice, const T* x, Index e, std::vector<T>& scratch) {
     const ControlMesh& mesh = lattice.mesh();
-    const std::size_t stride = lane_stride(lattice.n()) + lane_block;
+    const std::size_t stride = lane_stride<C>(lattice.n()) + lane_block;
     if (scratch.size() < 3 * stride) scratch.resize(3 * stride);
     for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch.data() + l * stride;
-    gather_edge(lattice, x, e, lane[0]);
+    gather_edge<C>(lattice, x, e, lane[0]);
     for (std::size_t h = 0; h < 2; ++h) {
       const Index side = mesh.edges[std::size_t(e)].side[h];
-      if (side >= 0) gather_row(lattice, x, mesh.sides[std::size_t(side)], lane[1 + h]);
+      if (side >= 0) gather_row<C>(lattice, x, mesh.sides[std::size_t(side)], lane[1 + h]);
     }
   }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/chebyshev.h"
 
+#include <cstring>
+
 #include "execution/vectors.h"
 #include "execution/wide.h"
 
@@ -8,13 +10,14 @@ namespace fairing {
 namespace {
 
 // One pass over the vectors: r -= image, d = carry d + gain D^-1 r, x += d; without `image` r stays, without `add` x
-// is set. The diagonal, one number a point, is spread to three first, a few points at a time: the rest then runs on
-// whole packs.
+// is set. The diagonal, one number a point, is spread to all components first, a few points at a time: the rest then
+// runs on whole packs.
 struct Step {
   const float *inverse, *image;
   float *x, *r, *d;
   float carry, gain;
   bool add;
+  std::size_t components;  // 1 or 3
 };
 
 constexpr std::size_t spread_points = 64;
@@ -29,9 +32,12 @@ struct StepLoop {
     T weight[3 * spread_points + lane_room];
     for (std::size_t first = begin; first < end; first += spread_points) {
       const std::size_t count = end - first < spread_points ? end - first : spread_points;
-      for (std::size_t p = 0; p < count; ++p)
-        weight[3 * p] = weight[3 * p + 1] = weight[3 * p + 2] = s.inverse[first + p];
-      const std::size_t at = 3 * first, size = 3 * count;
+      if (s.components == 1)
+        std::memcpy(weight, s.inverse + first, count * sizeof(T));
+      else
+        for (std::size_t p = 0; p < count; ++p)
+          weight[3 * p] = weight[3 * p + 1] = weight[3 * p + 2] = s.inverse[first + p];
+      const std::size_t at = s.components * first, size = s.components * count;
       std::size_t i = 0;
       for (; i + P::size <= size; i += P::size) {
         Pack r, d, x, w;
@@ -74,8 +80,9 @@ struct StepLoop {
 void smooth(LevelOperator& op, Workers& workers, double largest_eigenvalue, int degree, bool from_zero,
             bool last_residual, SmootherState& s) {
   const std::size_t points = op.points();
-  Step step{op.inverse_diagonal().data(),          nullptr,   s.x.data(), s.residual.data(), s.step.data(), 0,
-            float(4.0 / 3.0 / largest_eigenvalue), !from_zero};
+  Step step{
+      op.inverse_diagonal().data(),          nullptr,    s.x.data(),     s.residual.data(), s.step.data(), 0,
+      float(4.0 / 3.0 / largest_eigenvalue), !from_zero, op.components()};
   const auto advance = [&] {
     workers.for_parts(points, vector_grain / 4, [&](std::size_t begin, std::size_t end) {
       run_loop<StepLoop, float>(static_cast<const Step*>(&step), begin, end);
@@ -94,7 +101,7 @@ void smooth(LevelOperator& op, Workers& workers, double largest_eigenvalue, int 
   op.apply(s.step.data(), s.image.data());
   float* r = s.residual.data();
   const float* image = s.image.data();
-  for_each_index(workers, 3 * points, [=](std::size_t i) { r[i] -= image[i]; });
+  for_each_index(workers, op.size(), [=](std::size_t i) { r[i] -= image[i]; });
 }
 
 }  // namespace fairing

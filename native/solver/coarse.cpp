@@ -43,17 +43,18 @@ void CoarseSolver::refactor() {
 CoarseSolver::~CoarseSolver() { MemoryLedger::remove(factor_bytes_); }
 
 void CoarseSolver::solve(const double* b, double* x) const {
-  std::fill(x, x + 3 * op_.points(), 0.0);
+  std::fill(x, x + op_.size(), 0.0);
   const auto& points = factor_->points;
   if (points.empty()) return;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> right(Eigen::Index(points.size()), 3);
+  const std::size_t components = op_.components();
+  Eigen::MatrixXd right(Eigen::Index(points.size()), Eigen::Index(components));
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t a = 0; a < 3; ++a)
-      right(Eigen::Index(i), Eigen::Index(a)) = b[3 * std::size_t(points[i]) + a];
+    for (std::size_t a = 0; a < components; ++a)
+      right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
   right = factor_->ldlt.solve(right).eval();
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t a = 0; a < 3; ++a)
-      x[3 * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
+    for (std::size_t a = 0; a < components; ++a)
+      x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
 }
 
 void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& state) {
@@ -62,7 +63,7 @@ void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& s
     smooth(op_, workers_, largest_eigenvalue, degree, true, false, state);
     return;
   }
-  const std::size_t size = 3 * op_.points();
+  const std::size_t size = op_.size();
   const std::vector<double> b(state.residual.begin(), state.residual.begin() + std::ptrdiff_t(size));
   std::vector<double> x(size);
   solve(b.data(), x.data());

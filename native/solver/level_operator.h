@@ -10,12 +10,15 @@
 
 namespace fairing {
 
-// A symmetric positive definite operator on the unknown points of a level, the same for x, y and z. Vectors hold three
-// interleaved numbers a point; results are zero on points that are not unknowns.
+// A symmetric positive definite operator on the unknown points of a level. Vectors hold components() interleaved numbers
+// a point, which the operator does not mix: x, y and z, or one displacement. Results are zero on points that are not
+// unknowns.
 class LevelOperator {
  public:
   virtual ~LevelOperator() = default;
   virtual std::size_t points() const = 0;
+  virtual std::size_t components() const = 0;
+  std::size_t size() const { return components() * points(); }  // of a vector
   virtual void apply(const double* x, double* y) = 0;
   virtual void apply(const float* x, float* y) = 0;  // inside the preconditioner
   virtual const Array<float>& inverse_diagonal() const = 0;

@@ -19,7 +19,7 @@ void VCycle::run(std::size_t top) {
   level.transfer->prolong(levels[top - 1].state.x.data(), s.step.data());
   monitor_.check_cancelled();
   level.op->apply(s.step.data(), s.image.data());
-  for_each_index(workers_, 3 * level.op->points(), [&](std::size_t i) {
+  for_each_index(workers_, level.op->size(), [&](std::size_t i) {
     s.x[i] += s.step[i];
     s.residual[i] -= s.image[i];
   });

@@ -10,7 +10,7 @@ namespace fairing {
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
                               PcgState& s, double* x, const std::function<bool(const PcgResult&)>& each) {
   CycleLevel& level = cycle.levels[top];
-  const std::size_t size = 3 * level.op->points();
+  const std::size_t size = level.op->size();
   double *r = s.residual.data(), *p = s.direction.data(), *q = s.image.data();
   const float* z = level.state.x.data();
 

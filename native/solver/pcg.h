@@ -32,8 +32,7 @@ struct PcgState {
   Array<double> residual, direction, image;
 };
 
-// Preconditioned conjugate gradients on all three coordinates at once (one scalar system, so the iterates turn with the
-// mesh). The flexible beta allows for a preconditioner of single precision, and for one that changes on the way: `each`
+// Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates turn with the mesh). The flexible beta allows for a preconditioner of single precision, and for one that changes on the way: `each`
 // may raise cycle.degree after an iteration; it returns false to stop. On entry state.residual is b - K x; x is updated
 // in place.
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,

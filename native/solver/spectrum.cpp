@@ -13,12 +13,12 @@ constexpr double margin = 1.1;  // Lanczos comes from below
 }  // namespace
 
 double largest_eigenvalue(LevelOperator& op, Workers& workers, const double* start) {
-  const std::size_t size = 3 * op.points();
+  const std::size_t components = op.components(), size = op.size();
   const Array<float>& inverse = op.inverse_diagonal();
   Array<float> roots(size);
   workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      roots[3 * p] = roots[3 * p + 1] = roots[3 * p + 2] = float(std::sqrt(double(inverse[p])));
+      std::fill_n(roots.data() + components * p, components, float(std::sqrt(double(inverse[p]))));
   });
   const auto root = [&](std::size_t i) { return double(roots[i]); };
   // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.

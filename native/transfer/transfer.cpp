@@ -54,67 +54,67 @@ void linear_halves(const ControlMesh& mesh, Index v, Visit&& visit) {
 
 }  // namespace
 
-template <class T>
+template <class T, int C>
 void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, const Unknowns* unknowns,
-             Workers& workers, Exchange<T>& exchange, const T* x, T* y) {
+             Workers& workers, Exchange<T, C>& exchange, const T* x, T* y) {
   const ControlMesh& mesh = coarse.mesh();
   const int n = coarse.n();
 
   const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>& scratch) {
-    const T* origin = x + 3 * std::size_t(v);
-    copy_point(centre, origin);
-    scratch.assign(6 * mesh.ring(v).size(), T(0));
+    const T* origin = x + C * std::size_t(v);
+    copy_point<C>(centre, origin);
+    scratch.assign(2 * C * mesh.ring(v).size(), T(0));
     visit_ring(coarse, v, [&](Index point, std::size_t slot) {
-      for (std::size_t a = 0; a < 3; ++a) scratch[3 * slot + a] = x[3 * std::size_t(point) + a] - origin[a];
+      for (std::size_t a = 0; a < C; ++a) scratch[C * slot + a] = x[C * std::size_t(point) + a] - origin[a];
     });
     if (!st.vertex_fit[std::size_t(v)]) {
       linear_halves<T>(
           mesh, v, [&](std::size_t slot, double weight, T share, const std::size_t* from, std::size_t count) {
-            for (std::size_t a = 0; a < 3; ++a) {
+            for (std::size_t a = 0; a < C; ++a) {
               T value = origin[a];
-              for (std::size_t m = 0; m < count; ++m) value += share * scratch[3 * from[m] + a];
-              spokes[3 * slot + a] += T(weight) * value;
+              for (std::size_t m = 0; m < count; ++m) value += share * scratch[C * from[m] + a];
+              spokes[C * slot + a] += T(weight) * value;
             }
           });
       return;
     }
     const auto first = 5 * std::size_t(st.ring_offset[std::size_t(v)]);
-    T c[5][3] = {};
+    T c[5][C] = {};
     const float* row = st.vertex_rows.data() + first;
     visit_ring(coarse, v, [&](Index, std::size_t slot) {
       for (std::size_t m = 0; m < 5; ++m)
-        for (std::size_t a = 0; a < 3; ++a) c[m][a] += T(row[m]) * scratch[3 * slot + a];
+        for (std::size_t a = 0; a < C; ++a) c[m][a] += T(row[m]) * scratch[C * slot + a];
       row += 5;
     });
     const float* half = st.vertex_half.data() + first;
     visit_ring(coarse, v, [&](Index, std::size_t slot) {
       const T weight = T(slot % 2 == 0 ? of_midpoint : of_centre);
-      for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t a = 0; a < C; ++a) {
         T value = origin[a];
         for (std::size_t m = 0; m < 5; ++m) value += T(half[m]) * c[m][a];
-        spokes[3 * slot + a] += weight * value;
+        spokes[C * slot + a] += weight * value;
       }
       half += 5;
     });
   };
 
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
-    clear_lanes(2 * n, run, left, right);
+    clear_lanes<C>(2 * n, run, left, right);
     if (n == 1) return;
     const EdgeRingLanes ring(mesh, e);
-    const EdgeLanes<T> lanes(coarse, x, e, scratch);
+    const EdgeLanes<T, C> lanes(coarse, x, e, scratch);
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
-      const T* origin = lanes.lane[0] + 3 * k;
-      copy_point(run + 6 * k, origin);
-      T d[8][3];
+      const T* origin = lanes.lane[0] + C * k;
+      copy_point<C>(run + 2 * C * k, origin);
+      T d[8][C];
       for (int j = 0; j < ring.size; ++j)
-        for (int a = 0; a < 3; ++a) d[j][a] = lanes.lane[ring.lane[j]][3 * (ring.at[j] + k) + a] - origin[a];
+        for (int a = 0; a < C; ++a) d[j][a] = lanes.lane[ring.lane[j]][C * (ring.at[j] + k) + a] - origin[a];
       for (int j = 0; j < ring.size; ++j) {
-        T* to = target[ring.lane[j]] + 3 * (2 * k + ring.at[j]);
+        T* to = target[ring.lane[j]] + C * (2 * k + ring.at[j]);
         const T weight = T(ring.far[j] ? of_centre : of_midpoint);
-        for (int a = 0; a < 3; ++a) {
+        for (int a = 0; a < C; ++a) {
           T value = origin[a];
           for (int m = 0; m < ring.size; ++m) value += T(half[8 * j + m]) * d[m][a];
           to[a] += weight * value;
@@ -125,28 +125,28 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
-    std::fill(closed, closed + 3 * closed_size(quad, 2 * std::size_t(n)), T(0));
+    std::fill(closed, closed + C * closed_size(quad, 2 * std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
-    scratch.resize(3 * closed_size(true, std::size_t(n)));
-    gather_face(coarse, x, f, scratch.data());
+    scratch.resize(C * closed_size(true, std::size_t(n)));
+    gather_face<C>(coarse, x, f, scratch.data());
     const Directions& directions = quad ? quad_directions : triangle_directions;
     const auto from = [&](int i, int j) {
-      return scratch.data() + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+      return scratch.data() + C * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
     };
     const auto to = [&](int i, int j) {
-      return closed + 3 * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
+      return closed + C * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
     };
     for (int j = 1; j < n; ++j) {
       const int width = quad ? n - 1 : n - 1 - j;
-      for (int i = 1; i <= width; ++i) add_point(to(2 * i, 2 * j), from(i, j));
+      for (int i = 1; i <= width; ++i) add_point<C>(to(2 * i, 2 * j), from(i, j));
       for (int k = 0; k < directions.size; ++k) {
         const Direction& d = directions.at[k];
         const T wa = T(d.weight * ahead), wh = T(d.weight * here), wb = T(d.weight * behind);
         const T *p = from(1, j), *q = from(1 + d.i, j + d.j), *r = from(1 - d.i, j - d.j);
         T* out = to(2 + d.i, 2 * j + d.j);
         for (int i = 0; i < width; ++i)
-          for (int a = 0; a < 3; ++a)
-            out[6 * i + a] += wa * q[3 * i + a] + wh * p[3 * i + a] + wb * r[3 * i + a];
+          for (int a = 0; a < C; ++a)
+            out[2 * C * i + a] += wa * q[C * i + a] + wh * p[C * i + a] + wb * r[C * i + a];
       }
     }
   };
@@ -154,31 +154,31 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
   accumulate(fine, workers, exchange, unknowns, y, vertex_body, edge_body, face_body);
 }
 
-template <class T>
+template <class T, int C>
 void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st, const Unknowns& unknowns,
-                 Workers& workers, Exchange<T>& exchange, const T* x, T* y) {
+                 Workers& workers, Exchange<T, C>& exchange, const T* x, T* y) {
   const ControlMesh& mesh = coarse.mesh();
   const int n = coarse.n();
 
   const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>& scratch) {
-    add_point(centre, x + 3 * std::size_t(v));
-    scratch.assign(6 * mesh.ring(v).size(), T(0));
+    add_point<C>(centre, x + C * std::size_t(v));
+    scratch.assign(2 * C * mesh.ring(v).size(), T(0));
     visit_ring(fine, v, [&](Index point, std::size_t slot) {
-      copy_point(&scratch[3 * slot], x + 3 * std::size_t(point));
+      copy_point<C>(&scratch[C * slot], x + C * std::size_t(point));
     });
     // What lands on a neighbour's difference is taken from the centre.
     const auto give = [&](std::size_t slot, const T* z) {
-      for (std::size_t a = 0; a < 3; ++a) {
-        spokes[3 * slot + a] += z[a];
+      for (std::size_t a = 0; a < C; ++a) {
+        spokes[C * slot + a] += z[a];
         centre[a] -= z[a];
       }
     };
     if (!st.vertex_fit[std::size_t(v)]) {
       linear_halves<T>(
           mesh, v, [&](std::size_t slot, double weight, T share, const std::size_t* from, std::size_t count) {
-            T z[3];
-            for (std::size_t a = 0; a < 3; ++a) {
-              const T w = T(weight) * scratch[3 * slot + a];
+            T z[C];
+            for (std::size_t a = 0; a < C; ++a) {
+              const T w = T(weight) * scratch[C * slot + a];
               centre[a] += w;
               z[a] = share * w;
             }
@@ -187,12 +187,12 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
       return;
     }
     const auto first = 5 * std::size_t(st.ring_offset[std::size_t(v)]);
-    T c[5][3] = {};
+    T c[5][C] = {};
     const float* half = st.vertex_half.data() + first;
     visit_ring(coarse, v, [&](Index, std::size_t slot) {
       const T weight = T(slot % 2 == 0 ? of_midpoint : of_centre);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const T w = weight * scratch[3 * slot + a];
+      for (std::size_t a = 0; a < C; ++a) {
+        const T w = weight * scratch[C * slot + a];
         centre[a] += w;
         for (std::size_t m = 0; m < 5; ++m) c[m][a] += T(half[m]) * w;
       }
@@ -200,8 +200,8 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
     });
     const float* row = st.vertex_rows.data() + first;
     visit_ring(coarse, v, [&](Index, std::size_t slot) {
-      T z[3] = {};
-      for (std::size_t a = 0; a < 3; ++a)
+      T z[C] = {};
+      for (std::size_t a = 0; a < C; ++a)
         for (std::size_t m = 0; m < 5; ++m) z[a] += T(row[m]) * c[m][a];
       give(slot, z);
       row += 5;
@@ -209,26 +209,26 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
   };
 
   const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
-    clear_lanes(n, run, left, right);
+    clear_lanes<C>(n, run, left, right);
     if (n == 1) return;
     const EdgeRingLanes ring(mesh, e);
-    const EdgeLanes<T> lanes(fine, x, e, scratch);
+    const EdgeLanes<T, C> lanes(fine, x, e, scratch);
     T* const target[3] = {run, left, right};
     const float* half = st.edge_half.data() + 64 * std::size_t(e);
     for (int k = 1; k < n; ++k) {
-      T* own = run + 3 * k;
-      add_point(own, lanes.lane[0] + 6 * k);
-      T w[8][3];
+      T* own = run + C * k;
+      add_point<C>(own, lanes.lane[0] + 2 * C * k);
+      T w[8][C];
       for (int j = 0; j < ring.size; ++j) {
         const T weight = T(ring.far[j] ? of_centre : of_midpoint);
-        for (int a = 0; a < 3; ++a) {
-          w[j][a] = weight * lanes.lane[ring.lane[j]][3 * (2 * k + ring.at[j]) + a];
+        for (int a = 0; a < C; ++a) {
+          w[j][a] = weight * lanes.lane[ring.lane[j]][C * (2 * k + ring.at[j]) + a];
           own[a] += w[j][a];
         }
       }
       for (int m = 0; m < ring.size; ++m) {
-        T* to = target[ring.lane[m]] + 3 * (ring.at[m] + k);
-        for (int a = 0; a < 3; ++a) {
+        T* to = target[ring.lane[m]] + C * (ring.at[m] + k);
+        for (int a = 0; a < C; ++a) {
           T z = 0;
           for (int j = 0; j < ring.size; ++j) z += T(half[8 * j + m]) * w[j][a];
           to[a] += z;
@@ -240,31 +240,31 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
-    std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
+    std::fill(closed, closed + C * closed_size(quad, std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
-    scratch.resize(3 * closed_size(true, std::size_t(2 * n)));
-    gather_face(fine, x, f, scratch.data());
+    scratch.resize(C * closed_size(true, std::size_t(2 * n)));
+    gather_face<C>(fine, x, f, scratch.data());
     const Directions& directions = quad ? quad_directions : triangle_directions;
     const auto from = [&](int i, int j) {
-      return scratch.data() + 3 * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
+      return scratch.data() + C * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
     };
     const auto to = [&](int i, int j) {
-      return closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+      return closed + C * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
     };
     for (int j = 1; j < n; ++j) {
       const int width = quad ? n - 1 : n - 1 - j;
-      for (int i = 1; i <= width; ++i) add_point(to(i, j), from(2 * i, 2 * j));
+      for (int i = 1; i <= width; ++i) add_point<C>(to(i, j), from(2 * i, 2 * j));
       for (int k = 0; k < directions.size; ++k) {
         const Direction& d = directions.at[k];
         const T wa = T(d.weight * ahead), wh = T(d.weight * here), wb = T(d.weight * behind);
         T *p = to(1, j), *q = to(1 + d.i, j + d.j), *r = to(1 - d.i, j - d.j);
         const T* in = from(2 + d.i, 2 * j + d.j);
         for (int i = 0; i < width; ++i)
-          for (int a = 0; a < 3; ++a) {
-            const T w = in[6 * i + a];
-            q[3 * i + a] += wa * w;
-            p[3 * i + a] += wh * w;
-            r[3 * i + a] += wb * w;
+          for (int a = 0; a < C; ++a) {
+            const T w = in[2 * C * i + a];
+            q[C * i + a] += wa * w;
+            p[C * i + a] += wh * w;
+            r[C * i + a] += wb * w;
           }
       }
     }
@@ -273,13 +273,15 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
   accumulate(coarse, workers, exchange, &unknowns, y, vertex_body, edge_body, face_body);
 }
 
-template void prolong<float>(const Lattice&, const Lattice&, const Stencils&, const Unknowns*, Workers&,
-                             Exchange<float>&, const float*, float*);
-template void prolong<double>(const Lattice&, const Lattice&, const Stencils&, const Unknowns*, Workers&,
-                              Exchange<double>&, const double*, double*);
-template void restrict_to<float>(const Lattice&, const Lattice&, const Stencils&, const Unknowns&, Workers&,
-                                 Exchange<float>&, const float*, float*);
-template void restrict_to<double>(const Lattice&, const Lattice&, const Stencils&, const Unknowns&, Workers&,
-                                  Exchange<double>&, const double*, double*);
+#define DF_INSTANTIATE(T, C)                                                                              \
+  template void prolong<T, C>(const Lattice&, const Lattice&, const Stencils&, const Unknowns*, Workers&, \
+                              Exchange<T, C>&, const T*, T*);                                             \
+  template void restrict_to<T, C>(const Lattice&, const Lattice&, const Stencils&, const Unknowns&,       \
+                                  Workers&, Exchange<T, C>&, const T*, T*);
+DF_INSTANTIATE(float, 1)
+DF_INSTANTIATE(float, 3)
+DF_INSTANTIATE(double, 1)
+DF_INSTANTIATE(double, 3)
+#undef DF_INSTANTIATE
 
 }  // namespace fairing

@@ -10,14 +10,14 @@
 namespace fairing {
 
 // fine <- P coarse; zero on points that are not unknowns (every point counts when `unknowns` is null).
-template <class T>
+template <class T, int C>
 void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& stencils, const Unknowns* unknowns,
-             Workers& workers, Exchange<T>& exchange, const T* x_coarse, T* x_fine);
+             Workers& workers, Exchange<T, C>& exchange, const T* x_coarse, T* x_fine);
 
 // coarse <- P^T fine on the coarse unknowns, zero elsewhere.
-template <class T>
+template <class T, int C>
 void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
-                 const Unknowns& unknowns, Workers& workers, Exchange<T>& exchange, const T* x_fine,
+                 const Unknowns& unknowns, Workers& workers, Exchange<T, C>& exchange, const T* x_fine,
                  T* x_coarse);
 
 }  // namespace fairing
