@@ -17,55 +17,82 @@ Vec3 orthonormal(double uu, double uv, double vv) {
 }
 
 // Least squares after the ring has been made round (x, y have unit covariance and no correlation): the linear
-// terms then drop out of the normal equations by division, and a 3 x 3 system is left. False when
-// undetermined.
-bool round_hessian(std::span<const Vec2> ring, std::span<const double> f, Vec3& hessian) {
-  const std::size_t size = ring.size();
-  const double n = double(size);
-  double uu = 0, uv = 0, vv = 0;
-  for (const Vec2& p : ring) {
-    uu += p.x() * p.x();
-    uv += p.x() * p.y();
-    vv += p.y() * p.y();
-  }
-  if (!(uu > 0)) return false;
-  const double rest = vv - uv * uv / uu;
-  if (!(rest > 1e-24 * uu)) return false;
-  const double w0 = std::sqrt(n / uu), w2 = std::sqrt(n / rest), w1 = -w2 * uv / uu;
+// terms then drop out of the normal equations by division, and a 3 x 3 system is left.
+class RoundFit {
+ public:
+  // False when undetermined.
+  bool make(std::span<const Vec2> ring) {
+    double uu = 0, uv = 0, vv = 0;
+    for (const Vec2& p : ring) {
+      uu += p.x() * p.x();
+      uv += p.x() * p.y();
+      vv += p.y() * p.y();
+    }
+    if (!(uu > 0)) return false;
+    const double rest = vv - uv * uv / uu, n = double(ring.size());
+    if (!(rest > 1e-24 * uu)) return false;
+    w0 = std::sqrt(n / uu), w2 = std::sqrt(n / rest), w1 = -w2 * uv / uu;
+    each = 1 / n;
 
-  // With a = x^2 + y^2, b = x^2 - y^2, c = 2 x y.
-  double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0, xa = 0, ya = 0, xb = 0, yb = 0, xc = 0, yc = 0;
-  double fx = 0, fy = 0, fa = 0, fb = 0, fc = 0;
-  for (std::size_t j = 0; j < size; ++j) {
-    const double x = w0 * ring[j].x(), y = w1 * ring[j].x() + w2 * ring[j].y();
-    const double xx = x * x, yy = y * y, a = xx + yy, b = xx - yy, c = 2 * x * y;
-    aa += a * a, ab += a * b, ac += a * c, bb += b * b, bc += b * c, cc += c * c;
-    xa += x * a, ya += y * a, xb += x * b, yb += y * b, xc += x * c, yc += y * c;
-    fx += f[j] * x, fy += f[j] * y, fa += f[j] * a, fb += f[j] * b, fc += f[j] * c;
+    double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0;
+    xa = ya = xb = yb = xc = yc = 0;
+    for (const Vec2& p : ring) {
+      const Term t = term(p);
+      aa += t.a * t.a, ab += t.a * t.b, ac += t.a * t.c, bb += t.b * t.b, bc += t.b * t.c, cc += t.c * t.c;
+      xa += t.x * t.a, ya += t.y * t.a, xb += t.x * t.b, yb += t.y * t.b, xc += t.x * t.c, yc += t.y * t.c;
+    }
+    s00 = without_linear(aa, xa, ya, xa, ya);
+    const double s01 = without_linear(ab, xa, ya, xb, yb), s11 = without_linear(bb, xb, yb, xb, yb),
+                 s12 = without_linear(bc, xb, yb, xc, yc), s22 = without_linear(cc, xc, yc, xc, yc);
+    s02 = without_linear(ac, xa, ya, xc, yc);
+    if (!(s00 > undetermined * aa)) return false;
+    l10 = s01 / s00, l20 = s02 / s00, d1 = s11 - l10 * s01;
+    const double t12 = s12 - l10 * s02;
+    if (!(d1 > undetermined * bb)) return false;
+    l21 = t12 / d1, d2 = s22 - l20 * s02 - l21 * t12;
+    return d2 > undetermined * cc;
   }
-  const double each = 1 / n;
-  const auto without_linear = [&](double whole, double x, double y, double other_x, double other_y) {
-    return whole - each * (x * other_x + y * other_y);
+
+  Vec3 hessian(std::span<const Vec2> ring, std::span<const double> f) const {
+    double fx = 0, fy = 0, fa = 0, fb = 0, fc = 0;
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      const Term t = term(ring[j]);
+      fx += f[j] * t.x, fy += f[j] * t.y, fa += f[j] * t.a, fb += f[j] * t.b, fc += f[j] * t.c;
+    }
+    return solve(fx, fy, fa, fb, fc);
+  }
+
+  // What a unit difference at p alone contributes.
+  Vec3 row(const Vec2& p) const {
+    const Term t = term(p);
+    return solve(t.x, t.y, t.a, t.b, t.c);
+  }
+
+ private:
+  struct Term {
+    double x, y, a, b, c;  // a = x^2 + y^2, b = x^2 - y^2, c = 2 x y
   };
-  const double s00 = without_linear(aa, xa, ya, xa, ya), s01 = without_linear(ab, xa, ya, xb, yb),
-               s02 = without_linear(ac, xa, ya, xc, yc), s11 = without_linear(bb, xb, yb, xb, yb),
-               s12 = without_linear(bc, xb, yb, xc, yc), s22 = without_linear(cc, xc, yc, xc, yc);
-  const double r0 = without_linear(fa, fx, fy, xa, ya), r1 = without_linear(fb, fx, fy, xb, yb),
-               r2 = without_linear(fc, fx, fy, xc, yc);
+  Term term(const Vec2& p) const {
+    const double x = w0 * p.x(), y = w1 * p.x() + w2 * p.y(), xx = x * x, yy = y * y;
+    return {x, y, xx + yy, xx - yy, 2 * x * y};
+  }
+  double without_linear(double whole, double x, double y, double other_x, double other_y) const {
+    return whole - each * (x * other_x + y * other_y);
+  }
+  Vec3 solve(double fx, double fy, double fa, double fb, double fc) const {
+    const double r0 = without_linear(fa, fx, fy, xa, ya), r1 = without_linear(fb, fx, fy, xb, yb),
+                 r2 = without_linear(fc, fx, fy, xc, yc);
+    const double z1 = r1 - l10 * r0, c2 = (r2 - l20 * r0 - l21 * z1) / d2, c1 = z1 / d1 - l21 * c2,
+                 c0 = r0 / s00 - l10 * c1 - l20 * c2;
+    const double f_xx = 2 * (c0 + c1), f_yy = 2 * (c0 - c1), f_xy = 2 * c2;
+    return orthonormal(w0 * w0 * f_xx + 2 * w0 * w1 * f_xy + w1 * w1 * f_yy, w2 * (w0 * f_xy + w1 * f_yy),
+                       w2 * w2 * f_yy);
+  }
 
-  if (!(s00 > undetermined * aa)) return false;
-  const double l10 = s01 / s00, l20 = s02 / s00, d1 = s11 - l10 * s01, t12 = s12 - l10 * s02;
-  if (!(d1 > undetermined * bb)) return false;
-  const double l21 = t12 / d1, d2 = s22 - l20 * s02 - l21 * t12;
-  if (!(d2 > undetermined * cc)) return false;
-  const double z1 = r1 - l10 * r0, c2 = (r2 - l20 * r0 - l21 * z1) / d2, c1 = z1 / d1 - l21 * c2,
-               c0 = r0 / s00 - l10 * c1 - l20 * c2;
-
-  const double f_xx = 2 * (c0 + c1), f_yy = 2 * (c0 - c1), f_xy = 2 * c2;
-  hessian = orthonormal(w0 * w0 * f_xx + 2 * w0 * w1 * f_xy + w1 * w1 * f_yy, w2 * (w0 * f_xy + w1 * f_yy),
-                        w2 * w2 * f_yy);
-  return true;
-}
+  double w0, w1, w2, each;
+  double xa, ya, xb, yb, xc, yc;
+  double s00, s02, l10, l20, l21, d1, d2;
+};
 
 template <int Size>
 Eigen::Matrix<double, Size, Size> pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram) {
@@ -108,9 +135,24 @@ Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> f) {
 }  // namespace
 
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference) {
-  Vec3 hessian;
-  if (ring.size() >= 5 && round_hessian(ring, difference, hessian)) return hessian;
+  RoundFit round;
+  if (ring.size() >= 5 && round.make(ring)) return round.hessian(ring, difference);
   return staged_hessian(ring, difference);
+}
+
+void hessian_rows(std::span<const Vec2> ring, std::vector<Vec3>& rows) {
+  rows.resize(ring.size());
+  RoundFit round;
+  if (ring.size() >= 5 && round.make(ring)) {
+    for (std::size_t j = 0; j < ring.size(); ++j) rows[j] = round.row(ring[j]);
+    return;
+  }
+  std::vector<double> unit(ring.size(), 0.0);
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    unit[j] = 1;
+    rows[j] = staged_hessian(ring, unit);
+    unit[j] = 0;
+  }
 }
 
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "control_mesh/control_mesh.h"
 #include "difference/fit.h"
@@ -15,5 +16,8 @@ namespace fairing {
 // quadratic: valence 4 gives the trace and the trace-free part of least norm, valence 3 the trace alone. Zero
 // for a ring without any extent.
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference);
+
+// The same as rows: the result is the sum of rows[j] times difference j.
+void hessian_rows(std::span<const Vec2> ring, std::vector<Vec3>& rows);
 
 }  // namespace fairing

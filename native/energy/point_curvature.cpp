@@ -2,6 +2,7 @@
 #include "energy/point_curvature.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,13 +37,19 @@ struct Fan {
   Vec3 normal = Vec3::Zero();
   Vec3 laplacian = Vec3::Zero();  // half cotangents times offsets
   double circumcentric = 0, barycentric = 0;
+  std::vector<double>& cotangent;
 
-  void add(const Neighbour& a, const Neighbour& b, const Wedge& wedge, double weight) {
+  explicit Fan(std::vector<double>& c) : cotangent(c) {}
+
+  void add(const Neighbour& a, std::size_t a_place, const Neighbour& b, std::size_t b_place,
+           const Wedge& wedge, double weight) {
     if (!(wedge.sine * wedge.sine > thinnest * a.square * b.square)) return;
     normal += (weight * a.inverse * b.inverse) * wedge.cross;
     const double scale = 0.5 * weight / wedge.sine;
     const double at_a = scale * (a.square - wedge.cosine), at_b = scale * (b.square - wedge.cosine);
     laplacian += at_b * a.p + at_a * b.p;
+    cotangent[a_place] += at_b;
+    cotangent[b_place] += at_a;
     circumcentric += 0.25 * (at_b * a.square + at_a * b.square);
     barycentric += weight / 6 * wedge.sine;
   }
@@ -54,9 +61,8 @@ Vec2 turned(const Vec2& a, const Vec2& b) {
 }
 
 // On entry chart[j] is the unit vector of the angle between neighbours j - 1 and j, and angle[j] its size,
-// for j > 0.
-void scale_to_full_turn(std::span<Vec2> chart, std::span<const double> angle, double total,
-                        const SurfaceRing& ring) {
+// for j > 0. `total` angles become a full turn.
+void lay_out(std::span<Vec2> chart, std::span<const double> angle, double total, const SurfaceRing& ring) {
   const double excess = full_turn / total - 1;
   Vec2 direction(1, 0), correction;
   chart[0] = direction * ring.offset[0].norm();
@@ -67,28 +73,41 @@ void scale_to_full_turn(std::span<Vec2> chart, std::span<const double> angle, do
   }
 }
 
+// Of an open ring, which few points have.
+Vec3 open_hessian(const SurfaceChart& chart) {
+  const FitRows rows = fit({chart.ring, 0, false});
+  Vec3 hessian = Vec3::Zero();
+  for (std::size_t j = 0; j < chart.height.size(); ++j)
+    hessian += chart.height[j] * rows.col(Eigen::Index(j)).tail<3>();
+  return hessian;
+}
+
 }  // namespace
 
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   const std::size_t size = ring.offset.size();
   chart.ring.resize(size);
   chart.height.resize(size);
+  chart.cotangent.assign(size, 0.0);
   std::vector<double>& angle = chart.height;  // until the heights are known
-  Fan fan;
+  Fan fan(chart.cotangent);
   double total = 0;
+  if (size == 0) return {};
   const Neighbour first(ring.offset[0]);
   Neighbour a = first;
   if (!(a.square > nearest)) return {};
-  for (std::size_t j = 1; j <= size; ++j) {
+  const std::size_t end = ring.closed ? size : size - 1;
+  for (std::size_t j = 1; j <= end; ++j) {
     const std::size_t here = j < size ? j : 0;
     const Neighbour b = here ? Neighbour(ring.offset[j]) : first;
     if (!(b.square > nearest)) return {};
     const Wedge wedge(a, b);
-    fan.add(a, b, wedge, ring.far[j - 1] || ring.far[here] ? 0.5 : 1.0);
+    fan.add(a, j - 1, b, here, wedge, ring.far[j - 1] || ring.far[here] ? 0.5 : 1.0);
     if (ring.far[here]) {
-      const Neighbour c(ring.offset[here + 1 < size ? here + 1 : 0]);
+      const std::size_t next = here + 1 < size ? here + 1 : 0;
+      const Neighbour c(ring.offset[next]);
       if (!(c.square > nearest)) return {};
-      fan.add(a, c, Wedge(a, c), 0.5);
+      fan.add(a, j - 1, c, next, Wedge(a, c), 0.5);
     }
     const double inverse = std::sqrt(a.inverse * b.inverse);
     chart.ring[here] = Vec2(wedge.cosine * inverse, wedge.sine * inverse);
@@ -100,17 +119,20 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   const double length = fan.normal.norm();
   if (!(length > 0 && total > 0 && std::isfinite(length))) return {};
   out.normal = fan.normal / length;
-  scale_to_full_turn(chart.ring, angle, total, ring);
+  lay_out(chart.ring, angle, ring.closed ? total : full_turn, ring);
   for (std::size_t j = 0; j < size; ++j) chart.height[j] = out.normal.dot(ring.offset[j]);
 
-  const Vec3 hessian = fitted_hessian(chart.ring, chart.height);
+  const Vec3 hessian = ring.closed ? fitted_hessian(chart.ring, chart.height) : open_hessian(chart);
   out.trace_free = {hessian[1], hessian[2]};
-  out.area = fan.circumcentric;
-  out.trace = out.normal.dot(fan.laplacian) / out.area;
-  if (!(out.area > least_share * fan.barycentric)) {
-    out.area = least_share * fan.barycentric;
+  if (!ring.closed) {
+    out.area = fan.barycentric;
     out.trace = std::numbers::sqrt2 * hessian[0];
+    return out;
   }
+  out.area = std::max(fan.circumcentric, least_share * fan.barycentric);
+  out.trace = out.normal.dot(fan.laplacian) / out.area;
+  if (out.area != fan.circumcentric)
+    out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 * hessian[0];
   return out;
 }
 

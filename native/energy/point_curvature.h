@@ -22,17 +22,19 @@
 
 namespace fairing {
 
-// The closed ring of a point p_i, counter-clockwise, with three neighbours or more.
+// The ring of a point p_i, counter-clockwise; a closed one has three neighbours or more.
 struct SurfaceRing {
   std::span<const Vec3> offset;       // p_j - p_i
   std::span<const std::uint8_t> far;  // 1: p_j is the corner across a quad, between the quad's other two
+  bool closed = true;                 // else it runs from one boundary edge to the other
 };
 
 // The chart of a ring: the exponential map of the surface itself. Edge lengths are radii; the angles between
 // neighbours are summed from the first one, which lies on the u axis, and scaled to a full turn.
 struct SurfaceChart {
   std::vector<Vec2> ring;
-  std::vector<double> height;  // n . (p_j - p_i)
+  std::vector<double> height;     // n . (p_j - p_i)
+  std::vector<double> cotangent;  // half the cotangents across the edge to p_j, added up
 };
 
 struct PointCurvature {
@@ -52,9 +54,10 @@ struct PointCurvature {
 };
 
 // `chart` is written, and takes no new memory once it has held a ring of that size. Where the floor replaces
-// the area (obtuse triangles around an irregular vertex can make it negative), the trace comes from the fit
-// as well, so that the sphere stays exact. A ring that has a neighbour at the point itself, or no normal, has
-// no curvature and no area.
+// the area (obtuse triangles around an irregular vertex can make it negative), the fit's trace stands for the
+// share that the circumcentric area lacks: so the sphere stays exact, and what acts on displacements, the
+// cotangents over the area, stays symmetric. An open ring has the barycentric area, and all of M from the fit. A ring
+// that has a neighbour at the point itself, or no normal, has no curvature and no area.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
 
 }  // namespace fairing

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/error.h"
+#include "solver/hierarchy.h"
 
 namespace fairing {
 
@@ -14,18 +15,12 @@ struct SurfaceEnergies {
   double total_curvature = 0;  // integral of k1^2 + k2^2 over the surface; a pure number
 };
 
-struct LevelReport {
+// `residual` and `residuals` (after 0, 1, … iterations) are relative to the residual of the control polyhedron on that
+// level; `energy_error` estimates |error| over the solution, both in the energy norm.
+struct LevelReport : LevelSolve {
   int level = 0;
   std::size_t points = 0;
   std::size_t unknowns = 0;
-  int iterations = 0;
-  double residual = 0;      // relative to the residual of the control polyhedron on that level
-  double energy_error = 0;  // estimate of |error| over the solution, both in the energy norm
-  double largest_eigenvalue = 0;
-  int smoother_degree = 0;
-  bool direct = false;
-  bool converged = false;
-  std::vector<double> residuals;  // after 0, 1, … iterations
 };
 
 struct ShapeReport {

@@ -10,9 +10,11 @@
 #include "energy/thin_plate_level.h"
 #include "fair/options.h"
 #include "fair/report.h"
-#include "solver/pcg.h"
+#include "solver/hierarchy.h"
 
 namespace fairing {
+
+std::size_t count_unknowns(const Lattice& lattice, const Unknowns& unknowns);
 
 // The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every level once; solves as
 // often as weights or control positions change.
@@ -70,13 +72,7 @@ class SurfaceSystem {
   Scales scales(int level, std::span<const Vec3> targets);
   LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
                           double* x);
-  void solve_direct(const CoarseSolver& solver, int level, std::span<const Vec3> targets, double tolerance,
-                    const Scales& scales, double* x, LevelReport& report);
-  double estimate_eigenvalue(std::size_t index);
-  void promote_to_coarsest(std::size_t index);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
-  void raise_degree(const PcgResult& result, double tolerance);
-  void choose_degree(const LevelReport& report, double tolerance, double next_tolerance);
 
   const ControlMesh& mesh_;
   const FeatureCurves* curves_;
@@ -84,15 +80,12 @@ class SurfaceSystem {
   Workers& workers_;
   Monitor& monitor_;
   int weighted_up_to_ = -1;  // the finest level that knows the present weights; -1: all do
-  bool adapts_ = true;       // the smoother to what it meets
-  int base_ = 0;             // the coarsest level with unknowns worth a solve
+  int base_;                 // the coarsest level with unknowns worth a solve
+  Hierarchy hierarchy_;
   std::vector<std::unique_ptr<Lattice>> lattices_;
   ThinPlateShared shared_;
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<ThinPlateTransfer>> transfers_;
-  std::unique_ptr<CoarseSolver> coarse_;
-  std::unique_ptr<VCycle> cycle_;
-  PcgState pcg_;
 };
 
 }  // namespace fairing

@@ -2,6 +2,8 @@
 // The one-rings of control vertices and edge points, in the order of their charts.
 #pragma once
 
+#include <span>
+
 #include "lattice/closed_face.h"
 
 namespace fairing {
@@ -17,6 +19,15 @@ void visit_ring(const Lattice& lattice, Index v, Visit&& visit) {
       visit(lattice.diagonal_point(spoke), slot + 1);
     slot += 2;
   }
+}
+
+// The lattice steps to the neighbours of a point inside a face.
+inline std::span<const LatticePoint> face_ring(bool quad) {
+  static constexpr LatticePoint triangle_ring[] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+  static constexpr LatticePoint quad_ring[] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                               {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  if (quad) return quad_ring;
+  return triangle_ring;
 }
 
 // Where the neighbours of an edge's points are: neighbour j of point k is in lane[j] at place k + at[j], with lanes

@@ -12,7 +12,7 @@ constexpr int steps = 16;
 constexpr double margin = 1.1;  // Lanczos comes from below
 }  // namespace
 
-double largest_eigenvalue(LevelOperator& op, Workers& workers, const double* start) {
+double largest_eigenvalue(LevelOperator& op, Workers& workers, const float* start) {
   const std::size_t components = op.components(), size = op.size();
   const Array<float>& inverse = op.inverse_diagonal();
   Array<float> roots(size);
@@ -24,12 +24,12 @@ double largest_eigenvalue(LevelOperator& op, Workers& workers, const double* sta
   // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.
   Array<float> v(size), before(size), scaled(size), image(size);
   const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
-    const double s = start[i] * root(i);
+    const double s = double(start[i]) * root(i);
     return s * s;
   }));
   if (!(length > 0) || !std::isfinite(length)) return 4.0;  // nothing to solve; any safe value
   for_each_index(workers, size, [&](std::size_t i) {
-    v[i] = float(start[i] * root(i) / length);
+    v[i] = float(double(start[i]) * root(i) / length);
     before[i] = 0;
   });
   Eigen::VectorXd diagonal(steps), off(steps);

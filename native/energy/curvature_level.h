@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Gauss-Newton system of a curvature energy on one level, about one surface: for scalar displacements h along the
+// normals,
+//
+//   total curvature     E = sum_i w_i |M_i|^2                       K = J^T W J
+//   minimum variation   E = sum_ij c_ij |M_i - T_ij M_j T_ij^T|^2   K = J^T (L + damping W) J
+//
+// where M_i is the second fundamental form (point_curvature.h), w_i its point's area, J its change with h, c_ij the
+// cotangent weight of the edge ij, T_ij the rotation from one chart to the other, and L the connection Laplacian.
+#pragma once
+
+#include <memory>
+
+#include "energy/connection.h"
+#include "energy/ring_rows.h"
+#include "energy/shape_rows.h"
+#include "energy/thin_plate.h"
+#include "solver/level_operator.h"
+
+namespace fairing {
+
+// What all levels share.
+struct CurvatureShared {
+  const ControlMesh& mesh;
+  const Unknowns& unknowns;
+  CurvatureEnergy energy;
+  Workers& workers;
+  VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
+  std::vector<Vec3> targets{};
+  double damping = 0;  // minimum variation: of W beside L
+  Exchange<double, 1> fine_exchange{};
+  Exchange<float, 1> fast_exchange{};
+};
+
+class CurvatureLevel final : public LevelOperator {
+ public:
+  CurvatureLevel(CurvatureShared& shared, const Lattice& lattice);
+
+  // K about the surface x (3 numbers a point). Returns the energy, the weights' part included. `force`, if not null,
+  // gets minus half the energy's gradient on the unknowns: K h = force is the step. `normal` gets the points' normals, zero
+  // where a point has no fit.
+  double linearize(const double* x, double* force = nullptr, double* normal = nullptr);
+
+  // Call after shared.damping has changed.
+  void update_diagonal();
+
+  std::size_t points() const override { return lattice_.size(); }
+  std::size_t components() const override { return 1; }
+  void apply(const double* x, double* y) override { apply_any(x, y, shared_.fine_exchange); }
+  void apply(const float* x, float* y) override { apply_any(x, y, shared_.fast_exchange); }
+  const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
+  AssembledSystem assemble() const override;
+
+ private:
+  template <class T>
+  void apply_any(const T* x, T* y, Exchange<T, 1>& exchange);
+  bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
+
+  CurvatureShared& shared_;
+  const Lattice& lattice_;
+  RingRows rows_;                           // sqrt(w) J
+  std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
+  std::unique_ptr<Connection> connection_;  // minimum variation only
+  Array<float> inverse_diagonal_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy/shape_rows.h"
+
+#include <numbers>
+
+#include "difference/hessian.h"
+
+namespace fairing {
+namespace {
+
+constexpr double root_half = std::numbers::sqrt2 / 2;
+
+// M^2 = (t^2/4 + f^2) I + t F, where M = t/2 I + F with F trace-free and F^2 = f^2 I.
+Vec3 own_term(const PointCurvature& m, CurvatureEnergy energy) {
+  const double t = m.trace, a = m.trace_free[0], b = m.trace_free[1], square = a * a + b * b;  // 2 f^2
+  if (energy == CurvatureEnergy::total_curvature) return {root_half * square, 0.5 * t * a, 0.5 * t * b};
+  return {root_half * (0.5 * t * t + square), t * a, t * b};
+}
+
+}  // namespace
+
+void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) {
+  out.point = point_curvature(ring, out.chart);
+  if (!(out.point.area > 0)) return;
+  out.shape = {root_half * out.point.trace, out.point.trace_free[0], out.point.trace_free[1]};
+  if (ring.closed) {
+    hessian_rows(out.chart.ring, out.row);
+    const double scale = root_half / out.point.area;
+    for (std::size_t j = 0; j < out.row.size(); ++j) out.row[j][0] = scale * out.chart.cotangent[j];
+  } else {
+    const FitRows rows = fit({out.chart.ring, 0, false});
+    out.row.resize(out.chart.ring.size());
+    for (std::size_t j = 0; j < out.row.size(); ++j) out.row[j] = rows.col(Eigen::Index(j)).tail<3>();
+  }
+  out.own = own_term(out.point, energy);
+  for (const Vec3& row : out.row) out.own -= row;
+}
+
+}  // namespace fairing

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "execution/vectors.h"
+#include "solver/spectrum.h"
+
+namespace fairing {
+namespace {
+
+constexpr int first_probe = 6, probe_interval = 10;  // iterations
+constexpr double iterations_wanted = 14;
+constexpr int most_degree = 96;
+constexpr int refinement_steps = 3;
+
+// Levels up to so many unknowns are factored sooner than smoothed; the cycle ends on the finest of them.
+constexpr std::size_t tiny_level = 1200;
+
+constexpr double settled_margin = 1.03;  // of a largest eigenvalue that is taken from the level below
+
+// The smoother's degree from which on factoring a level is cheaper than smoothing it.
+int degree_of_hard(std::size_t unknowns) { return 8 + int(unknowns / 5000); }
+
+}  // namespace
+
+Hierarchy::Hierarchy(Workers& workers, Monitor& monitor, const HierarchyOptions& options)
+    : workers_(workers), options_(options), cycle_(workers, monitor) {
+  if (options.smoother_degree > 0) cycle_.degree = options.smoother_degree;
+}
+
+void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns) {
+  CycleLevel level;
+  level.op = &op;
+  level.transfer = to_coarser;
+  level.state.resize(op.size());
+  cycle_.levels.push_back(std::move(level));
+  unknowns_.push_back(unknowns);
+}
+
+void Hierarchy::complete() {
+  std::size_t end = 0;  // of the cycle
+  while (end + 1 < unknowns_.size() && unknowns_[end + 1] <= tiny_level) ++end;
+  coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[end].op, workers_, unknowns_[end],
+                                           options_.always_factor);
+  cycle_.coarse = coarse_.get();
+  cycle_.base = end;
+  for (Array<double>* a : {&pcg_.residual, &pcg_.direction, &pcg_.image})
+    a->resize(cycle_.levels.back().op->size());
+}
+
+void Hierarchy::refresh(std::size_t top, bool spectrum) {
+  if (coarse_->direct() && top >= cycle_.base) coarse_->refactor();
+  if (spectrum)
+    for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
+}
+
+LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* x,
+                            const std::function<void(const PcgResult&)>& each) {
+  LevelSolve out;
+  if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
+    const CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
+    solve_direct(solver, index, limits, x, out);
+    return out;
+  }
+  if (index == cycle_.base && coarse_->direct()) {
+    solve_direct(*coarse_, index, limits, x, out);
+    if (out.converged) return out;
+  }
+  estimate_eigenvalues(index);
+  const bool adapt = adapts(out.direct);
+  const bool may_factor = adapt && unknowns_[index] <= direct_limit_of_hard;
+  const auto too_hard = [&] { return may_factor && cycle_.degree >= degree_of_hard(unknowns_[index]); };
+  PcgResult result =
+      conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
+        each(so_far);
+        if (adapt && so_far.iterations % probe_interval == first_probe)
+          raise_degree(so_far, limits.tolerance);
+        return !too_hard();
+      });
+  out.iterations = result.iterations;
+  out.residuals = result.history;
+  if (!result.converged && too_hard()) {
+    promote_to_coarsest(index);
+    solve_direct(*coarse_, index, limits, x, out);
+    if (out.converged) return out;
+    result =
+        conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [](const PcgResult&) { return true; });
+    out.iterations += result.iterations;
+  }
+  out.smoother_degree = cycle_.degree;
+  out.residual = result.residual;
+  out.energy_error = result.energy_error;
+  out.largest_eigenvalue = cycle_.levels[index].largest_eigenvalue;
+  out.converged = result.converged;
+  return out;
+}
+
+void Hierarchy::solve_direct(const CoarseSolver& solver, std::size_t index, const PcgLimits& limits,
+                             double* x, LevelSolve& out) {
+  LevelOperator& op = *cycle_.levels[index].op;
+  out.direct = true;
+  out.smoother_degree = 0;
+  for (int step = 0; step < refinement_steps && !out.converged; ++step) {
+    solver.solve(pcg_.residual.data(), pcg_.direction.data());
+    op.apply(pcg_.direction.data(), pcg_.image.data());
+    for_each_index(workers_, op.size(), [&](std::size_t i) {
+      x[i] += pcg_.direction[i];
+      pcg_.residual[i] -= pcg_.image[i];
+    });
+    const double now = norm(workers_, op.size(), pcg_.residual.data());
+    out.residual = limits.residual_scale > 0 ? now / limits.residual_scale : 0;
+    out.converged = out.residual <= limits.tolerance || now <= limits.noise;
+  }
+}
+
+// Stencils hardly change from level to level, and from some fineness on the spectrum's upper end neither. Each level's
+// Lanczos iteration starts from the residual, restricted: that turns and renumbers with the mesh.
+void Hierarchy::estimate_eigenvalues(std::size_t top) {
+  const auto unknown = [&](std::size_t l) { return cycle_.levels[l].largest_eigenvalue == 0; };
+  std::size_t lowest = top + 1;
+  while (lowest > cycle_.base && unknown(lowest - 1)) --lowest;
+  for (std::size_t l = top; l >= lowest && l <= top; --l) {
+    Array<float>& start = cycle_.levels[l].state.residual;
+    if (l == top)
+      for_each_index(workers_, start.size(), [&](std::size_t i) { start[i] = float(pcg_.residual[i]); });
+    else
+      cycle_.levels[l + 1].transfer->restrict_to(cycle_.levels[l + 1].state.residual.data(), start.data());
+    if (l == 0) break;
+  }
+  for (std::size_t l = lowest; l <= top; ++l) {
+    CycleLevel& level = cycle_.levels[l];
+    const double below = l > cycle_.base ? cycle_.levels[l - 1].largest_eigenvalue : 0;
+    if (below > 0 && l >= options_.settled)
+      level.largest_eigenvalue = settled_margin * below;
+    else
+      level.largest_eigenvalue = largest_eigenvalue(*level.op, workers_, level.state.residual.data());
+  }
+}
+
+// From here on this level is the coarsest, solved directly.
+void Hierarchy::promote_to_coarsest(std::size_t index) {
+  coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, 0, true);
+  cycle_.coarse = coarse_.get();
+  cycle_.base = index;
+  cycle_.degree = std::min(cycle_.degree, 12);
+}
+
+// What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows, so that the rest
+// takes few iterations. (Iterations times degree, the work, hardly changes.)
+void Hierarchy::raise_degree(const PcgResult& result, double tolerance) {
+  // The first iterations are the easy ones; the latest tell more.
+  const int window = std::min(result.iterations, probe_interval);
+  const double gained =
+      std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
+  const double missing = std::log(std::max(result.residual / tolerance, result.energy_error / tolerance));
+  const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
+  if (ahead <= iterations_wanted) return;
+  cycle_.degree =
+      std::min(most_degree, int(std::ceil(cycle_.degree * std::min(8.0, ahead / iterations_wanted))));
+}
+
+void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance) {
+  if (!adapts(last.direct) || last.iterations < 4) return;
+  const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
+  const double wanted = last.smoother_degree * std::min(2.0, ahead / iterations_wanted);
+  cycle_.degree = std::clamp(int(std::ceil(wanted)), cycle_.degree, most_degree);
+}
+
+}  // namespace fairing
