@@ -83,6 +83,28 @@ py::dict to_python(const LevelReport& l) {
   return d;
 }
 
+py::dict to_python(const CurvatureLevelReport& l) {
+  py::dict d;
+  d["level"] = l.level;
+  d["plate_energy"] = l.plate_energy;
+  d["start_energy"] = l.start_energy;
+  d["energy"] = l.energy;
+  d["converged"] = l.converged;
+  py::list steps;
+  for (const StepReport& s : l.steps) {
+    py::dict step;
+    step["energy"] = s.energy;
+    step["decrement"] = s.decrement;
+    step["length"] = s.length;
+    step["iterations"] = s.iterations;
+    step["residual"] = s.residual;
+    step["direct"] = s.direct;
+    steps.append(step);
+  }
+  d["steps"] = steps;
+  return d;
+}
+
 py::dict to_python(const ShapeReport& s) {
   py::dict d;
   d["iterations"] = s.finest.iterations;
@@ -109,6 +131,9 @@ py::dict to_python(const Report& r) {
   }
   d["energy"] = energy;
   d["levels"] = levels;
+  py::list curvature;
+  for (const CurvatureLevelReport& l : r.curvature) curvature.append(to_python(l));
+  d["curvature"] = curvature;
   d["iterations"] = iterations;
   d["residuals"] = residuals;
   py::list shapes;
@@ -294,6 +319,10 @@ PYBIND11_MODULE(_native, m) {
   py::enum_<Interpolation>(m, "Interpolation")
       .value("exact", Interpolation::exact)
       .value("approximate", Interpolation::approximate);
+  py::enum_<Energy>(m, "Energy")
+      .value("thin_plate", Energy::thin_plate)
+      .value("total_curvature", Energy::total_curvature)
+      .value("minimum_variation", Energy::minimum_variation);
   py::enum_<Method>(m, "Method").value("multigrid", Method::multigrid).value("back_leg", Method::back_leg);
 
   py::class_<Monitor>(m, "Monitor", "Watches a run, and cancels it, from any thread.")
@@ -306,6 +335,9 @@ PYBIND11_MODULE(_native, m) {
   py::class_<FairOptions>(m, "Options")
       .def(py::init<>())
       .def_readwrite("levels", &FairOptions::levels)
+      .def_readwrite("energy", &FairOptions::energy)
+      .def_readwrite("decrement", &FairOptions::decrement)
+      .def_readwrite("max_steps", &FairOptions::max_steps)
       .def_property(
           "chart", [](const FairOptions& o) { return o.chart.kind; },
           [](FairOptions& o, ChartKind kind) { o.chart.kind = kind; })

@@ -20,13 +20,14 @@ Vec3 orthonormal(double uu, double uv, double vv) {
 // terms then drop out of the normal equations by division, and a 3 x 3 system is left.
 class RoundFit {
  public:
-  // False when undetermined.
-  bool make(std::span<const Vec2> ring) {
+  // False when undetermined. No weights: all are one.
+  bool make(std::span<const Vec2> ring, std::span<const double> weight) {
     double uu = 0, uv = 0, vv = 0;
-    for (const Vec2& p : ring) {
-      uu += p.x() * p.x();
-      uv += p.x() * p.y();
-      vv += p.y() * p.y();
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      const Vec2 &p = ring[j], q = weight.empty() ? p : Vec2(weight[j] * p);
+      uu += q.x() * p.x();
+      uv += q.x() * p.y();
+      vv += q.y() * p.y();
     }
     if (!(uu > 0)) return false;
     const double rest = vv - uv * uv / uu, n = double(ring.size());
@@ -36,10 +37,11 @@ class RoundFit {
 
     double aa = 0, ab = 0, ac = 0, bb = 0, bc = 0, cc = 0;
     xa = ya = xb = yb = xc = yc = 0;
-    for (const Vec2& p : ring) {
-      const Term t = term(p);
-      aa += t.a * t.a, ab += t.a * t.b, ac += t.a * t.c, bb += t.b * t.b, bc += t.b * t.c, cc += t.c * t.c;
-      xa += t.x * t.a, ya += t.y * t.a, xb += t.x * t.b, yb += t.y * t.b, xc += t.x * t.c, yc += t.y * t.c;
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      const Term t = term(ring[j]);
+      const Term q = weight.empty() ? t : t.times(weight[j]);
+      aa += q.a * t.a, ab += q.a * t.b, ac += q.a * t.c, bb += q.b * t.b, bc += q.b * t.c, cc += q.c * t.c;
+      xa += q.x * t.a, ya += q.y * t.a, xb += q.x * t.b, yb += q.y * t.b, xc += q.x * t.c, yc += q.y * t.c;
     }
     s00 = without_linear(aa, xa, ya, xa, ya);
     const double s01 = without_linear(ab, xa, ya, xb, yb), s11 = without_linear(bb, xb, yb, xb, yb),
@@ -53,24 +55,26 @@ class RoundFit {
     return d2 > undetermined * cc;
   }
 
-  Vec3 hessian(std::span<const Vec2> ring, std::span<const double> f) const {
+  Vec3 hessian(std::span<const Vec2> ring, std::span<const double> weight, std::span<const double> f) const {
     double fx = 0, fy = 0, fa = 0, fb = 0, fc = 0;
     for (std::size_t j = 0; j < ring.size(); ++j) {
       const Term t = term(ring[j]);
-      fx += f[j] * t.x, fy += f[j] * t.y, fa += f[j] * t.a, fb += f[j] * t.b, fc += f[j] * t.c;
+      const double g = weight.empty() ? f[j] : weight[j] * f[j];
+      fx += g * t.x, fy += g * t.y, fa += g * t.a, fb += g * t.b, fc += g * t.c;
     }
     return solve(fx, fy, fa, fb, fc);
   }
 
   // What a unit difference at p alone contributes.
-  Vec3 row(const Vec2& p) const {
-    const Term t = term(p);
+  Vec3 row(const Vec2& p, double weight) const {
+    const Term t = term(p).times(weight);
     return solve(t.x, t.y, t.a, t.b, t.c);
   }
 
  private:
   struct Term {
     double x, y, a, b, c;  // a = x^2 + y^2, b = x^2 - y^2, c = 2 x y
+    Term times(double w) const { return {w * x, w * y, w * a, w * b, w * c}; }
   };
   Term term(const Vec2& p) const {
     const double x = w0 * p.x(), y = w1 * p.x() + w2 * p.y(), xx = x * x, yy = y * y;
@@ -134,17 +138,19 @@ Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> f) {
 
 }  // namespace
 
-Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference) {
+Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
+                    std::span<const double> weight) {
   RoundFit round;
-  if (ring.size() >= 5 && round.make(ring)) return round.hessian(ring, difference);
+  if (ring.size() >= 5 && round.make(ring, weight)) return round.hessian(ring, weight, difference);
   return staged_hessian(ring, difference);
 }
 
-void hessian_rows(std::span<const Vec2> ring, std::vector<Vec3>& rows) {
+void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight, std::vector<Vec3>& rows) {
   rows.resize(ring.size());
   RoundFit round;
-  if (ring.size() >= 5 && round.make(ring)) {
-    for (std::size_t j = 0; j < ring.size(); ++j) rows[j] = round.row(ring[j]);
+  if (ring.size() >= 5 && round.make(ring, weight)) {
+    for (std::size_t j = 0; j < ring.size(); ++j)
+      rows[j] = round.row(ring[j], weight.empty() ? 1.0 : weight[j]);
     return;
   }
   std::vector<double> unit(ring.size(), 0.0);

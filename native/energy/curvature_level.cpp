@@ -14,8 +14,7 @@ namespace {
 // One element's part of a linearization.
 struct Linearizer {
   ShapeRows rows;
-  RingInSpace ring;
-  std::vector<double> scratch;
+  WalkScratch scratch;
 
   // The rows of point i of a run; returns its energy. `give(slot, force)` is called for the point's part of the force.
   template <class Give>
@@ -41,6 +40,12 @@ struct Linearizer {
   }
 };
 
+// One a thread.
+Linearizer& linearizer() {
+  thread_local Linearizer own;
+  return own;
+}
+
 }  // namespace
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const Lattice& lattice)
@@ -48,72 +53,80 @@ CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const Lattice& lattice)
   if (varies()) connection_ = std::make_unique<Connection>(lattice);
 }
 
-double CurvatureLevel::linearize(const double* x, double* force, double* normal) {
+double CurvatureLevel::linearize(const double* x, Surface* out) {
   const ControlMesh& mesh = shared_.mesh;
   const int n = lattice_.n();
   const JointWeight joint(lattice_);
   const CurvatureEnergy kind = shared_.energy;
+  const Array<float> lifts = area_lifts(lattice_, shared_.workers, x);
+  const float* lift = lifts.empty() ? nullptr : lifts.data();
   std::vector<double> vertex_energy(std::size_t(mesh.vertex_count()), 0.0),
       edge_energy(mesh.edges.size(), 0.0), face_energy(mesh.faces.size(), 0.0);
-  Array<double> own_normals;
-  if (!normal) {
-    own_normals.resize(3 * lattice_.size());
-    normal = own_normals.data();
+  Surface own;
+  Surface& surface = out ? *out : own;
+  surface.force.resize(lattice_.size());
+  if (out) {
+    surface.normal.resize(3 * lattice_.size());
+    surface.shape.resize(4 * lattice_.size());
   }
-  const auto put_normal = [&](std::size_t p, const Linearizer& l) {
-    for (std::size_t a = 0; a < 3; ++a) normal[3 * p + a] = l.rows.point.normal[Eigen::Index(a)];
+  const auto put_point = [&](std::size_t p, const Linearizer& l) {
+    if (!out) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      surface.normal[3 * p + a] = l.rows.point.normal[Eigen::Index(a)];
+      surface.shape[4 * p + a] = float(l.rows.shape[Eigen::Index(a)]);
+    }
+    surface.shape[4 * p + 3] = float(std::sqrt(l.rows.point.area));
   };
-  const auto no_normals = [&](std::size_t p, std::size_t count) {
-    std::fill_n(normal + 3 * p, 3 * count, 0.0);
+  const auto clear_points = [&](std::size_t p, std::size_t count) {
+    if (!out) return;
+    std::fill_n(surface.normal.data() + 3 * p, 3 * count, 0.0);
+    std::fill_n(surface.shape.data() + 4 * p, 4 * count, 0.0f);
   };
-  thread_local Linearizer l;
 
   const auto vertex_body = [&](Index v, double* centre, double* spokes, std::vector<double>&) {
-    no_normals(std::size_t(v), 1);
+    clear_points(std::size_t(v), 1);
     if (!mesh.vertex_fit(v)) return;
-    walk_vertex(lattice_, v, x, l.ring, [&](const RingInSpace& ring, bool closed) {
+    Linearizer& l = linearizer();
+    walk_vertex(lattice_, v, x, lift, l.scratch, [&](const RingInSpace& ring, bool closed) {
       std::vector<std::size_t> place;
       visit_ring(lattice_, v, [&](Index, std::size_t slot) { place.push_back(slot); });
       vertex_energy[std::size_t(v)] = l.store(
           ring, closed, kind, joint.vertex(v), rows_.vertex(v), 0,
           [&](int slot, double f) { (slot == 0 ? *centre : spokes[place[std::size_t(slot - 1)]]) += f; });
-      put_normal(std::size_t(v), l);
+      put_point(std::size_t(v), l);
     });
   };
   const auto edge_body = [&](Index e, double* run, double* left, double* right, std::vector<double>&) {
     clear_lanes<1>(n, run, left, right);
     const std::size_t first = std::size_t(lattice_.edge_base(e));
-    if (n > 1) no_normals(first, std::size_t(n - 1));
+    if (n > 1) clear_points(first, std::size_t(n - 1));
     if (n == 1 || !mesh.edge_fit(e)) return;
     double* const lanes[3] = {run, left, right};
     const Beside<double> target = beside_edge(EdgeRingLanes(mesh, e), lanes);
     const RowRun<float> rows = rows_.edge(e);
-    walk_edge(lattice_, e, x, l.scratch, l.ring, [&](std::size_t i, const RingInSpace& ring, bool closed) {
+    Linearizer& l = linearizer();
+    walk_edge(lattice_, e, x, lift, l.scratch, [&](std::size_t i, const RingInSpace& ring, bool closed) {
       edge_energy[std::size_t(e)] += l.store(ring, closed, kind, joint.edge_point(e, int(i) + 1), rows, i,
                                              [&](int slot, double f) { target.at[slot][i] += f; });
-      put_normal(first + i, l);
+      put_point(first + i, l);
     });
   };
   const auto face_body = [&](Index f, double* closed, std::vector<double>&) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
     std::fill_n(closed, closed_size(quad, std::size_t(n)), 0.0);
     std::size_t p = std::size_t(lattice_.face_base(f));
-    walk_face(lattice_, f, x, l.scratch, l.ring,
+    Linearizer& l = linearizer();
+    walk_face(lattice_, f, x, lift, l.scratch,
               [&](int j, std::size_t i, const RingInSpace& ring, bool whole) {
                 const Beside<double> target = beside_row(quad, n, j, closed);
                 face_energy[std::size_t(f)] +=
                     l.store(ring, whole, kind, joint.face_point(f, int(i) + 1, j), rows_.face(f, j), i,
                             [&](int slot, double g) { target.at[slot][i] += g; });
-                put_normal(p++, l);
+                put_point(p++, l);
               });
   };
-  Array<double> sums;
-  if (!force) {
-    sums.resize(lattice_.size());
-    force = sums.data();
-  }
-  accumulate(lattice_, shared_.workers, shared_.fine_exchange, &shared_.unknowns, force, vertex_body,
-             edge_body, face_body);
+  accumulate(lattice_, shared_.workers, shared_.fine_exchange, &shared_.unknowns, surface.force.data(),
+             vertex_body, edge_body, face_body);
 
   double total = 0;
   for (const auto& part : {vertex_energy, edge_energy, face_energy})
@@ -123,10 +136,11 @@ double CurvatureLevel::linearize(const double* x, double* force, double* normal)
     const double weight = shared_.weights[v];
     if (!shared_.unknowns.vertex[v] || !(weight > 0)) continue;
     const Vec3 away = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) - shared_.targets[v];
-    const Vec3 direction(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]);
     total += weight * away.squaredNorm();
     vertex_weight_[v] = weight;
-    force[v] -= weight * direction.dot(away);
+    if (out)
+      surface.force[v] -= weight * (surface.normal[3 * v] * away[0] + surface.normal[3 * v + 1] * away[1] +
+                                    surface.normal[3 * v + 2] * away[2]);
   }
   update_diagonal();
   return total;
@@ -183,6 +197,73 @@ void CurvatureLevel::apply_any(const T* x, T* y, Exchange<T, 1>& exchange) {
     }
   };
   accumulate(lattice_, shared_.workers, exchange, &shared_.unknowns, y, vertex_body, edge_body, face_body);
+  if (!damping_.empty())
+    for_each_index(shared_.workers, damping_.size(), [&](std::size_t i) { y[i] += T(damping_[i]) * x[i]; });
+}
+
+void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<float>& predicted) {
+  const ControlMesh& mesh = shared_.mesh;
+  const int n = lattice_.n();
+  predicted.resize(3 * lattice_.size());
+  // `moment` is sqrt(w) J h
+  const auto put = [&](std::size_t p, std::size_t count, const double* moment) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* m = shape.data() + 4 * (p + i);
+      for (std::size_t c = 0; c < 3; ++c)
+        predicted[3 * (p + i) + c] = m[3] > 0 ? m[c] + float(moment[c * count + i] / double(m[3])) : 0.0f;
+    }
+  };
+  shared_.workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const RowRun<const float> run = std::as_const(rows_).vertex(Index(v));
+      double moment[3] = {0, 0, 0};
+      if (mesh.vertex_fit(Index(v))) {
+        for (int c = 0; c < 3; ++c) moment[c] = double(run.at(c, 0, 0)) * h[v];
+        int slot = 0;
+        visit_ring(lattice_, Index(v), [&](Index p, std::size_t) {
+          ++slot;
+          for (int c = 0; c < 3; ++c) moment[c] += double(run.at(c, slot, 0)) * h[p];
+        });
+      }
+      put(v, 1, moment);
+    }
+  });
+  shared_.workers.for_parts(n > 1 ? mesh.edges.size() : 0, 64, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> scratch, moment(3 * std::size_t(n));
+    for (Index e = Index(begin); e < Index(end); ++e) {
+      const RowRun<const float> run = std::as_const(rows_).edge(e);
+      const EdgeLanes<double, 1> lanes(lattice_, h, e, scratch);
+      forward<double>(run, beside_edge<double>(EdgeRingLanes(mesh, e), lanes.lane).at, moment.data());
+      put(std::size_t(lattice_.edge_base(e)), run.count, moment.data());
+    }
+  });
+  shared_.workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    std::vector<double> closed(closed_size(true, std::size_t(n))), moment(3 * std::size_t(n));
+    for (Index f = Index(begin); f < Index(end); ++f) {
+      const bool quad = mesh.faces[std::size_t(f)].quad();
+      gather_face<1>(lattice_, h, f, closed.data());
+      std::size_t p = std::size_t(lattice_.face_base(f));
+      for (int j = 1; j < n; ++j) {
+        const RowRun<const float> run = std::as_const(rows_).face(f, j);
+        forward<double>(run, beside_row(quad, n, j, closed.data()).at, moment.data());
+        put(p, run.count, moment.data());
+        p += run.count;
+      }
+    }
+  });
+}
+
+void CurvatureLevel::set_damping(const Array<float>& mu) {
+  damping_.clear();
+  inverse_diagonal_.resize(lattice_.size());
+  if (!mu.empty()) {
+    damping_.resize(lattice_.size());
+    for (std::size_t i = 0; i < damping_.size(); ++i) damping_[i] = mu[i] * diagonal_[i];
+  }
+  for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
+    const float d = diagonal_[i] + (mu.empty() ? 0.0f : damping_[i]);
+    inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
+  }
 }
 
 void CurvatureLevel::update_diagonal() {
@@ -220,10 +301,10 @@ void CurvatureLevel::update_diagonal() {
         for (std::size_t i = 0; i < rows.count; ++i) target.at[s][i] += square(rows, s, i);
     }
   };
-  inverse_diagonal_.resize(lattice_.size());
-  accumulate(lattice_, shared_.workers, shared_.fast_exchange, &shared_.unknowns, inverse_diagonal_.data(),
+  diagonal_.resize(lattice_.size());
+  accumulate(lattice_, shared_.workers, shared_.fast_exchange, &shared_.unknowns, diagonal_.data(),
              vertex_body, edge_body, face_body);
-  for (float& d : inverse_diagonal_) d = d > 0 ? 1 / d : 1.0f;
+  set_damping({});
 }
 
 AssembledSystem CurvatureLevel::assemble() const {
@@ -288,6 +369,7 @@ AssembledSystem CurvatureLevel::assemble() const {
     const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
     double extra = system.matrix.coeff(i, i) > 0 ? 0.0 : 1.0;
     if (p < vertex_weight_.size()) extra += vertex_weight_[p];
+    if (!damping_.empty()) extra += double(damping_[p]);
     if (extra > 0) system.matrix.coeffRef(i, i) += extra;
   }
   return system;

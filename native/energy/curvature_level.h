@@ -36,13 +36,22 @@ class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const Lattice& lattice);
 
-  // K about the surface x (3 numbers a point). Returns the energy, the weights' part included. `force`, if not null,
-  // gets minus half the energy's gradient on the unknowns: K h = force is the step. `normal` gets the points' normals, zero
-  // where a point has no fit.
-  double linearize(const double* x, double* force = nullptr, double* normal = nullptr);
+  // What a surface gives besides K, where asked for; all are resized. Zero where a point has no fit.
+  struct Surface {
+    Array<double> force;   // minus half the energy's gradient, on the unknowns: K h = force is the step
+    Array<double> normal;  // 3 a point
+    Array<float> shape;    // 4 a point: M's orthonormal components, and the root of the area
+  };
+  // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
+  double linearize(const double* x, Surface* out = nullptr);
 
-  // Call after shared.damping has changed.
-  void update_diagonal();
+  // M as it would be after the displacement h, to first order: 3 numbers a point.
+  void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
+
+  // mu_i K_ii is added to the diagonal from here on; empty: nothing.
+  void set_damping(const Array<float>& mu);
+
+  const Array<float>& diagonal() const { return diagonal_; }  // zero where a point is no unknown
 
   std::size_t points() const override { return lattice_.size(); }
   std::size_t components() const override { return 1; }
@@ -52,6 +61,7 @@ class CurvatureLevel final : public LevelOperator {
   AssembledSystem assemble() const override;
 
  private:
+  void update_diagonal();
   template <class T>
   void apply_any(const T* x, T* y, Exchange<T, 1>& exchange);
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
@@ -61,7 +71,7 @@ class CurvatureLevel final : public LevelOperator {
   RingRows rows_;                           // sqrt(w) J
   std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
   std::unique_ptr<Connection> connection_;  // minimum variation only
-  Array<float> inverse_diagonal_;
+  Array<float> diagonal_, inverse_diagonal_, damping_;
 };
 
 }  // namespace fairing

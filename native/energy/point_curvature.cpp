@@ -15,6 +15,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double least_share = 0.1;  // of the barycentric area
 constexpr double thinnest = 1e-24;   // squared sine below which a triangle has no cotangents
+constexpr double far_weight = 0.3;   // in the fit, beside what its distance makes of a quad's far corner
 constexpr double nearest = 1e-200;   // squared distance below which a neighbour is the point itself
 
 // A neighbour with the reciprocal of its squared distance.
@@ -84,55 +85,102 @@ Vec3 open_hessian(const SurfaceChart& chart) {
 
 }  // namespace
 
-PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
+namespace {
+
+// Sums over the ring; false where two points coincide. `angle`, if wanted: into chart.ring and chart.height, for
+// lay_out(), and their total.
+template <bool angles>
+bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan, double& total) {
   const std::size_t size = ring.offset.size();
+  if (size == 0) return false;
   chart.ring.resize(size);
   chart.height.resize(size);
   chart.cotangent.assign(size, 0.0);
-  std::vector<double>& angle = chart.height;  // until the heights are known
-  Fan fan(chart.cotangent);
-  double total = 0;
-  if (size == 0) return {};
   const Neighbour first(ring.offset[0]);
   Neighbour a = first;
-  if (!(a.square > nearest)) return {};
+  if (!(a.square > nearest)) return false;
   const std::size_t end = ring.closed ? size : size - 1;
   for (std::size_t j = 1; j <= end; ++j) {
     const std::size_t here = j < size ? j : 0;
     const Neighbour b = here ? Neighbour(ring.offset[j]) : first;
-    if (!(b.square > nearest)) return {};
+    if (!(b.square > nearest)) return false;
     const Wedge wedge(a, b);
     fan.add(a, j - 1, b, here, wedge, ring.far[j - 1] || ring.far[here] ? 0.5 : 1.0);
     if (ring.far[here]) {
       const std::size_t next = here + 1 < size ? here + 1 : 0;
       const Neighbour c(ring.offset[next]);
-      if (!(c.square > nearest)) return {};
+      if (!(c.square > nearest)) return false;
       fan.add(a, j - 1, c, next, Wedge(a, c), 0.5);
     }
-    const double inverse = std::sqrt(a.inverse * b.inverse);
-    chart.ring[here] = Vec2(wedge.cosine * inverse, wedge.sine * inverse);
-    angle[here] = angle_of(chart.ring[here].y(), chart.ring[here].x(), 1);
-    total += angle[here];
+    if constexpr (angles) {
+      const double inverse = std::sqrt(a.inverse * b.inverse);
+      chart.ring[here] = Vec2(wedge.cosine * inverse, wedge.sine * inverse);
+      chart.height[here] = angle_of(chart.ring[here].y(), chart.ring[here].x(), 1);
+      total += chart.height[here];
+    }
     a = b;
   }
+  return true;
+}
+
+void lift_cotangents(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
+  for (std::size_t j = 0; j < ring.offset.size(); ++j) {
+    double& cotangent = chart.cotangent[j];
+    const double extra = std::max(ring.own_lift, ring.lift[j]) * std::max(-cotangent, 0.0);
+    cotangent += extra;
+    fan.laplacian += extra * ring.offset[j];
+    fan.circumcentric += 0.25 * extra * ring.offset[j].squaredNorm();
+  }
+}
+
+}  // namespace
+
+float area_lift(const SurfaceRing& ring, SurfaceChart& chart) {
+  Fan fan(chart.cotangent);
+  double total = 0;
+  if (!ring.closed || !sum_up<false>(ring, chart, fan, total)) return 0;
+  const double missing = least_share * fan.barycentric - fan.circumcentric;
+  if (!(missing > 0)) return 0;
+  double negative = 0;
+  for (std::size_t j = 0; j < ring.offset.size(); ++j)
+    negative += 0.25 * std::max(-chart.cotangent[j], 0.0) * ring.offset[j].squaredNorm();
+  return negative > missing ? float(missing / negative) : 1.0f;
+}
+
+PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
+  const std::size_t size = ring.offset.size();
+  Fan fan(chart.cotangent);
+  double total = 0;
+  if (!sum_up<true>(ring, chart, fan, total)) return {};
+  chart.rest.resize(size);
+  chart.weight.resize(size);
+  if (!ring.lift.empty()) lift_cotangents(ring, chart, fan);
   PointCurvature out;
   const double length = fan.normal.norm();
   if (!(length > 0 && total > 0 && std::isfinite(length))) return {};
   out.normal = fan.normal / length;
-  lay_out(chart.ring, angle, ring.closed ? total : full_turn, ring);
+  lay_out(chart.ring, chart.height, ring.closed ? total : full_turn, ring);
   for (std::size_t j = 0; j < size; ++j) chart.height[j] = out.normal.dot(ring.offset[j]);
 
-  const Vec3 hessian = ring.closed ? fitted_hessian(chart.ring, chart.height) : open_hessian(chart);
-  out.trace_free = {hessian[1], hessian[2]};
   if (!ring.closed) {
+    const Vec3 hessian = open_hessian(chart);
     out.area = fan.barycentric;
     out.trace = std::numbers::sqrt2 * hessian[0];
+    out.trace_free = {hessian[1], hessian[2]};
     return out;
   }
+  for (std::size_t j = 0; j < size; ++j)
+    chart.weight[j] = (ring.far[j] ? far_weight : 1.0) / chart.ring[j].squaredNorm();
   out.area = std::max(fan.circumcentric, least_share * fan.barycentric);
   out.trace = out.normal.dot(fan.laplacian) / out.area;
   if (out.area != fan.circumcentric)
-    out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 * hessian[0];
+    out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *
+                 fitted_hessian(chart.ring, chart.height, chart.weight)[0];
+  // What the trace explains is not the trace-free part's; the same where the ring determines a quadratic.
+  for (std::size_t j = 0; j < size; ++j)
+    chart.rest[j] = chart.height[j] - 0.25 * out.trace * chart.ring[j].squaredNorm();
+  const Vec3 hessian = fitted_hessian(chart.ring, chart.rest, chart.weight);
+  out.trace_free = {hessian[1], hessian[2]};
   return out;
 }
 

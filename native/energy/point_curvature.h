@@ -8,6 +8,10 @@
 // circumcentric area, which takes the same squares to the same value and, unlike least squares, is symmetric:
 // so these meshes are critical points of the discrete energy as well.
 //
+// The trace-free part is a least-squares fit with weights 1 / distance^2, 0.3 times that for a quad's far corner: where
+// spacing is uneven, as beside control vertices, the far neighbours would otherwise decide (on the Clifford torus this
+// takes the error to a third).
+//
 // A quad counts as the mean of its two triangulations; its far corner is a neighbour like any other, at its
 // own distance and between its own angles (rather than where a flattened quad would have it): so it stays
 // exact too.
@@ -27,6 +31,8 @@ struct SurfaceRing {
   std::span<const Vec3> offset;       // p_j - p_i
   std::span<const std::uint8_t> far;  // 1: p_j is the corner across a quad, between the quad's other two
   bool closed = true;                 // else it runs from one boundary edge to the other
+  std::span<const float> lift{};      // of the neighbours (area_lift); empty: all zero
+  float own_lift = 0;
 };
 
 // The chart of a ring: the exponential map of the surface itself. Edge lengths are radii; the angles between
@@ -34,6 +40,8 @@ struct SurfaceRing {
 struct SurfaceChart {
   std::vector<Vec2> ring;
   std::vector<double> height;     // n . (p_j - p_i)
+  std::vector<double> weight;     // of the neighbours in the fit of the trace-free part
+  std::vector<double> rest;       // the heights without the trace's part
   std::vector<double> cotangent;  // half the cotangents across the edge to p_j, added up
 };
 
@@ -53,11 +61,18 @@ struct PointCurvature {
   }
 };
 
-// `chart` is written, and takes no new memory once it has held a ring of that size. Where the floor replaces
-// the area (obtuse triangles around an irregular vertex can make it negative), the fit's trace stands for the
-// share that the circumcentric area lacks: so the sphere stays exact, and what acts on displacements, the
-// cotangents over the area, stays symmetric. An open ring has the barycentric area, and all of M from the fit. A ring
-// that has a neighbour at the point itself, or no normal, has no curvature and no area.
+// Obtuse triangles around an irregular vertex can make the circumcentric area small or negative. Any symmetric weights
+// would do in place of the cotangents, with the area that belongs to them: so the negative ones, of edges to a point
+// whose area is too small, are lifted towards zero. The share is the greater one of the edge's two ends (area_lift), so
+// that the weights stay symmetric.
+//
+// `chart` is written, and takes no new memory once it has held a ring of that size. Should the area still be below the
+// floor, the fit's trace stands for the share that it lacks: the sphere stays exact. An open ring has the barycentric
+// area, and all of M from the fit. A ring that has a neighbour at the point itself, or no normal, has no curvature and
+// no area.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
+
+// The share, 0 to 1, by which negative cotangents around a closed ring have to rise for its area to reach the floor.
+float area_lift(const SurfaceRing& ring, SurfaceChart& chart);
 
 }  // namespace fairing

@@ -24,9 +24,17 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
   if (!(out.point.area > 0)) return;
   out.shape = {root_half * out.point.trace, out.point.trace_free[0], out.point.trace_free[1]};
   if (ring.closed) {
-    hessian_rows(out.chart.ring, out.row);
+    hessian_rows(out.chart.ring, out.chart.weight, out.row);
     const double scale = root_half / out.point.area;
-    for (std::size_t j = 0; j < out.row.size(); ++j) out.row[j][0] = scale * out.chart.cotangent[j];
+    // Like the trace-free part itself, its rows leave to the trace what is the trace's.
+    Eigen::Vector2d of_round = Eigen::Vector2d::Zero();
+    for (std::size_t j = 0; j < out.row.size(); ++j)
+      of_round += out.chart.ring[j].squaredNorm() * out.row[j].tail<2>();
+    of_round *= 0.5 * root_half;
+    for (std::size_t j = 0; j < out.row.size(); ++j) {
+      out.row[j][0] = scale * out.chart.cotangent[j];
+      out.row[j].tail<2>() -= out.row[j][0] * of_round;
+    }
   } else {
     const FitRows rows = fit({out.chart.ring, 0, false});
     out.row.resize(out.chart.ring.size());

@@ -12,6 +12,7 @@
 #include "fair/back_leg.h"
 #include "fair/check_options.h"
 #include "fair/constrain.h"
+#include "fair/curvature.h"
 #include "fair/frame.h"
 #include "fair/memory_plan.h"
 #include "fair/output.h"
@@ -96,25 +97,44 @@ struct Solver {
   const Frame& frame;
   SurfaceSystem& system;
   Stopwatch& watch;
+  const Stencils& stencils;
+
+  std::vector<CurvatureLevelReport> curvature{};
 
   // One surface in working coordinates; the reports of its levels.
   std::vector<LevelReport> solve(const Placement& place, ToleranceConstraint& constraint, Array<double>& x,
                                  const std::function<void(const double*)>& on_prediction) {
     std::vector<LevelReport> levels;
     watch.enter(Phase::solve, 0);
+    curvature.clear();
+    std::unique_ptr<CurvatureSystem> curved = make_curved();
     const auto on_level = [&](int level, Array<double>& points) {
-      if (!constraint.active()) return;
-      watch.enter(Phase::constrain, 0.5);
-      constraint.settle(system, level, points);
-      if (level == options.levels)
-        levels.back() = constraint.finish(system, options.relative_residual, points);
-      watch.enter(Phase::solve, 0.5);
+      if (constraint.active()) {
+        watch.enter(Phase::constrain, 0.5);
+        constraint.settle(system, level, points);
+        if (level == options.levels)
+          levels.back() = constraint.finish(system, options.relative_residual, points);
+        watch.enter(Phase::solve, 0.5);
+      }
+      if (curved) curvature.push_back(curved->solve_level(level, points));
     };
     if (options.method == Method::back_leg)
       solve_back_leg(system, place.working, options.sweeps, x, levels, on_prediction);
     else
       system.solve_nested(place.working, x, levels, on_prediction, on_level);
+    if (curved && system.base() <= options.levels) std::swap(x, curved->surface());
     return levels;
+  }
+
+  std::unique_ptr<CurvatureSystem> make_curved() {
+    if (options.energy == Energy::thin_plate || options.method == Method::back_leg ||
+        system.base() > options.levels)
+      return nullptr;
+    std::vector<const Lattice*> lattices;
+    for (int l = 0; l <= options.levels; ++l) lattices.push_back(&system.lattice(l));
+    return std::make_unique<CurvatureSystem>(mesh, lattices, system.base(), stencils,
+                                             system.shared().unknowns, options, system.shared().workers,
+                                             system.monitor());
   }
 
   // Returns the solves taken.
@@ -192,7 +212,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
     require_anchored(mesh, unknowns, start_weights);
     SurfaceSystem system(mesh, basis.working_curves, stencils, unknowns, start_weights, options, workers,
                          monitor);
-    Solver solver{mesh, options, frame, system, watch};
+    Solver solver{mesh, options, frame, system, watch, stencils};
     const Lattice& finest = system.lattice(options.levels);
     const auto energies = [&](const double* points) {
       SurfaceEnergies e;
@@ -206,6 +226,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
       report.prediction = energies(start);
       watch.enter(Phase::solve, 0.25);
     });
+    report.curvature = solver.curvature;
     warn_unconverged(report.levels.back(), options, "", report);
     report.constraint_rounds = constraint.rounds();
     report.constraint_gap = constraint.gap();

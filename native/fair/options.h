@@ -12,6 +12,12 @@ namespace fairing {
 
 enum class Interpolation { exact, approximate };
 
+enum class Energy {
+  thin_plate,         // in the control metric: one linear system
+  total_curvature,    // of the surface itself: Gauss-Newton steps from the thin plate's surface
+  minimum_variation,  // of the curvature along the surface: likewise
+};
+
 enum class Method {
   multigrid,  // full multigrid, V-cycles inside conjugate gradients: the solution of the linear system
   back_leg,   // the paper's own: refine, then a few Gauss-Seidel sweeps, level by level
@@ -19,6 +25,9 @@ enum class Method {
 
 struct FairOptions {
   int levels = 3;
+  Energy energy = Energy::thin_plate;
+  double decrement = 1e-6;  // Gauss-Newton steps end at this decrement (StepReport)
+  int max_steps = 20;       // on the finest level
   ChartOptions chart;
   FeatureOptions features;
   bool repair_orientation = false;

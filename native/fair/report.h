@@ -23,6 +23,23 @@ struct LevelReport : LevelSolve {
   std::size_t unknowns = 0;
 };
 
+// One Gauss-Newton step.
+struct StepReport {
+  double energy = 0;     // before it
+  double decrement = 0;  // sqrt(h . K h / energy): how much of the energy's root a full step would take off
+  double length = 1;     // of the part of the step that was gone; 0: none would do
+  int iterations = 0;    // of the linear solve
+  double residual = 0;   // its, relative to the start
+  bool direct = false;
+};
+
+struct CurvatureLevelReport {
+  int level = 0;
+  double plate_energy = 0, start_energy = 0, energy = 0;  // in working coordinates
+  std::vector<StepReport> steps;
+  bool converged = false;
+};
+
 struct ShapeReport {
   LevelReport finest;
   double largest_deviation = 0;  // as in Report
@@ -37,6 +54,7 @@ struct PhaseSeconds {
 struct Report {
   SurfaceEnergies result, polyhedron, prediction;
   std::vector<LevelReport> levels;
+  std::vector<CurvatureLevelReport> curvature;  // Gauss-Newton steps by level; none for the thin plate
   std::vector<ShapeReport> shapes;
   std::vector<PhaseSeconds> seconds;
   std::size_t predicted_bytes = 0, peak_bytes = 0;

@@ -121,7 +121,7 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
         add_point<C>(&closed[C * side_offset(true, n, c, 1, 1)],
                      exchange.spoke.data() + 2 * C * std::size_t(spoke) + C);
       }
-      scatter_interior(lattice, closed.data(), Index(f), out);
+      scatter_interior<C>(lattice, closed.data(), Index(f), out);
       with_shape(quad, n, [&]<bool four, int fixed>() {
         const int m = fixed ? fixed : n;
         T* to = side;

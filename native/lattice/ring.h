@@ -69,8 +69,9 @@ struct EdgeRingLanes {
 // block more.
 template <class T, int C = 3>
 struct EdgeLanes {
-  T* lane[3];
+  T* lane[3] = {};
 
+  EdgeLanes() = default;
   EdgeLanes(const Lattice& lattice, const T* x, Index e, std::vector<T>& scratch) {
     const ControlMesh& mesh = lattice.mesh();
     const std::size_t stride = lane_stride<C>(lattice.n()) + lane_block;

@@ -102,6 +102,8 @@ void Hierarchy::solve_direct(const CoarseSolver& solver, std::size_t index, cons
   LevelOperator& op = *cycle_.levels[index].op;
   out.direct = true;
   out.smoother_degree = 0;
+  const double scale =
+      limits.from_start ? norm(workers_, op.size(), pcg_.residual.data()) : limits.residual_scale;
   for (int step = 0; step < refinement_steps && !out.converged; ++step) {
     solver.solve(pcg_.residual.data(), pcg_.direction.data());
     op.apply(pcg_.direction.data(), pcg_.image.data());
@@ -110,7 +112,7 @@ void Hierarchy::solve_direct(const CoarseSolver& solver, std::size_t index, cons
       pcg_.residual[i] -= pcg_.image[i];
     });
     const double now = norm(workers_, op.size(), pcg_.residual.data());
-    out.residual = limits.residual_scale > 0 ? now / limits.residual_scale : 0;
+    out.residual = scale > 0 ? now / scale : 0;
     out.converged = out.residual <= limits.tolerance || now <= limits.noise;
   }
 }

@@ -15,10 +15,10 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
   const float* z = level.state.x.data();
 
   PcgResult result;
-  const auto relative = [&](double length) {
-    return limits.residual_scale > 0 ? length / limits.residual_scale : 0.0;
-  };
   double size_of_residual = norm(workers, size, r), rz = 0, step = 0;
+  const double residual_scale = limits.from_start ? size_of_residual : limits.residual_scale;
+  double energy_scale = limits.from_start ? 0 : limits.energy_scale;
+  const auto relative = [&](double length) { return residual_scale > 0 ? length / residual_scale : 0.0; };
   int degree = cycle.degree;
   result.residual = relative(size_of_residual);
   result.history.push_back(result.residual);
@@ -32,8 +32,9 @@ PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, 
     for_each_index(workers, size, [&](std::size_t i) { level.state.residual[i] = float(r[i] / unit); });
     cycle.run(top);
     const double rz_new = unit * sum(workers, size, [&](std::size_t i) { return r[i] * double(z[i]); });
-    result.energy_error =
-        limits.energy_scale > 0 ? std::sqrt(std::max(0.0, rz_new)) / limits.energy_scale : 0.0;
+    const double error = std::sqrt(std::max(0.0, rz_new));
+    if (limits.from_start && result.iterations == 0) energy_scale = error;
+    result.energy_error = energy_scale > 0 ? error / energy_scale : 0.0;
     result.converged = (result.residual <= limits.tolerance || size_of_residual <= limits.noise) &&
                        (result.energy_error <= limits.tolerance || size_of_residual <= limits.noise);
     if (result.converged || result.iterations >= limits.max_iterations) return result;

@@ -16,6 +16,7 @@ struct PcgLimits {
   double energy_scale = 0;    // sqrt(energy)
   double noise = 0;           // a residual below this is rounding
   int max_iterations = 200;
+  bool from_start = false;  // both scales are what the start has
 };
 
 struct PcgResult {

@@ -13,8 +13,6 @@ from .arrays import face_arrays, index_array, numbers, shape_array, vertex_array
 from .errors import fairing_error
 from .result import Result
 
-ENERGIES = ("thin_plate",)
-
 
 def fair(
     vertices: ArrayLike,
@@ -42,6 +40,8 @@ def fair(
     relative_residual: float = 1e-8,
     max_iterations: int = 200,
     smoother_degree: int = 0,
+    decrement: float = 1e-6,
+    max_steps: int = 20,
     sweeps: int = 10,
     threads: int = 0,
     memory_limit: int = 0,
@@ -127,9 +127,10 @@ def fair(
         With `code`, `elements` and a message that says what to do. CANCELLED after a cancel.
     """
     o = _native.Options()
-    if energy not in ENERGIES:
-        raise choice_error("energy", energy, ENERGIES)
     o.levels = whole("levels", levels)
+    o.energy = choice("energy", energy, _native.Energy)
+    o.decrement = real("decrement", decrement)
+    o.max_steps = whole("max_steps", max_steps)
     o.metric_exponent = real("metric_exponent", metric_exponent)
     o.chart_blend = real("chart_blend", chart_blend)
     o.chart = choice("chart", chart, _native.Chart)

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fair/curvature.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "execution/vectors.h"
+#include "fair/surface.h"
+#include "lattice/sample.h"
+#include "transfer/point_normal.h"
+#include "transfer/transfer.h"
+
+namespace fairing {
+namespace {
+
+constexpr double inner_accuracy = 1e-2;  // of the linear solves: a step gains no more
+constexpr double coarse_decrement = 1e-2;
+constexpr int coarse_steps = 4;
+
+// Plain steps have to come so far within so many, or it is done again with damped ones.
+constexpr double plain_decrement = 1e-3;
+constexpr int plain_steps = 14, short_plain_steps = 6;
+constexpr double hopeful = 1.5;  // a start's energy, to the level below's, that needs no other to compare with
+constexpr double as_low = 1.01;  // as the energy by damped steps
+
+// The energy of a right step may rise a little near the end, where the discrete energy's minimum lies beside the
+// solution of the equation; nearer still it does not tell any more.
+constexpr double slack = 0.1;  // times the decrement
+constexpr double late = 1e-2;  // decrement
+constexpr double least_length = 1.0 / 8;
+constexpr int most_rejections = 4;
+constexpr double accelerated = 0.1;  // decrement below which steps are accelerated
+constexpr double regular = 0.5;      // ratio of decrements below which they tell what is left
+
+class DisplacementTransfer final : public LevelTransfer {
+ public:
+  DisplacementTransfer(CurvatureShared& shared, const Stencils& stencils, const Lattice& coarse,
+                       const Lattice& fine)
+      : shared_(shared), stencils_(stencils), coarse_(coarse), fine_(fine) {}
+  void prolong(const float* x, float* y) override {
+    fairing::prolong(coarse_, fine_, stencils_, &shared_.unknowns, shared_.workers, shared_.fast_exchange, x,
+                     y);
+  }
+  void restrict_to(const float* x, float* y) override {
+    fairing::restrict_to(coarse_, fine_, stencils_, shared_.unknowns, shared_.workers, shared_.fast_exchange,
+                         x, y);
+  }
+
+ private:
+  CurvatureShared& shared_;
+  const Stencils& stencils_;
+  const Lattice &coarse_, &fine_;
+};
+
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& options) {
+  HierarchyOptions out;
+  out.smoother_degree = options.smoother_degree;
+  out.always_factor = unknowns.any_vertex;
+  return out;
+}
+
+CurvatureEnergy kind(Energy energy) {
+  return energy == Energy::minimum_variation ? CurvatureEnergy::minimum_variation
+                                             : CurvatureEnergy::total_curvature;
+}
+
+}  // namespace
+
+CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
+                                 const Stencils& stencils, const Unknowns& unknowns,
+                                 const FairOptions& options, Workers& workers, Monitor& monitor)
+    : mesh_(mesh),
+      lattices_(std::move(lattices)),
+      base_(base),
+      stencils_(stencils),
+      options_(options),
+      workers_(workers),
+      monitor_(monitor),
+      shared_{mesh, unknowns, kind(options.energy), workers},
+      hierarchy_(workers, monitor, hierarchy_options(unknowns, options)) {
+  for (int l = base; l < int(lattices_.size()); ++l) {
+    operators_.push_back(std::make_unique<CurvatureLevel>(shared_, lattice(l)));
+    if (l > base)
+      transfers_.push_back(
+          std::make_unique<DisplacementTransfer>(shared_, stencils, lattice(l - 1), lattice(l)));
+    hierarchy_.add(*operators_.back(), l > base ? transfers_.back().get() : nullptr,
+                   count_unknowns(lattice(l), unknowns));
+  }
+  hierarchy_.complete();
+}
+
+CurvatureSystem::~CurvatureSystem() = default;
+
+void CurvatureSystem::linearize_below(int level) {
+  const Array<double>* from = &surface_;
+  Array<double> coarse[2];
+  for (int l = level - 1; l >= base_; --l) {
+    monitor_.check_cancelled();
+    Array<double>& to = coarse[l % 2];
+    to.resize(3 * lattice(l).size());
+    sample<3>(lattice(l), lattice(l + 1), workers_, from->data(), to.data());
+    op(l).linearize(to.data());
+    from = &to;
+  }
+}
+
+void CurvatureSystem::damp(int level, const Array<float>& mu) {
+  op(level).set_damping(mu);
+  if (mu.empty()) return;
+  Array<float> fine = mu, coarse;
+  for (int l = level - 1; l >= base_; --l) {
+    coarse.resize(lattice(l).size());
+    sample<1>(lattice(l), lattice(l + 1), workers_, fine.data(), coarse.data());
+    op(l).set_damping(coarse);
+    fine.swap(coarse);
+  }
+}
+
+// The thin plate's surface, or the one that the level below has found: as its change of the plate, or bulged along its
+// normals.
+void CurvatureSystem::choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report) {
+  const std::size_t size = 3 * lattice(level).size();
+  Array<double> below = std::move(surface_);
+  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(size));
+  report.plate_energy = report.start_energy = op(level).linearize(surface_.data());
+  if (below.empty()) return;
+  trial_.resize(size);
+  const auto take_if_lower = [&] {
+    const double energy = op(level).linearize(trial_.data());
+    if (!(energy < report.start_energy)) return;
+    report.start_energy = energy;
+    std::swap(surface_, trial_);
+  };
+  Array<double> change(below.size());
+  for_each_index(workers_, below.size(), [&](std::size_t i) { change[i] = below[i] - plate_below_[i]; });
+  prolong(lattice(level - 1), lattice(level), stencils_, nullptr, workers_, exchange_, change.data(), trial_.data());
+  const Array<float>& diagonal = op(level).diagonal();
+  for_each_index(workers_, size, [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
+  take_if_lower();
+  if (report.start_energy <= hopeful * energy_) return;
+  prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(), trial_.data());
+  for_each_index(workers_, size, [&](std::size_t i) {
+    if (!(diagonal[i / 3] > 0)) trial_[i] = plate[i];
+  });
+  take_if_lower();
+}
+
+CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>& plate) {
+  CurvatureLevelReport report;
+  report.level = level;
+  if (level < base_) return report;
+  const bool finest = level + 1 == int(lattices_.size());
+  choose_start(level, plate, report);
+  const double decrement = finest ? options_.decrement : std::max(coarse_decrement, options_.decrement);
+  const int most_steps = finest ? options_.max_steps : coarse_steps;
+  // Plain steps first; those that fail on a coarse level may do on a finer one.
+  const Array<double> start = surface_;
+  CurvatureLevelReport plain = report;
+  const int patience = mode_ == Mode::damped && finest ? short_plain_steps : plain_steps;
+  minimize(level, Mode::plain, std::min(decrement, plain_decrement), std::max(most_steps, patience), patience, plain);
+  if (getenv("DFDBG")) { fprintf(stderr,"level %d mode %d plain: plate %.2f end %.3f:", level, int(mode_), plain.plate_energy, plain.energy); for (auto& q : plain.steps) fprintf(stderr," %.3f:%.1e", q.energy, q.decrement); fprintf(stderr,"\n"); }
+  if (settled(plain) && mode_ == Mode::plain) {
+    report = plain;
+  } else {
+    const Array<double> found = std::exchange(surface_, start);
+    const CurvatureLevel::Surface found_here = here_;
+    const double found_energy = energy_;
+    minimize(level, Mode::damped, decrement, most_steps, 0, report);
+    const bool as_good = settled(plain) && plain.energy <= as_low * report.energy;
+    mode_ = as_good ? Mode::plain : Mode::damped;
+    if (as_good) {
+      surface_ = found;
+      here_ = found_here;
+      energy_ = found_energy;
+      report = plain;
+    }
+  }
+  plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(surface_.size()));
+  return report;
+}
+
+bool CurvatureSystem::settled(const CurvatureLevelReport& report) const {
+  return report.converged && report.energy <= report.plate_energy;
+}
+
+void CurvatureSystem::minimize(int level, Mode mode, double decrement, int most_steps, int patience,
+                               CurvatureLevelReport& report) {
+  LocalDamping damping(lattice(level), shared_.unknowns, workers_);
+  anderson_.reset();
+  trial_.resize(3 * lattice(level).size());
+  energy_ = op(level).linearize(surface_.data(), &here_);
+  int rejections = 0;
+  double last = 0;
+  while (int(report.steps.size()) < most_steps && rejections < most_rejections && energy_ > 0) {
+    monitor_.check_cancelled();
+    linearize_below(level);
+    damp(level, damping.mu());
+    StepReport& step = report.steps.emplace_back();
+    step.energy = energy_;
+    step.decrement = solve_step(level, step);
+    const int steps = int(report.steps.size()) - 1 - rejections;
+    if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps)) {
+      if (mode == Mode::plain) break;
+      ++rejections;
+      last = 0;
+      continue;
+    }
+    // Steps gain by a ratio that the last two tell.
+    const double ratio = last > 0 ? step.decrement / last : 1;
+    const double left = ratio < regular ? step.decrement * ratio / (1 - ratio) : step.decrement;
+    last = step.decrement;
+    report.converged = std::min(left, step.decrement) <= decrement;
+    if (report.converged) break;
+    if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;
+  }
+  report.energy = energy_;
+}
+
+// The step h of K h = force, in step_; returns its decrement.
+double CurvatureSystem::solve_step(int level, StepReport& report) {
+  const std::size_t points = lattice(level).size(), index = std::size_t(level - base_);
+  step_.assign(points, 0.0);
+  hierarchy_.refresh(index, true);
+  PcgState& state = hierarchy_.state();
+  std::copy(here_.force.begin(), here_.force.end(), state.residual.begin());
+  PcgLimits limits;
+  limits.tolerance = inner_accuracy;
+  limits.from_start = true;
+  limits.max_iterations = options_.max_iterations;
+  const LevelSolve solved = hierarchy_.solve(index, limits, step_.data(), [](const PcgResult&) {});
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  report.direct = solved.direct;
+  const double square = sum(workers_, points, [&](std::size_t i) { return here_.force[i] * step_[i]; });
+  return std::sqrt(std::max(0.0, square) / energy_);
+}
+
+// Goes along step_ as far as the energy allows; false: nowhere.
+bool CurvatureSystem::advance(int level, StepReport& step, LocalDamping* damping, int rejections, int steps) {
+  if (step.decrement < accelerated) anderson_.mix(op(level), workers_, step_);
+  if (damping) op(level).predict(here_.shape, step_.data(), predicted_);
+  const bool is_late = !damping || step.decrement < late;
+  for (step.length = 1; step.length >= least_length; step.length /= 2) {
+    const double energy = try_step(level, step.length);
+    if (step.length == 1 && !is_late &&
+        damping->judge(predicted_, here_.shape, there_.shape, rejections, steps, step.decrement))
+      anderson_.reset();
+    if (!std::isfinite(energy) || (!is_late && energy > energy_ * (1 + slack * step.decrement))) continue;
+    anderson_.took(step.length);
+    std::swap(surface_, trial_);
+    std::swap(here_, there_);
+    energy_ = energy;
+    return true;
+  }
+  step.length = 0;
+  anderson_.reset();
+  op(level).linearize(surface_.data(), &here_);
+  return false;
+}
+
+double CurvatureSystem::try_step(int level, double length) {
+  for_each_index(workers_, surface_.size(),
+                 [&](std::size_t i) { trial_[i] = surface_[i] + length * step_[i / 3] * here_.normal[i]; });
+  return op(level).linearize(trial_.data(), &there_);
+}
+
+}  // namespace fairing

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of least total curvature or least variation of curvature: Gauss-Newton steps along the normals, level by
+// level, from the thin plate's surface.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "energy/curvature_level.h"
+#include "fair/local_damping.h"
+#include "fair/options.h"
+#include "fair/report.h"
+#include "solver/anderson.h"
+#include "solver/hierarchy.h"
+
+namespace fairing {
+
+class CurvatureSystem {
+ public:
+  // `lattices` are all levels from 0 on; levels below `base` have no unknowns.
+  CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
+                  const Stencils& stencils, const Unknowns& unknowns, const FairOptions& options,
+                  Workers& workers, Monitor& monitor);
+  ~CurvatureSystem();
+
+  // The surface of a level, from `plate`, the thin plate's. Levels have to come in order; on each but the first the
+  // level below helps to start.
+  CurvatureLevelReport solve_level(int level, const Array<double>& plate);
+
+  // The latest level's surface.
+  Array<double>& surface() { return surface_; }
+
+ private:
+  const Lattice& lattice(int level) const { return *lattices_[std::size_t(level)]; }
+  CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
+  void choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report);
+  // How steps are gone. Plain ones, full and unchecked, pass through humps of the discrete energy where checked and damped
+  // ones are trapped; damped ones hold where a surface is crumpled and plain ones run wild.
+  enum class Mode { undecided, plain, damped };
+  bool settled(const CurvatureLevelReport& report) const;
+  void minimize(int level, Mode mode, double decrement, int most_steps, int patience, CurvatureLevelReport& report);
+  void linearize_below(int level);
+  void damp(int level, const Array<float>& mu);
+  double solve_step(int level, StepReport& report);
+  double try_step(int level, double length);
+  bool advance(int level, StepReport& step, LocalDamping* damping, int rejections, int steps);
+
+  const ControlMesh& mesh_;
+  std::vector<const Lattice*> lattices_;
+  int base_;
+  const Stencils& stencils_;
+  const FairOptions& options_;
+  Workers& workers_;
+  Monitor& monitor_;
+  CurvatureShared shared_;
+  std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
+  std::vector<std::unique_ptr<LevelTransfer>> transfers_;
+  Hierarchy hierarchy_;
+  Exchange<double, 3> exchange_;
+  Mode mode_ = Mode::undecided;
+  Array<double> surface_, trial_, step_;
+  double energy_ = 0;  // of surface_, as the next two
+  CurvatureLevel::Surface here_, there_;
+  Array<float> predicted_;
+  Anderson anderson_;
+  Array<double> plate_below_;  // the thin plate's surface on the level before
+};
+
+}  // namespace fairing

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fair/local_damping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "execution/vectors.h"
+
+namespace fairing {
+namespace {
+
+constexpr float first = 0.05f, growth = 8, decay = 0.25f;
+constexpr double failed = 0.15, held = 0.02;  // squared differences from the prediction, relative
+constexpr int patience = 5;                   // steps, after which what failed twice is damped more each time
+constexpr float insistence = 3;
+constexpr double near_the_end = 0.03;  // decrement below which damping fades wherever the prediction held
+
+}  // namespace
+
+LocalDamping::LocalDamping(const Lattice& lattice, const Unknowns& unknowns, Workers& workers)
+    : lattice_(lattice), unknowns_(unknowns), workers_(workers) {}
+
+bool LocalDamping::judge(const Array<float>& predicted, const Array<float>& before, const Array<float>& after,
+                         int rejections, int steps, double decrement) {
+  const std::size_t points = lattice_.size();
+  const auto square = [](const float* m) {
+    return double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
+  };
+  const auto area = [](const float* m) { return double(m[3]) * m[3]; };
+  const double whole = sum(workers_, points, [&](std::size_t i) { return area(&before[4 * i]); });
+  const double energy =
+      sum(workers_, points, [&](std::size_t i) { return area(&before[4 * i]) * square(&before[4 * i]); });
+  const double mean = whole > 0 ? energy / whole : 0;
+  Array<float> miss(points), marks(points);
+  const double bound = failed * std::pow(0.5, rejections);
+  for_each_index(workers_, points, [&](std::size_t i) {
+    const float *m = &before[4 * i], *now = &after[4 * i], *p = &predicted[3 * i];
+    const float d[3] = {now[0] - p[0], now[1] - p[1], now[2] - p[2]};
+    const double scale = square(m) + square(now) + mean;
+    miss[i] = m[3] > 0 && now[3] > 0 && scale > 0 ? float(square(d) / scale) : (m[3] > 0 ? 1.0f : 0.0f);
+    marks[i] = double(miss[i]) > bound ? 1.0f : 0.0f;
+  });
+  grow(marks);
+  if (mu_.empty()) {
+    mu_.assign(points, 0.0f);
+    failures_.assign(points, 0);
+  }
+  for_each_index(workers_, points, [&](std::size_t i) {
+    float& mu = mu_[i];
+    if (marks[i] > 0) {
+      mu = std::max(growth * mu, first);
+      failures_[i] = std::uint8_t(std::min(failures_[i] + 1, 100));
+      return;
+    }
+    const bool released = double(miss[i]) < held && (failures_[i] < 2 || decrement < near_the_end);
+    if (released)
+      mu = decay * mu < first / 8 ? 0.0f : decay * mu;
+    else if (steps >= patience && failures_[i] >= 2)
+      mu *= insistence;
+  });
+  const bool before_any = any_;
+  any_ = sum(workers_, points, [&](std::size_t i) { return mu_[i] > 0 ? 1.0 : 0.0; }) > 0;
+  return any_ || before_any;
+}
+
+// Marks the neighbours of marked points as well.
+void LocalDamping::grow(Array<float>& marks) {
+  const ControlMesh& mesh = lattice_.mesh();
+  const int n = lattice_.n();
+  Array<float> out(marks.size());
+  const auto vertex_body = [&](Index v, float* centre, float* spokes, std::vector<float>&) {
+    if (!(marks[std::size_t(v)] > 0)) return;
+    *centre += 1;
+    visit_ring(lattice_, v, [&](Index, std::size_t slot) { spokes[slot] += 1; });
+  };
+  const auto edge_body = [&](Index e, float* run, float* left, float* right, std::vector<float>&) {
+    clear_lanes<1>(n, run, left, right);
+    if (n == 1) return;
+    float* const lanes[3] = {run, left, right};
+    const EdgeRingLanes ring(mesh, e);
+    const Beside<float> target = beside_edge(ring, lanes);
+    const float* mark = marks.data() + lattice_.edge_base(e);
+    for (int i = 0; i < n - 1; ++i)
+      for (int s = 0; s <= ring.size; ++s) target.at[s][i] += mark[i];
+  };
+  const auto face_body = [&](Index f, float* closed, std::vector<float>&) {
+    const bool quad = mesh.faces[std::size_t(f)].quad();
+    std::fill_n(closed, closed_size(quad, std::size_t(n)), 0.0f);
+    const float* mark = marks.data() + lattice_.face_base(f);
+    const int slots = 1 + int(face_ring(quad).size());
+    for (int j = 1; j < n; ++j) {
+      const std::size_t count = row_count(quad, n, j);
+      const Beside<float> target = beside_row(quad, n, j, closed);
+      for (int s = 0; s < slots; ++s)
+        for (std::size_t i = 0; i < count; ++i) target.at[s][i] += mark[i];
+      mark += count;
+    }
+  };
+  accumulate(lattice_, workers_, exchange_, &unknowns_, out.data(), vertex_body, edge_body, face_body);
+  marks.swap(out);
+}
+
+}  // namespace fairing
