@@ -15,13 +15,15 @@ namespace fairing {
 namespace {
 
 constexpr double inner_accuracy = 1e-2;  // of the linear solves: a step gains no more
-constexpr double coarse_decrement = 1e-2;
-constexpr int coarse_steps = 4;
-
-// Plain steps have to come so far within so many, or it is done again with damped ones.
+// Plain steps have to come to this decrement within so many, or it is done again with damped ones; on coarse levels they
+// end there.
 constexpr double plain_decrement = 1e-3;
-constexpr int plain_steps = 14, short_plain_steps = 6;
-constexpr double hopeful = 1.5;  // a start's energy, to the level below's, that needs no other to compare with
+constexpr int long_patience = 14, short_patience = 6;
+constexpr double damped_decrement = 1e-3;  // where damped ones end
+constexpr double worth_polishing = 0.05;   // their decrement
+
+constexpr double hopeful =
+    1.5;  // a start's energy, to the level below's, that needs no other to compare with
 constexpr double as_low = 1.01;  // as the energy by damped steps
 
 // The energy of a right step may rise a little near the end, where the discrete energy's minimum lies beside the
@@ -134,12 +136,15 @@ void CurvatureSystem::choose_start(int level, const Array<double>& plate, Curvat
   };
   Array<double> change(below.size());
   for_each_index(workers_, below.size(), [&](std::size_t i) { change[i] = below[i] - plate_below_[i]; });
-  prolong(lattice(level - 1), lattice(level), stencils_, nullptr, workers_, exchange_, change.data(), trial_.data());
+  prolong(lattice(level - 1), lattice(level), stencils_, nullptr, workers_, exchange_, change.data(),
+          trial_.data());
   const Array<float>& diagonal = op(level).diagonal();
-  for_each_index(workers_, size, [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
+  for_each_index(workers_, size,
+                 [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
   take_if_lower();
   if (report.start_energy <= hopeful * energy_) return;
-  prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(), trial_.data());
+  prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(),
+                       trial_.data());
   for_each_index(workers_, size, [&](std::size_t i) {
     if (!(diagonal[i / 3] > 0)) trial_[i] = plate[i];
   });
@@ -152,39 +157,48 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   if (level < base_) return report;
   const bool finest = level + 1 == int(lattices_.size());
   choose_start(level, plate, report);
-  const double decrement = finest ? options_.decrement : std::max(coarse_decrement, options_.decrement);
-  const int most_steps = finest ? options_.max_steps : coarse_steps;
-  // Plain steps first; those that fail on a coarse level may do on a finer one.
+  const double decrement = finest ? options_.decrement : std::max(plain_decrement, options_.decrement);
   const Array<double> start = surface_;
-  CurvatureLevelReport plain = report;
-  const int patience = mode_ == Mode::damped && finest ? short_plain_steps : plain_steps;
-  minimize(level, Mode::plain, std::min(decrement, plain_decrement), std::max(most_steps, patience), patience, plain);
-  if (getenv("DFDBG")) { fprintf(stderr,"level %d mode %d plain: plate %.2f end %.3f:", level, int(mode_), plain.plate_energy, plain.energy); for (auto& q : plain.steps) fprintf(stderr," %.3f:%.1e", q.energy, q.decrement); fprintf(stderr,"\n"); }
-  if (settled(plain) && mode_ == Mode::plain) {
-    report = plain;
-  } else {
-    const Array<double> found = std::exchange(surface_, start);
-    const CurvatureLevel::Surface found_here = here_;
-    const double found_energy = energy_;
-    minimize(level, Mode::damped, decrement, most_steps, 0, report);
-    const bool as_good = settled(plain) && plain.energy <= as_low * report.energy;
-    mode_ = as_good ? Mode::plain : Mode::damped;
-    if (as_good) {
-      surface_ = found;
-      here_ = found_here;
-      energy_ = found_energy;
-      report = plain;
+  const CurvatureLevelReport fresh = report;
+
+  // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
+  const int patience = finest && mode_ == Mode::damped ? short_patience : long_patience;
+  minimize(level, Mode::plain, decrement, patience, report);
+  if (!settled(report) || mode_ != Mode::plain) {
+    const Found plain = found();
+    const CurvatureLevelReport plain_report = std::exchange(report, fresh);
+    surface_ = start;
+    minimize(level, Mode::damped, std::max(damped_decrement, options_.decrement), 0, report);
+    if (finest) polish(level, report);
+    mode_ =
+        settled(plain_report) && plain_report.energy <= as_low * report.energy ? Mode::plain : Mode::damped;
+    if (mode_ == Mode::plain) {
+      restore(plain);
+      report = plain_report;
     }
   }
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(surface_.size()));
   return report;
 }
 
+// Plain steps from where damped ones have ended, if they go on from there.
+void CurvatureSystem::polish(int level, CurvatureLevelReport& report) {
+  if (report.steps.empty() || report.steps.back().decrement > worth_polishing) return;
+  const Found damped = found();
+  CurvatureLevelReport polished = report;
+  polished.converged = false;
+  minimize(level, Mode::plain, options_.decrement, short_patience, polished);
+  if (polished.converged && polished.energy <= as_low * report.energy)
+    report = polished;
+  else
+    restore(damped);
+}
+
 bool CurvatureSystem::settled(const CurvatureLevelReport& report) const {
   return report.converged && report.energy <= report.plate_energy;
 }
 
-void CurvatureSystem::minimize(int level, Mode mode, double decrement, int most_steps, int patience,
+void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patience,
                                CurvatureLevelReport& report) {
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
   anderson_.reset();
@@ -192,15 +206,14 @@ void CurvatureSystem::minimize(int level, Mode mode, double decrement, int most_
   energy_ = op(level).linearize(surface_.data(), &here_);
   int rejections = 0;
   double last = 0;
-  while (int(report.steps.size()) < most_steps && rejections < most_rejections && energy_ > 0) {
+  for (int steps = 0; steps < options_.max_steps && rejections < most_rejections && energy_ > 0; ++steps) {
     monitor_.check_cancelled();
     linearize_below(level);
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
     step.energy = energy_;
     step.decrement = solve_step(level, step);
-    const int steps = int(report.steps.size()) - 1 - rejections;
-    if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps)) {
+    if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps - rejections)) {
       if (mode == Mode::plain) break;
       ++rejections;
       last = 0;
@@ -210,7 +223,7 @@ void CurvatureSystem::minimize(int level, Mode mode, double decrement, int most_
     const double ratio = last > 0 ? step.decrement / last : 1;
     const double left = ratio < regular ? step.decrement * ratio / (1 - ratio) : step.decrement;
     last = step.decrement;
-    report.converged = std::min(left, step.decrement) <= decrement;
+    report.converged = left <= decrement;
     if (report.converged) break;
     if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;
   }

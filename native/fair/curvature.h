@@ -38,7 +38,20 @@ class CurvatureSystem {
   // ones are trapped; damped ones hold where a surface is crumpled and plain ones run wild.
   enum class Mode { undecided, plain, damped };
   bool settled(const CurvatureLevelReport& report) const;
-  void minimize(int level, Mode mode, double decrement, int most_steps, int patience, CurvatureLevelReport& report);
+
+  struct Found {
+    Array<double> surface;
+    CurvatureLevel::Surface here;
+    double energy;
+  };
+  Found found() const { return {surface_, here_, energy_}; }
+  void restore(const Found& found) {
+    surface_ = found.surface;
+    here_ = found.here;
+    energy_ = found.energy;
+  }
+  void minimize(int level, Mode mode, double decrement, int patience, CurvatureLevelReport& report);
+  void polish(int level, CurvatureLevelReport& report);
   void linearize_below(int level);
   void damp(int level, const Array<float>& mu);
   double solve_step(int level, StepReport& report);

@@ -27,21 +27,22 @@ void prolong_with_normals(const Lattice& coarse, const Lattice& fine, Workers& w
   const ControlMesh& mesh = coarse.mesh();
   const int n = coarse.n();
   std::copy_n(x, 3 * std::size_t(mesh.vertex_count()), y);
-  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<double> run(lane_stride(n)), normals(lane_stride(n));
-    for (Index e = Index(begin); e < Index(end); ++e) {
-      gather_edge(coarse, x, e, run.data());
-      gather_edge(coarse, normal, e, normals.data());
-      double* to = y + 3 * std::size_t(fine.edge_base(e));
-      for (int k = 1; k < 2 * n; ++k, to += 3) {
-        const std::size_t at = 3 * std::size_t(k / 2);
-        if (k % 2 == 0)
-          copy_point(to, run.data() + at);
-        else
-          put(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
-      }
-    }
-  });
+  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
+                    [&](std::size_t begin, std::size_t end) {
+                      std::vector<double> run(lane_stride(n)), normals(lane_stride(n));
+                      for (Index e = Index(begin); e < Index(end); ++e) {
+                        gather_edge(coarse, x, e, run.data());
+                        gather_edge(coarse, normal, e, normals.data());
+                        double* to = y + 3 * std::size_t(fine.edge_base(e));
+                        for (int k = 1; k < 2 * n; ++k, to += 3) {
+                          const std::size_t at = 3 * std::size_t(k / 2);
+                          if (k % 2 == 0)
+                            copy_point(to, run.data() + at);
+                          else
+                            put(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
+                        }
+                      }
+                    });
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     std::vector<double> points(3 * closed_size(true, std::size_t(n))), normals(points.size());
     for (Index f = Index(begin); f < Index(end); ++f) {

@@ -10,8 +10,7 @@ namespace {
 double farthest_from_sphere(const FairResult& result) {
   double most = 0;
   for (std::size_t i = 0; i < result.vertices.size(); i += 3)
-    most = std::max(most,
-                    std::abs(Eigen::Map<const Vec3>(result.vertices.data() + i).norm() - 1));
+    most = std::max(most, std::abs(Eigen::Map<const Vec3>(result.vertices.data() + i).norm() - 1));
   return most;
 }
 
