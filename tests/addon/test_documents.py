@@ -131,11 +131,13 @@ def test_pictures_are_small_and_used(path):
 @pytest.mark.parametrize("name", PYTHON)
 def test_examples_run(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PWD", str(tmp_path))  # by which Blender finds relative paths
     namespace = {}
     blocks = code_blocks((DOCS / name).read_text("utf-8"), "python")
     assert blocks
     for number, block in enumerate(blocks, 1):
         exec(compile(block, f"{name}, example {number}", "exec"), namespace)
+    assert [path.name for path in tmp_path.iterdir()] == ["faired.blend"]
 
 
 @pytest.mark.parametrize(
