@@ -105,7 +105,12 @@ def tent():
     """An open sheet of four quads, drawn up in the middle."""
     vertices = [(x, y, 1.5 * (1 - max(abs(x), abs(y)))) for x in (-1, 0, 1) for y in (-1, 0, 1)]
     faces = [(i, i + 3, i + 4, i + 1) for i in (0, 1, 3, 4)]
-    return add(vertices, faces)
+    return add(_lifted(vertices, 0.35), faces)
+
+
+def _lifted(vertices, height):
+    """One more vertex, of no face, which stands on the floor, so that what lies flat does not."""
+    return [*vertices, (0, 0, -height)]
 
 
 def scan():
@@ -116,11 +121,6 @@ def scan():
     for vertex, noise in zip(control.data.vertices, random.normal(0, 0.012, 1000)):
         vertex.co *= 1 + noise
     return control
-
-
-def icosahedron():
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1, radius=1.0)
-    return bpy.context.object
 
 
 def uneven():
@@ -156,19 +156,19 @@ def _lathe(profile, sides):
     return add(vertices, faces)
 
 
-def bump():
-    """A flat sheet with a bump of four by four faces, which are selected."""
-    at = range(-4, 5)
-    height = {0: 1.5, 1: 0.95}
-    vertices = [(x, y, height.get(max(abs(x), abs(y)), 0.0)) for x in at for y in at]
-    count = len(at)
+def ramp():
+    """A low plate, a high one, and the ramp between them, whose faces are selected."""
+    columns = ((-4, 0.0), (-2, 0.0), (0, 0.9), (2, 1.8), (4, 1.8))
+    rows = range(-2, 3, 2)
+    vertices = [(x, y, z) for x, z in columns for y in rows]
+    count = len(rows)
     faces = [
         (i * count + j, (i + 1) * count + j, (i + 1) * count + j + 1, i * count + j + 1)
-        for i, j in product(range(count - 1), repeat=2)
+        for i, j in product(range(len(columns) - 1), range(count - 1))
     ]
-    control = add(vertices, faces)
+    control = add(_lifted(vertices, 0.4), faces)
     for face in control.data.polygons:
-        face.select = max(abs(face.center.x), abs(face.center.y)) < 2
+        face.select = abs(face.center.x) < 2
     return control
 
 
