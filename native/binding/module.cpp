@@ -89,10 +89,13 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["plate_energy"] = l.plate_energy;
   d["start_energy"] = l.start_energy;
   d["energy"] = l.energy;
+  d["start_variation"] = l.start_variation;
+  d["variation"] = l.variation;
   d["converged"] = l.converged;
   py::list steps;
   for (const StepReport& s : l.steps) {
     py::dict step;
+    step["functional"] = s.variation ? "minimum_variation" : "total_curvature";
     step["energy"] = s.energy;
     step["decrement"] = s.decrement;
     step["length"] = s.length;

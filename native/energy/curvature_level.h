@@ -10,6 +10,8 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "energy/connection.h"
 #include "energy/ring_rows.h"
@@ -30,6 +32,16 @@ struct CurvatureShared {
   double damping = 0;  // minimum variation: of W beside L
   Exchange<double, 1> fine_exchange{};
   Exchange<float, 1> fast_exchange{};
+  std::pair<Array<double>, Array<double>> fine_moments{};
+  std::pair<Array<float>, Array<float>> fast_moments{};
+
+  template <class T>
+  auto& moments() {
+    if constexpr (std::is_same_v<T, float>)
+      return fast_moments;
+    else
+      return fine_moments;
+  }
 };
 
 class CurvatureLevel final : public LevelOperator {
@@ -61,6 +73,8 @@ class CurvatureLevel final : public LevelOperator {
   AssembledSystem assemble() const override;
 
  private:
+  struct Tensors;
+  double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
   void update_diagonal();
   template <class T>
   void apply_any(const T* x, T* y, Exchange<T, 1>& exchange);

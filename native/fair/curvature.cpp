@@ -22,6 +22,12 @@ constexpr int long_patience = 14, short_patience = 6;
 constexpr double damped_decrement = 1e-3;  // where damped ones end
 constexpr double worth_polishing = 0.05;   // their decrement
 
+// Of the steps to the least variation.
+constexpr double variation_accuracy = 100;  // times options.decrement: each such step gains more
+constexpr double variation_late = 1e-3;
+constexpr double first_share = 0.1, least_share_of_damping = 1e-3;  // of the energies' ratio
+constexpr double still = 1e-4;  // of the curvature: variation that is as good as none
+
 constexpr double hopeful =
     1.5;  // a start's energy, to the level below's, that needs no other to compare with
 constexpr double as_low = 1.01;  // as the energy by damped steps
@@ -62,11 +68,6 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
   return out;
 }
 
-CurvatureEnergy kind(Energy energy) {
-  return energy == Energy::minimum_variation ? CurvatureEnergy::minimum_variation
-                                             : CurvatureEnergy::total_curvature;
-}
-
 }  // namespace
 
 CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
@@ -79,7 +80,7 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
       options_(options),
       workers_(workers),
       monitor_(monitor),
-      shared_{mesh, unknowns, kind(options.energy), workers},
+      shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
       hierarchy_(workers, monitor, hierarchy_options(unknowns, options)) {
   for (int l = base; l < int(lattices_.size()); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, lattice(l)));
@@ -178,6 +179,7 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
     }
   }
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(surface_.size()));
+  if (finest && options_.energy == Energy::minimum_variation) vary(level, report);
   return report;
 }
 
@@ -198,6 +200,77 @@ bool CurvatureSystem::settled(const CurvatureLevelReport& report) const {
   return report.converged && report.energy <= report.plate_energy;
 }
 
+// From the surface of least total curvature to that of least variation of curvature, by Levenberg-Marquardt steps: the
+// matrix of total curvature, which knows no long waves that cost nothing, damps them.
+void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
+  const double decrement = variation_accuracy * options_.decrement;
+  double square = 0, area = 0;  // total curvature, and the area
+  const std::size_t points = lattice(level).size();
+  const auto measure = [&](const Array<float>& shape) {
+    square = sum(workers_, points, [&](std::size_t i) {
+      const float* m = &shape[4 * i];
+      return double(m[3]) * m[3] * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
+    });
+    area = sum(workers_, points, [&](std::size_t i) { return double(shape[4 * i + 3]) * shape[4 * i + 3]; });
+  };
+  measure(here_.shape);
+  if (!(area > 0)) return;
+  shared_.energy = CurvatureEnergy::minimum_variation;
+  shared_.damping = 0;
+  energy_ = op(level).linearize(surface_.data(), &here_);
+  report.start_variation = energy_;
+  report.converged = false;
+  LocalDamping damping(lattice(level), shared_.unknowns, workers_);
+  double damping_share = first_share;
+  int rejections = 0;
+  for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
+    monitor_.check_cancelled();
+    // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
+    const double scale = energy_ + still * square / area;
+    shared_.damping = damping_share * energy_ / square;
+    if (steps == 0 || shared_.damping > 0) op(level).linearize(surface_.data(), &here_);
+    linearize_below(level);
+    damp(level, damping.mu());
+    StepReport& step = report.steps.emplace_back();
+    step.variation = true;
+    step.energy = energy_;
+    const double reduction = solve_step(level, step);
+    step.decrement = std::sqrt(reduction / scale);
+    op(level).predict(here_.shape, step_.data(), predicted_);
+    bool accepted = false;
+    for (step.length = 1; step.length >= least_length && !accepted; step.length /= 2) {
+      const double energy = try_step(level, step.length);
+      if (step.length == 1)
+        damping.judge(predicted_, here_.shape, there_.shape, rejections, steps - rejections, step.decrement);
+      if (!(energy <= energy_ + slack * step.decrement * scale) && !(step.decrement < variation_late))
+        continue;
+      const double gain = reduction > 0 ? (energy_ - energy) / reduction : 1;
+      std::swap(surface_, trial_);
+      std::swap(here_, there_);
+      energy_ = energy;
+      accepted = true;
+      if (step.length < 1)
+        damping_share *= 2;
+      else if (gain > 0.5)
+        damping_share = damping_share / 4 < least_share_of_damping ? 0 : damping_share / 4;
+      break;
+    }
+    if (!accepted) {
+      step.length = 0;
+      damping_share = std::max(4 * damping_share, first_share);
+      ++rejections;
+      op(level).linearize(surface_.data(), &here_);
+      continue;
+    }
+    measure(here_.shape);
+    report.converged = step.decrement <= decrement;
+    if (report.converged) break;
+  }
+  report.variation = energy_;
+  shared_.energy = CurvatureEnergy::total_curvature;
+  shared_.damping = 0;
+}
+
 void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patience,
                                CurvatureLevelReport& report) {
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
@@ -212,7 +285,7 @@ void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patie
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
     step.energy = energy_;
-    step.decrement = solve_step(level, step);
+    step.decrement = std::sqrt(solve_step(level, step) / energy_);
     if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps - rejections)) {
       if (mode == Mode::plain) break;
       ++rejections;
@@ -230,7 +303,7 @@ void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patie
   report.energy = energy_;
 }
 
-// The step h of K h = force, in step_; returns its decrement.
+// The step h of K h = force, in step_; returns h . K h, by which it would lower the energy.
 double CurvatureSystem::solve_step(int level, StepReport& report) {
   const std::size_t points = lattice(level).size(), index = std::size_t(level - base_);
   step_.assign(points, 0.0);
@@ -246,7 +319,7 @@ double CurvatureSystem::solve_step(int level, StepReport& report) {
   report.residual = solved.residual;
   report.direct = solved.direct;
   const double square = sum(workers_, points, [&](std::size_t i) { return here_.force[i] * step_[i]; });
-  return std::sqrt(std::max(0.0, square) / energy_);
+  return std::max(0.0, square);
 }
 
 // Goes along step_ as far as the energy allows; false: nowhere.

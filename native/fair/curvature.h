@@ -52,6 +52,7 @@ class CurvatureSystem {
   }
   void minimize(int level, Mode mode, double decrement, int patience, CurvatureLevelReport& report);
   void polish(int level, CurvatureLevelReport& report);
+  void vary(int level, CurvatureLevelReport& report);
   void linearize_below(int level);
   void damp(int level, const Array<float>& mu);
   double solve_step(int level, StepReport& report);

@@ -25,17 +25,19 @@ struct LevelReport : LevelSolve {
 
 // One Gauss-Newton step.
 struct StepReport {
-  double energy = 0;     // before it
-  double decrement = 0;  // sqrt(h . K h / energy): how much of the energy's root a full step would take off
-  double length = 1;     // of the part of the step that was gone; 0: none would do
-  int iterations = 0;    // of the linear solve
-  double residual = 0;   // its, relative to the start
+  bool variation = false;  // towards the least variation of curvature, not the least total curvature
+  double energy = 0;       // before it
+  double decrement = 0;    // sqrt(h . K h / energy): how much of the energy's root a full step would take off
+  double length = 1;       // of the part of the step that was gone; 0: none would do
+  int iterations = 0;      // of the linear solve
+  double residual = 0;     // its, relative to the start
   bool direct = false;
 };
 
 struct CurvatureLevelReport {
   int level = 0;
   double plate_energy = 0, start_energy = 0, energy = 0;  // in working coordinates
+  double start_variation = 0, variation = 0;              // minimum variation, on the finest level
   std::vector<StepReport> steps;
   bool converged = false;
 };
