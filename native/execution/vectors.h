@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "execution/workers.h"
@@ -41,6 +42,23 @@ double sum(Workers& workers, std::size_t size, Term&& term) {
   double total = 0;
   for (const double p : partial) total += p;
   return total;
+}
+
+// The largest |term(i)|; NaN counts as infinite.
+template <class Term>
+double largest(Workers& workers, std::size_t size, Term&& term) {
+  const std::size_t blocks = (size + vector_block - 1) / vector_block;
+  std::vector<double> partial(blocks, 0.0);
+  workers.for_parts(blocks, vector_grain / vector_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (std::size_t i = b * vector_block; i < std::min(size, (b + 1) * vector_block); ++i) {
+        const double t = std::abs(double(term(i)));
+        partial[b] = t <= partial[b] ? partial[b] : (t == t ? t : std::numeric_limits<double>::infinity());
+      }
+  });
+  double most = 0;
+  for (const double p : partial) most = std::max(most, p);
+  return most;
 }
 
 // The Euclidean norm.

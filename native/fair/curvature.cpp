@@ -15,15 +15,14 @@ namespace fairing {
 namespace {
 
 constexpr double inner_accuracy = 1e-2;  // of the linear solves: a step gains no more
-// Plain steps have to come to this decrement within so many, or it is done again with damped ones; on coarse levels they
-// end there.
-constexpr double plain_decrement = 1e-3;
+// Plain steps have to come to this decrement within so many, or it is done again with damped ones. On coarse levels they
+// end there, as damped ones do anywhere.
+constexpr double plain_decrement = 1e-3, damped_decrement = 3e-2;
 constexpr int long_patience = 14, short_patience = 6;
-constexpr double damped_decrement = 1e-3;  // where damped ones end
-constexpr double worth_polishing = 0.05;   // their decrement
+constexpr int polishing_patience = 3;
 
 // Of the steps to the least variation.
-constexpr double variation_accuracy = 100;  // times options.decrement: each such step gains more
+constexpr double variation_decrement = 1e-3;
 constexpr double variation_late = 1e-3;
 constexpr double first_share = 0.1, least_share_of_damping = 1e-3;  // of the energies' ratio
 constexpr double still = 1e-4;  // of the curvature: variation that is as good as none
@@ -158,18 +157,18 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   if (level < base_) return report;
   const bool finest = level + 1 == int(lattices_.size());
   choose_start(level, plate, report);
-  const double decrement = finest ? options_.decrement : std::max(plain_decrement, options_.decrement);
+  const Enough accurate{0, options_.decrement}, near{plain_decrement, 0}, damped_enough{damped_decrement, 0};
   const Array<double> start = surface_;
   const CurvatureLevelReport fresh = report;
 
   // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
   const int patience = finest && mode_ == Mode::damped ? short_patience : long_patience;
-  minimize(level, Mode::plain, decrement, patience, report);
+  minimize(level, Mode::plain, finest ? accurate : near, patience, report);
   if (!settled(report) || mode_ != Mode::plain) {
     const Found plain = found();
     const CurvatureLevelReport plain_report = std::exchange(report, fresh);
     surface_ = start;
-    minimize(level, Mode::damped, std::max(damped_decrement, options_.decrement), 0, report);
+    minimize(level, Mode::damped, damped_enough, 0, report);
     if (finest) polish(level, report);
     mode_ =
         settled(plain_report) && plain_report.energy <= as_low * report.energy ? Mode::plain : Mode::damped;
@@ -185,11 +184,11 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
 
 // Plain steps from where damped ones have ended, if they go on from there.
 void CurvatureSystem::polish(int level, CurvatureLevelReport& report) {
-  if (report.steps.empty() || report.steps.back().decrement > worth_polishing) return;
+  if (!report.converged) return;
   const Found damped = found();
   CurvatureLevelReport polished = report;
   polished.converged = false;
-  minimize(level, Mode::plain, options_.decrement, short_patience, polished);
+  minimize(level, Mode::plain, {0, options_.decrement}, polishing_patience, polished);
   if (polished.converged && polished.energy <= as_low * report.energy)
     report = polished;
   else
@@ -203,7 +202,6 @@ bool CurvatureSystem::settled(const CurvatureLevelReport& report) const {
 // From the surface of least total curvature to that of least variation of curvature, by Levenberg-Marquardt steps: the
 // matrix of total curvature, which knows no long waves that cost nothing, damps them.
 void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
-  const double decrement = variation_accuracy * options_.decrement;
   double square = 0, area = 0;  // total curvature, and the area
   const std::size_t points = lattice(level).size();
   const auto measure = [&](const Array<float>& shape) {
@@ -263,7 +261,8 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
       continue;
     }
     measure(here_.shape);
-    report.converged = step.decrement <= decrement;
+    step.movement = step.length * largest(workers_, points, [&](std::size_t i) { return step_[i]; });
+    report.converged = step.decrement <= variation_decrement || step.movement <= options_.decrement;
     if (report.converged) break;
   }
   report.variation = energy_;
@@ -271,7 +270,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   shared_.damping = 0;
 }
 
-void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patience,
+void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int patience,
                                CurvatureLevelReport& report) {
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
   anderson_.reset();
@@ -292,11 +291,11 @@ void CurvatureSystem::minimize(int level, Mode mode, double decrement, int patie
       last = 0;
       continue;
     }
-    // Steps gain by a ratio that the last two tell.
+    // Steps gain by a ratio that the last two tell, and with it what is left.
     const double ratio = last > 0 ? step.decrement / last : 1;
-    const double left = ratio < regular ? step.decrement * ratio / (1 - ratio) : step.decrement;
+    const double ahead = ratio < regular ? ratio / (1 - ratio) : 1;
     last = step.decrement;
-    report.converged = left <= decrement;
+    report.converged = enough.decrement > 0 ? step.decrement <= enough.decrement : ahead * step.movement <= enough.movement;
     if (report.converged) break;
     if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;
   }
@@ -329,6 +328,7 @@ bool CurvatureSystem::advance(int level, StepReport& step, LocalDamping* damping
   const bool is_late = !damping || step.decrement < late;
   for (step.length = 1; step.length >= least_length; step.length /= 2) {
     const double energy = try_step(level, step.length);
+    step.movement = step.length * largest(workers_, step_.size(), [&](std::size_t i) { return step_[i]; });
     if (step.length == 1 && !is_late &&
         damping->judge(predicted_, here_.shape, there_.shape, rejections, steps, step.decrement))
       anderson_.reset();

@@ -50,7 +50,11 @@ class CurvatureSystem {
     here_ = found.here;
     energy_ = found.energy;
   }
-  void minimize(int level, Mode mode, double decrement, int patience, CurvatureLevelReport& report);
+  struct Enough {
+    double decrement = 0;  // zero: what is left to move counts
+    double movement = 0;
+  };
+  void minimize(int level, Mode mode, const Enough& enough, int patience, CurvatureLevelReport& report);
   void polish(int level, CurvatureLevelReport& report);
   void vary(int level, CurvatureLevelReport& report);
   void linearize_below(int level);
