@@ -15,6 +15,7 @@ import million
 import paper
 import scaling
 import shared
+import side_by_side
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -25,6 +26,7 @@ BENCHMARKS = {
     "paper": paper.run,
     "memory": memory.run,
     "shared": shared.run,
+    "side_by_side": side_by_side.run,
 }
 
 

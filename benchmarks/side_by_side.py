@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Discrete Fairing beside what its users have today: the same control meshes, the same measures for all.
+
+    python3 build_tools/dev.py bench side_by_side
+    .venv/bin/python benchmarks/side_by_side.py --markdown    also prints the tables of docs/comparison.md
+
+A tool that is not installed, or does not take a mesh, leaves a line that says so.
+"""
+
+import argparse
+import importlib.util
+import json
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rivals
+import surface_measures as measures
+import table
+import timing
+
+ROOT = Path(__file__).resolve().parent.parent
+LEVELS, FREE_FORM_LEVELS = 5, 4  # fewer for meshes of many faces: libigl's factorization is what takes long
+SPHERE = 8 * np.pi  # ∫ κ₁² + κ₂² of any sphere; no closed surface without handles has less
+REPEATS, ENOUGH = 3, 2.0  # runs, of which the shortest counts; processor seconds after which one will do
+# seconds are the processor's, of all threads together: other work on the machine hardly moves them
+HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "seconds")
+
+
+def control_meshes() -> dict[str, tuple[np.ndarray, list[list[int]], int, bool]]:
+    """By name: vertices, polygons, levels, and whether all vertices are on the unit sphere."""
+    # benchmarks has a module of the same name
+    path = ROOT / "tests" / "python" / "control_meshes.py"
+    spec = importlib.util.spec_from_file_location("small_control_meshes", path)
+    assert spec and spec.loader
+    small = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(small)
+    inscribed = {
+        "icosahedron": small.icosahedron(),
+        "octahedron": small.octahedron(),
+        "tetrahedron": small.tetrahedron(),
+        "cube": small.cube(),
+        "hull of 20 points": small.random_hull(20),
+        "hull of 40 points": small.random_hull(40),
+    }
+    result = {
+        name: (points / np.linalg.norm(points[0]), [list(map(int, f)) for f in faces], LEVELS, True)
+        for name, (points, faces) in inscribed.items()
+    }
+    points, faces = small.creature()
+    result["creature"] = (points, [list(map(int, f)) for f in faces], FREE_FORM_LEVELS, False)
+    try:
+        result["Suzanne"] = (*suzanne(), FREE_FORM_LEVELS, False)
+    except rivals.Missing as why:
+        print(f"side_by_side: no Suzanne, {why}")
+    return result
+
+
+def suzanne() -> tuple[np.ndarray, list[list[int]]]:
+    """Blender's monkey: a head with open eye sockets, and two eyes."""
+    bpy = rivals.installed("bpy", "bpy")
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_monkey_add()
+    mesh = bpy.context.active_object.data
+    return np.array([v.co for v in mesh.vertices], float), [list(p.vertices) for p in mesh.polygons]
+
+
+def projected(points: np.ndarray, polygons: list[list[int]], levels: int) -> rivals.Surface:
+    """The flat faces refined and pushed out to the sphere: what the measures say of a perfect answer."""
+    triangles = rivals.triangulate(points, polygons)
+    for _ in range(levels):
+        points, triangles = halved(points, triangles)
+    return points / np.linalg.norm(points, axis=1)[:, None], triangles
+
+
+def halved(points: np.ndarray, triangles: np.ndarray) -> rivals.Surface:
+    """One linear refinement."""
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), 1)
+    edges, inverse = np.unique(edges, axis=0, return_inverse=True)
+    ab, bc, ca = (inverse.reshape(-1, 3) + len(points)).T
+    a, b, c = triangles.T
+    parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return np.concatenate([points, points[edges].mean(1)]), np.concatenate([np.stack(p, -1) for p in parts])
+
+
+def measured(control: np.ndarray, surface: rivals.Surface, inscribed: bool) -> dict[str, Any]:
+    """The figures of one surface."""
+    from scipy.spatial import cKDTree
+
+    points, triangles = surface
+    radius = np.linalg.norm(points, axis=1)
+    off, _ = cKDTree(points).query(control)
+    return {
+        "least_radius": float(radius.min()) if inscribed else None,
+        "largest_radius": float(radius.max()) if inscribed else None,
+        "off": float(off.max()),
+        "dihedral": measures.largest_dihedral(points, triangles),
+        "energy": measures.total_curvature(points, triangles) / SPHERE,
+        "triangles": len(triangles),
+    }
+
+
+def entry(rival: rivals.Rival, points: np.ndarray, polygons: Any, levels: int, inscribed: bool) -> Any:
+    """The figures of one tool on one mesh, or {"absent": why}."""
+    try:
+        surface, *times = timing.measured(lambda: rival.make(points, polygons, levels))
+        for _ in range(REPEATS - 1):
+            if times[1] < ENOUGH:
+                again = timing.measured(lambda: rival.make(points, polygons, levels))[1:]
+                times = [min(pair) for pair in zip(times, again)]
+    except rivals.Missing as why:
+        return {"absent": str(why), "missing": True}
+    except rivals.Refused as why:
+        return {"absent": str(why)}
+    return measured(points, surface, inscribed) | {"wall": times[0], "seconds": times[1]}
+
+
+def cells(found: dict[str, Any]) -> list[str]:
+    """One row."""
+    if "absent" in found:
+        return [found["absent"], *[""] * (len(HEADS) - 1)]
+    radii = ["" if found[k] is None else f"{found[k]:.5f}" for k in ("least_radius", "largest_radius")]
+    return [
+        *radii,
+        "0" if found["off"] < 5e-7 else f"{found['off']:.3f}",
+        f"{found['dihedral']:.2f}",
+        f"{found['energy']:.4f}",
+        str(found["triangles"]),
+        "" if found["seconds"] is None else f"{found['seconds']:.3f}",
+    ]
+
+
+def run(without: Collection[str] = ()) -> dict[str, Any]:
+    """All tools but those `without`; prints a table for each control mesh."""
+    result: dict[str, Any] = {"versions": rivals.versions(), "levels": {}, "meshes": {}}
+    told = set()
+    for name, (points, polygons, levels, inscribed) in control_meshes().items():
+        found = {}
+        for rival in rivals.ALL:
+            if rival.name in without:
+                continue
+            figures = entry(rival, points, polygons, levels, inscribed)
+            if figures.get("missing"):
+                told |= {figures["absent"]}
+            else:
+                found[rival.name] = figures
+        if inscribed:
+            exact = measured(points, projected(points, polygons, levels), True)
+            found["(exact sphere)"] = exact | {"seconds": None}
+        result["meshes"][name], result["levels"][name] = found, levels
+        rows = [[tool, *cells(figures)] for tool, figures in found.items()]
+        table.show(f"{name}, {levels} levels", ["tool", *HEADS], rows)
+    for line in sorted(told):
+        print(f"side_by_side: left out, {line}")
+    return result
+
+
+def markdown(result: dict[str, Any]) -> str:
+    """The same tables as docs/comparison.md has them; the best figure of those that keep the vertices is bold."""
+    keeps = {rival.name for rival in rivals.ALL if rival.interpolates}
+    text = []
+    for name, found in result["meshes"].items():
+        best = {
+            key: min(f[key] for tool, f in found.items() if tool in keeps and "absent" not in f)
+            for key in ("dihedral", "energy")
+        }
+        text += [f"### {name[0].upper()}{name[1:]}, {result['levels'][name]} levels", ""]
+        heads = ["", "least radius", "largest radius", "off", "dihedral", "E / 8π", "triangles", "seconds"]
+        inscribed = "(exact sphere)" in found
+        columns = range(len(heads)) if inscribed else [0, *range(3, len(heads))]
+        text += ["| " + " | ".join(heads[k] for k in columns) + " |"]
+        text += ["|---" * len(columns) + "|"]
+        for tool, figures in found.items():
+            if "absent" in figures:
+                text += [f"| {tool} | *{figures['absent']}* |" + " |" * (len(columns) - 2)]
+                continue
+            row = [tool, *cells(figures)]
+            row[4] += "°"
+            row[6] = f"{figures['triangles']:,}"
+            for place, key in ((4, "dihedral"), (5, "energy")):
+                if tool in keeps and figures[key] == best[key]:
+                    row[place] = f"**{row[place]}**"
+            text += ["| " + " | ".join(row[k] for k in columns) + " |"]
+        text += [""]
+    return "\n".join(text)
+
+
+def main() -> None:
+    """The same without the other benchmarks."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--markdown", action="store_true", help="print the tables as Markdown, too")
+    parser.add_argument("--without", action="append", default=[], metavar="TOOL", help="may be repeated")
+    options = parser.parse_args()
+    result = run(options.without)
+    out = ROOT / "out" / "bench"
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "side_by_side.json").write_text(json.dumps(result, indent=1) + "\n")
+    if options.markdown:
+        print(markdown(result))
+
+
+if __name__ == "__main__":
+    main()
