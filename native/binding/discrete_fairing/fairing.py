@@ -62,8 +62,11 @@ def fair(
         Counter-clockwise. Polygons of five and more sides, and quads too concave or warped, are split by shape.
     levels : int
         How often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels quads.
-    energy : "thin_plate"
-        [Kobbelt 1997a, section 4].
+    energy : "thin_plate", "total_curvature" or "minimum_variation"
+        Thin plate: the paper's quadratic energy over charts of the control mesh, one linear solve [Kobbelt 1997a,
+        section 4]. Total curvature: the integral of k1**2 + k2**2 over the surface itself, which makes spheres of points
+        on a sphere. Minimum variation: the change of curvature along the surface [Moreton, Sequin 1992]. Both take
+        Gauss-Newton steps from the thin plate's surface (report["curvature"]).
     metric_exponent : float from 0 to 1
         Control edge lengths to this power make the charts: 1 the paper's, 0 uniform, 0.5 centripetal.
     chart_blend : float from 0 to 1
@@ -103,6 +106,10 @@ def fair(
     relative_residual : float
         Where the solver stops: residual relative to the control polyhedron's, and error relative to the solution in
         the energy norm.
+    decrement : float, share of the mesh's size
+        Where the Gauss-Newton steps end: where less is left to move.
+    max_steps : int
+        The most Gauss-Newton steps on a level.
     max_iterations, smoother_degree, sweeps : int
         Limits and work of the solver; degree 0 is chosen from how the coarse levels converge.
     threads : int

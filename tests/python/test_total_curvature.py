@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""energy="total_curvature": known surfaces, and what every mode promises."""
+
+import threading
+import time
+
+import control_meshes as meshes
+import discrete_fairing as df
+import inscribed
+import numpy as np
+import pytest
+from surfaces import (
+    assert_same_points,
+    assert_same_positions,
+    boundary_vertices,
+    output_faces,
+    random_rotation,
+    size_of,
+)
+from test_invariance import relabelled
+
+TIGHT = {"decrement": 1e-11, "max_steps": 60}
+SETTLED = {"decrement": 1e-9, "max_steps": 60}  # the stopping test is no part of what a test compares
+# Where the steps end elsewhere than on the sphere. The theorem says that the sphere is a critical point, and nothing of
+# the way there: docs/total-curvature.md counts these.
+MISSED = {("J2_cut", 3), ("J4_cut", 3), ("J5_cut", 2), ("J5_cut", 3), ("8/3", 3), ("8/7", 3)}
+# On the way there, but the stopping test is content too soon: with default settings, and tightened.
+EARLY = {("J11", 3), ("octahedron", 4), ("octahedron", 5), ("cube", 5), ("cube_cut", 4), ("cube_cut", 5)}
+EARLY |= {("8/34", 2), ("8/38", 3), ("12/12", 3), ("20/9", 3)}
+EARLY_TIGHT = {("J2", 3)}
+HULLS = {(8, 3), (8, 7), (8, 38)}
+HULLS = {8: range(40), 12: range(24), 20: range(10), 40: range(2), 100: range(1)}
+HULL_CASES = [
+    (f"{count}/{seed}", levels)
+    for count, seeds in HULLS.items()
+    for seed in seeds
+    for levels in ((2, 3) if count < 100 else (2,))
+]
+# Curved ones that are closed, or open: without the planes, whose energy is rounding alone.
+CURVED = [name for name in sorted(meshes.ALL) if name not in ("grid", "single_triangle")]
+QUICK = [name for name in CURVED if name != "three_handles"]
+
+
+def fair(mesh, levels, **options):
+    return df.fair(*mesh, levels, energy="total_curvature", **options)
+
+
+def radius_error(mesh, levels, **options) -> float:
+    vertices, _ = mesh
+    result = fair(mesh, levels, **options)
+    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+    return np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
+
+
+def assert_sphere(mesh, case):
+    if case not in EARLY:
+        assert radius_error(mesh, case[1]) <= 1e-5
+    if case not in EARLY_TIGHT:
+        assert radius_error(mesh, case[1], **TIGHT) <= 1e-10
+
+
+def without_missed(cases):
+    return [case for case in cases if case not in MISSED]
+
+
+@pytest.mark.parametrize(
+    "name, levels", without_missed([(name, levels) for name in inscribed.NAMED for levels in (2, 3)])
+)
+def test_inscribed_solids_become_spheres(name, levels):
+    assert_sphere(inscribed.NAMED[name](), (name, levels))
+
+
+@pytest.mark.parametrize("levels", [4, 5])
+@pytest.mark.parametrize("name", ["icosahedron", "octahedron", "tetrahedron", "cube", "cube_cut", "J1"])
+def test_more_levels(name, levels):
+    assert_sphere(inscribed.NAMED[name](), (name, levels))
+
+
+@pytest.mark.parametrize("name, levels", without_missed(HULL_CASES))
+def test_random_hulls_become_spheres(name, levels):
+    count, seed = map(int, name.split("/"))
+    assert_sphere(meshes.random_hull(count, seed), (name, levels))
+
+
+@pytest.mark.parametrize("name", ["icosahedron", "cube", "J37"])
+def test_the_sphere_stays_where_it_is(name):
+    """Of any size, anywhere."""
+    vertices, faces = inscribed.NAMED[name]()
+    centre = np.array([30.0, -20, 7])
+    result = fair((250 * vertices + centre, faces), 3, **TIGHT)
+    assert np.abs(np.linalg.norm(result.vertices - centre, axis=1) / 250 - 1).max() <= 1e-10
+
+
+def torus_error(around, across, levels, triangles) -> float:
+    """Root mean square distance from the torus, whose tube has radius 1."""
+    mesh = meshes.torus(around, across)
+    points = fair(meshes.cut_quads(mesh) if triangles else mesh, levels).vertices
+    from_axis = np.hypot(points[:, 0], points[:, 1])
+    return np.sqrt(np.mean((np.hypot(from_axis - 2**0.5, points[:, 2]) - 1) ** 2))
+
+
+@pytest.mark.parametrize("triangles", [False, True], ids=["quads", "triangles"])
+@pytest.mark.parametrize("around, across, bound", [(6, 5, 2e-3), (8, 6, 1.1e-4), (10, 8, 5e-5)])
+def test_clifford_torus(around, across, bound, triangles):
+    assert torus_error(around, across, 3, triangles) <= bound
+
+
+@pytest.mark.parametrize("around, across", [(6, 5), (8, 6), (10, 8)])
+def test_second_order_on_the_torus_of_quads(around, across):
+    errors = [torus_error(around, across, levels, False) for levels in (2, 3)]
+    assert np.log2(errors[0] / errors[1]) >= 1.9
+
+
+@pytest.mark.parametrize(
+    "name, levels",
+    [(name, levels) for name in CURVED for levels in (1, 2, 3) if name in QUICK or levels == 2],
+)
+def test_energy_is_below_the_thin_plates(name, levels):
+    mesh = meshes.ALL[name]()
+    report = fair(mesh, levels).report
+    measured = report["energy"]["result"]["total_curvature"]
+    last = report["curvature"][-1]
+    assert last["converged"] and last["level"] == levels
+    assert last["energy"] <= last["plate_energy"]
+    assert last["energy"] == pytest.approx(measured, rel=1e-9)
+    plate = df.fair(*mesh, levels).report["energy"]["result"]["total_curvature"]
+    assert last["plate_energy"] == pytest.approx(plate, rel=1e-6)
+    assert measured <= plate
+
+
+def test_reports_its_steps():
+    (*_, level) = fair(meshes.creature(), 2).report["curvature"]
+    assert level["start_energy"] <= level["plate_energy"]
+    assert level["steps"][0]["energy"] == level["start_energy"]
+    assert all(step["decrement"] > 0 and 0 <= step["length"] <= 1 for step in level["steps"])
+    assert fair(meshes.creature(), 2, max_steps=1).report["curvature"][-1]["converged"] is False
+    assert df.fair(*meshes.creature(), 1).report["curvature"] == []
+
+
+@pytest.mark.parametrize("name", sorted(meshes.ALL))
+def test_interpolates_exactly(name):
+    vertices, faces = meshes.ALL[name]()
+    result = fair((vertices, faces), 2)
+    assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
+    assert np.isfinite(result.vertices).all()
+
+
+@pytest.mark.parametrize(
+    "levels, mode",
+    [(1, {}), (2, {}), (3, {}), (2, {"metric_exponent": 1.0}), (2, {"crease_angle": 0.8})],
+    ids=str,
+)
+def test_mirror_symmetric_stays_so(levels, mode):
+    vertices, faces = meshes.creature()
+    result = fair((vertices, faces), levels, **mode)
+    assert_same_points(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size_of(vertices))
+
+
+@pytest.mark.parametrize("name", ["icosahedron", "octahedron", "cube"])
+def test_platonic_symmetry(name):
+    vertices, faces = meshes.ALL[name]()
+    result = fair((vertices, faces), 3)
+    for axis in range(3):
+        flip = np.ones(3)
+        flip[axis] = -1
+        assert_same_points(result.vertices * flip, result.vertices, 1e-9 * size_of(vertices))
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_any_number_of_threads(name):
+    levels = 2 if name == "creature" else 3
+    one, two = (fair(meshes.ALL[name](), levels, threads=threads) for threads in (1, 2))
+    assert one.vertices.tobytes() == two.vertices.tobytes()
+    assert one.report["curvature"] == two.report["curvature"]
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_rigid_motion_and_scale(name):
+    vertices, faces = meshes.ALL[name]()
+    still = fair((vertices, faces), 2, **SETTLED).vertices
+    rotation, shift = random_rotation(1), np.array([0.3, -5.0, 2.0])
+    moved = fair((vertices @ rotation.T + shift, faces), 2, **SETTLED).vertices
+    assert np.abs((moved - shift) @ rotation - still).max() <= 1e-7 * size_of(vertices)
+    for scale in (1e-6, 0.37, 1e6):
+        scaled = fair((scale * vertices, faces), 2, **SETTLED).vertices / scale
+        assert np.abs(scaled - still).max() <= 1e-7 * size_of(vertices)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_numbering_does_not_matter(name):
+    vertices, faces = meshes.ALL[name]()
+    moved, turned, _ = relabelled(vertices, faces)
+    expected, found = (fair(mesh, 2, **SETTLED) for mesh in ((vertices, faces), (moved, turned)))
+    assert_same_positions(found.vertices, expected.vertices, 1e-7 * size_of(vertices))
+
+
+@pytest.mark.parametrize("boundary", ["curve", "linear"])
+@pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8", "roof"])
+def test_boundaries_are_the_thin_plates(name, boundary):
+    """To the last bit."""
+    mesh = meshes.ALL[name]()
+    curved, plate = fair(mesh, 3, boundary=boundary), df.fair(*mesh, 3, boundary=boundary)
+    rim = boundary_vertices(output_faces(curved))
+    assert curved.vertices[rim].tobytes() == plate.vertices[rim].tobytes()
+    assert (curved.vertices != plate.vertices).any()
+
+
+@pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8"])
+def test_a_free_boundary_is_lower(name):
+    mesh = meshes.ALL[name]()
+    free, plate = fair(mesh, 2, boundary="free"), df.fair(*mesh, 2, boundary="free")
+    last = free.report["curvature"][-1]
+    assert last["converged"] and last["energy"] < last["plate_energy"]
+    assert not np.array_equal(free.vertices, plate.vertices)
+
+
+def test_creases_are_the_thin_plates():
+    """The rim of a can, and a ridge whose slopes move; to the last bit."""
+    (vertices, faces), loop, *_ = meshes.drum()
+    slopes, ridge = meshes.roof()
+    for mesh, edges in (((vertices, faces), loop), (slopes, ridge)):
+        curved = fair(mesh, 3, crease_edges=edges)
+        plate = df.fair(*mesh, 3, crease_edges=edges)
+        same = (curved.vertices == plate.vertices).all(1)
+        assert curved.report["curvature"][-1]["energy"] < curved.report["curvature"][-1]["plate_energy"]
+        assert same[: len(mesh[0])].all()
+        assert 8 * len(edges) <= same.sum() < len(same) / 2
+    ring = np.arange(len(loop))
+    curve = {p.tobytes() for p in df.fair(*caps(vertices[ring]), 3).vertices}
+    found = {p.tobytes() for p in fair((vertices, faces), 3, crease_edges=loop).vertices}
+    assert len(curve & found) >= 8 * len(loop)
+
+
+def caps(rim: np.ndarray):
+    """A cone over a closed polyline: its boundary curve is that of the same crease."""
+    k = np.arange(len(rim))
+    return np.concatenate([rim, [[0, 0, 1.0]]]), np.stack([k, (k + 1) % len(rim), 0 * k + len(rim)], -1)
+
+
+def test_a_region_leaves_the_rest():
+    vertices, faces = meshes.creature()
+    region = list(range(40))
+    curved = fair((vertices, faces), 3, region=region)
+    plate = df.fair(vertices, faces, 3, region=region)
+    last = curved.report["curvature"][-1]
+    assert last["converged"] and last["energy"] < last["plate_energy"]
+    triangles, quads = curved.faces
+    outside = np.concatenate(
+        [triangles[curved.triangle_polygon >= 40].ravel(), quads[curved.quad_polygon >= 40].ravel()]
+    )
+    assert curved.vertices[outside].tobytes() == plate.vertices[outside].tobytes()
+
+
+def cancelled(**options) -> float:
+    """Seconds that a run took until it ended as cancelled."""
+    start = time.monotonic()
+    with pytest.raises(df.FairingError) as caught:
+        fair(meshes.torus(40, 30), 5, **options)
+    assert caught.value.code == "CANCELLED"
+    return time.monotonic() - start
+
+
+def test_cancels_at_once_and_midway():
+    assert cancelled(progress=lambda fraction, phase: False) < 5
+    monitor = df.Monitor()
+    threading.Timer(1.5, monitor.cancel).start()
+    assert cancelled(monitor=monitor) < 10
+
+
+def test_progress_does_not_change_the_result():
+    calls = []
+    watched = fair(meshes.creature(), 2, progress=lambda fraction, phase: calls.append(fraction))
+    assert calls == sorted(calls) and calls[-1] == 1
+    assert np.array_equal(watched.vertices, fair(meshes.creature(), 2).vertices)
