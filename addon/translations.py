@@ -17,6 +17,8 @@ _GERMAN = {
     ("*", "Levels"): "Stufen",
     ("*", "Energy"): "Energie",
     ("*", "Thin Plate"): "Dünne Platte",
+    ("*", "Total Curvature"): "Gesamtkrümmung",
+    ("*", "Minimum Variation"): "Geringste Änderung",
     ("*", "Through"): "Hindurch",
     ("*", "Near"): "Nahe",
     ("*", "Tolerance"): "Toleranz",

@@ -48,13 +48,26 @@ def _values(name, *values, label="{}", **others):
     return tuple(Variant(label.format(value), {name: value, **others}) for value in values)
 
 
-SMOOTH = {"shade_smooth": True, "levels": 4}
+SMOOTH = {"shade_smooth": True, "levels": 4, "energy": "THIN_PLATE"}
 
 FIGURES = {
     "levels": Figure(
         meshes.vase,
         View(3.0, turn=10, height=1.0, wires=True),
         (Variant("Control mesh", as_it_is=True), *_values("levels", 1, 2, 3, label="Levels {}")),
+        {"energy": "THIN_PLATE"},
+    ),
+    "energy": Figure(
+        meshes.octahedron,
+        View(2.5, turn=32, elevation=17, height=1.0),
+        (
+            Variant("Control mesh", as_it_is=True),
+            *(
+                Variant(name, {"energy": key})
+                for key, name in (("THIN_PLATE", "Thin Plate"), ("TOTAL_CURVATURE", "Total Curvature"))
+            ),
+        ),
+        SMOOTH | {"levels": 5},
     ),
     "vertices": Figure(
         meshes.scan,
@@ -149,7 +162,7 @@ FIGURES = {
         meshes.suzanne,
         View(3.1, turn=20, height=0.85),
         (Variant("Shade Smooth off"), Variant("Shade Smooth on", {"shade_smooth": True})),
-        {"levels": 2},
+        {"levels": 2, "energy": "THIN_PLATE"},
     ),
     "shape_keys": Figure(
         meshes.suzanne_with_key,

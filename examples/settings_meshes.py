@@ -32,6 +32,13 @@ def vase():
     return _lathe(((0.45, 0.0), (0.95, 0.75), (0.42, 1.6), (0.62, 2.2)), 6)
 
 
+def octahedron():
+    """Six vertices on a sphere."""
+    vertices = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    return add(vertices, faces)
+
+
 def _boxes(cells, offset):
     """The outside of unit cubes."""
     ids, faces = {}, []

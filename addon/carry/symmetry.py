@@ -32,6 +32,12 @@ def find_mirrors(carrier, arrays, crease_edges=(), corner_vertices=()):
     return found, notes
 
 
+def uneven_axes(vertices, mirrors):
+    """Names of the axes in which `vertices` differ from their image by more than rounding: `symmetrize` leaves those."""
+    uneven = (m for m in mirrors if not _differ_by_rounding(*_with_image(vertices, m)[1:]))
+    return [AXES[mirror.axis] for mirror in uneven]
+
+
 def symmetrize(vertices, mirrors, control_positions=None):
     """`vertices` (N, 3) float64 of the refined surface, made exactly symmetric across all `mirrors`; a new array.
 
@@ -46,12 +52,21 @@ def symmetrize(vertices, mirrors, control_positions=None):
 
 
 def _mean_with_image(vertices, mirror):
-    moved = np.flatnonzero(mirror.fine >= 0)
-    here, image = vertices[moved], vertices[mirror.fine[moved]]
-    image[:, mirror.axis] *= -1.0
-    size = np.ptp(here, axis=0).max() if len(here) else 0.0
-    if len(here) and np.abs(here - image).max() > _ROUNDING * size:
+    moved, here, image = _with_image(vertices, mirror)
+    if not _differ_by_rounding(here, image):
         return vertices
     out = vertices.copy()
     out[moved] = 0.5 * (here + image)
     return out
+
+
+def _with_image(vertices, mirror):
+    """Ids of the vertices that have partners, their places, and those of their partners' images."""
+    moved = np.flatnonzero(mirror.fine >= 0)
+    here, image = vertices[moved], vertices[mirror.fine[moved]]
+    image[:, mirror.axis] *= -1.0
+    return moved, here, image
+
+
+def _differ_by_rounding(here, image):
+    return not len(here) or np.abs(here - image).max() <= _ROUNDING * np.ptp(here, axis=0).max()

@@ -72,5 +72,13 @@ def warning_text(object_name, warning):
     return f"{object_name}: {warning['message']}"
 
 
+def unfinished_text(object_name, energy):
+    """For a surface whose steps ended early; `energy`: its name in the interface."""
+    return (
+        f"{object_name}: not converged. The surface is there, but {energy} could make it a little calmer still. "
+        "Even out the faces of the source where they are very thin or sharply folded, or use Thin Plate."
+    )
+
+
 def _sentence(text):
     return text if text.endswith((".", "!", "?")) else text + "."

@@ -53,7 +53,7 @@ def _run_all(arguments, settings, ways):
     records = [report.new_record(way, shown(settings)) for way in ways]
     width = max(len(record["input"]) for record in records)
     if not arguments.quiet:
-        _say(report.table_head(width))
+        _say(report.table_head(width, settings.energy))
     for way, record in zip(ways, records):
         try:
             _run_one(way, record, arguments, settings)

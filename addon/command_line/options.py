@@ -103,14 +103,15 @@ def _number(name, prop):
 
 
 def _choice(_name, prop):
-    spelled = {item.identifier.lower().replace("_", "-"): item for item in prop.enum_items}
+    spelled = {item.identifier.lower(): item for item in prop.enum_items}
     listed = "; ".join(f"{word}: {item.description}" for word, item in spelled.items())
-    shown = prop.default.lower().replace("_", "-")
+    shown = prop.default.lower()
 
     def parse(text):
-        if text not in spelled:
+        word = text.replace("-", "_")  # as options themselves are spelled
+        if word not in spelled:
             raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(spelled)}")
-        return spelled[text].identifier
+        return spelled[word].identifier
 
     return {"type": parse, "metavar": "|".join(spelled), "help": _help(prop, shown, listed)}
 

@@ -4,6 +4,8 @@
 import json
 from math import isfinite, nan
 
+from ..inspection import convergence
+
 SCHEMA = 1
 
 DONE, FAILED, CANCELLED, NOT_RUN = "done", "failed", "cancelled", "not_run"
@@ -33,27 +35,38 @@ def document(versions, exit_code, records):
     return json.dumps(_finite(whole), indent=2, allow_nan=False, default=str) + "\n"
 
 
-def table_head(width):
-    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'energy before → after':>25} {'residual':>9}"
+def table_head(width, energy):
+    """`energy`: a setting's identifier, which decides how accuracy is said."""
+    accuracy = f"{'residual':>9}" if energy == "THIN_PLATE" else f"{'steps':>6} {'decrement':>9}"
+    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'energy before → after':>25} {accuracy}"
 
 
 def table_line(record, width):
-    """A finished input's line: sums over its objects, and the worst residual."""
+    """A finished input's line: sums over its objects, and the accuracy of the worst one."""
     objects = record["objects"]
     faces_in, faces_out = (sum(item[side]["faces"] for item in objects) for side in ("control", "result"))
     before, after = (
         sum(_energy(item["report"], record, state) for item in objects) for state in ("polyhedron", "result")
     )
-    residual = max(item["report"].get("residuals", [nan])[-1] for item in objects)
     energies = f"{before:.4g} → {after:.4g}"
     return (
         f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
-        f"{energies:>25} {residual:>9.1e}"
+        f"{energies:>25} {_accuracy([item['report'] for item in objects], record['settings']['energy'])}"
     )
 
 
+def _accuracy(reports, energy):
+    if energy == "THIN_PLATE":
+        return f"{max(report.get('residuals', [nan])[-1] for report in reports):>9.1e}"
+    most_steps = max(convergence.steps(report) or 0 for report in reports)
+    decrement = max(convergence.decrement(report) or 0.0 for report in reports)
+    return f"{most_steps:>6} {decrement:>9.1e}"
+
+
 def _energy(report, record, state):
-    return report.get("energy", {}).get(state, {}).get(record["settings"]["energy"].lower(), nan)
+    # before and after are told for two energies; the third makes little of the total curvature too
+    told = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
+    return report.get("energy", {}).get(state, {}).get(told, nan)
 
 
 def _finite(value):

@@ -5,7 +5,7 @@ import json
 
 from ..read.mesh import read_mesh
 from ..read.source import control_mesh
-from . import freshness
+from . import convergence, freshness
 from .measures import largest_deviation, measure
 
 KEY = "fairing_readout"
@@ -20,6 +20,8 @@ ROWS = (
     ("Worst fold", "worst_fold", "{:.2f}°"),
     ("… sharp ones too", "worst_fold_with_sharp", "{:.2f}°"),
     ("Off the vertices", "deviation", "{:.3g}"),
+    ("Steps", "steps", "{}"),
+    ("Last decrement", "decrement", "{:.1e}"),
     ("Faces", "faces", "{:,}"),
 )
 
@@ -27,12 +29,14 @@ ROWS = (
 def take(context, target, source=None):
     """Measures `target` and, if there is one, the mesh object `source` that it was made from; remembers and returns both.
 
-    {"after": numbers, "before": numbers or None}; see measures.measure, with `thin_plate` and `deviation` where known, and the total curvature that the core has reported.
+    {"after": numbers, "before": numbers or None}; see measures.measure, with `thin_plate` and `deviation` where known, and what the core has reported: total curvature, steps and their last decrement.
     """
     after, positions = _measured(context, target)
     before = None
-    energy = _reported_energy(target)
+    report = _report(target)
+    energy = report.get("energy", {})
     _take_energies(after, energy.get("result", {}))
+    after |= {"steps": convergence.steps(report), "decrement": convergence.decrement(report)}
     if source is not None:
         before, control = _measured(context, source)
         _take_energies(before, energy.get("polyhedron", {}))
@@ -73,11 +77,13 @@ def _measured(context, target):
     return measure(arrays), arrays.positions
 
 
-def _reported_energy(target):
+def _report(target):
+    """The core's, an empty dict if there is none, or none that can be read."""
     try:
-        return json.loads(target[REPORT])["energy"]
+        report = json.loads(target[REPORT])
     except (KeyError, TypeError, ValueError):
         return {}
+    return report if isinstance(report, dict) else {}
 
 
 def _take_energies(numbers, reported):

@@ -9,9 +9,9 @@ from contextlib import nullcontext
 from .. import native
 from ..carry.carrier import Carrier
 from ..carry.lattice import fine_edges
-from ..carry.symmetry import find_mirrors, symmetrize
+from ..carry.symmetry import find_mirrors, symmetrize, uneven_axes
 from ..check import messages
-from ..inspection import display, override
+from ..inspection import convergence, display, override
 from ..preferences import preferences
 from ..read.data import read_data
 from ..read.mesh import read_mesh
@@ -19,7 +19,7 @@ from ..read.region import selected_faces
 from ..read.source import control_mesh
 from ..request import size
 from ..request.arguments import fair_arguments
-from ..settings.properties import snapshot
+from ..settings.properties import energy_name, snapshot
 from ..write.data import write_data
 from ..write.mesh import write_mesh
 from ..write.modifiers import copy_modifiers
@@ -62,6 +62,10 @@ class Job:
             self.arrays, self.settings, preferences(), region, self.keys.shapes if self.keys else None
         )
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
+        if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
+            self.notes.append(
+                "Each shape key is faired by itself. Values in between blend these surfaces, which only Thin Plate keeps fair."
+            )
         self.result = None
 
     def compute(self, **watchers):
@@ -83,6 +87,10 @@ class Job:
             self.carrier, self.arrays, result.crease_edges, arguments["corner_vertices"]
         )
         self.notes += notes
+        self.notes += [
+            f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."
+            for axis in uneven_axes(result.vertices, mirrors)
+        ]
         result.vertices = symmetrize(result.vertices, mirrors, self.arrays.positions)
         result.shapes = [
             symmetrize(shape, mirrors, positions)
@@ -117,4 +125,9 @@ class Job:
 
     def warnings(self):
         """What the user should know of a finished job, a sentence each."""
-        return [messages.warning_text(self.name, warning) for warning in self.result.report["warnings"]]
+        report = self.result.report
+        sentences = [messages.warning_text(self.name, warning) for warning in report["warnings"]]
+        told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
+        if not told and not convergence.has_converged(report):
+            sentences.append(messages.unfinished_text(self.name, energy_name(self.settings.energy)))
+        return sentences

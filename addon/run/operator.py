@@ -13,7 +13,8 @@ from .job_error import JobError
 from .modal import ModalRun, running
 from .progress import ConsoleProgress
 
-IMMEDIATE = 200_000  # triangles; fewer are done before a progress bar could be read
+IMMEDIATE = 200_000  # triangles; fewer are done before a progress bar could be read, by the fastest energy
+TIMES_AS_LONG = {"THIN_PLATE": 1, "TOTAL_CURVATURE": 3, "MINIMUM_VARIATION": 8}
 
 
 def why_not(context):
@@ -41,7 +42,7 @@ class _Fairing(ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if sum(job.triangles for job in jobs) > IMMEDIATE:
+        if sum(job.triangles * TIMES_AS_LONG[job.settings.energy] for job in jobs) > IMMEDIATE:
             return self.start(context, jobs)
         return self._block(context, jobs)
 

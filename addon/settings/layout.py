@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the settings are laid out, for the sidebar, the redo panel and a faired object's memory alike."""
 
+from .properties import ENERGY_MEANINGS
+
 
 def draw_shape(layout, settings, triangle_text=""):
     """The few that everyone needs; `triangle_text` stands under the levels: beside them a narrow sidebar cuts it."""
     layout.prop(settings, "levels")
     if triangle_text:
-        row = layout.row()
-        row.alignment = "RIGHT"
-        row.label(text=triangle_text)
+        _remark(layout, triangle_text)
     layout.prop(settings, "energy")
+    _remark(layout, ENERGY_MEANINGS[settings.energy])
     layout.prop(settings, "interpolation")
     if settings.interpolation == "APPROXIMATE":
         layout.prop(settings, "tolerance")
@@ -76,9 +77,14 @@ def draw_settings(layout, settings, identifier, triangle_text=""):
 
 def _reason(layout, text):
     """Why what stands above is grey."""
+    _remark(layout, text, icon="INFO")
+
+
+def _remark(layout, text, icon="NONE"):
+    """A few words on what stands above."""
     row = layout.row()
     row.alignment = "RIGHT"
-    row.label(text=text, icon="INFO")
+    row.label(text=text, icon=icon)
 
 
 def _switched(layout, settings, switch, value):

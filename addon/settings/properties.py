@@ -7,13 +7,37 @@ from types import SimpleNamespace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
+# of the operator, the panel and the command line alike
+DEFAULT_ENERGY = "TOTAL_CURVATURE"
+
+# numbered, because files keep the number
 ENERGIES = (
     (
         "THIN_PLATE",
         "Thin Plate",
-        "Bends like a thin sheet of spring steel held at the control vertices. Fast, and always has one answer",
+        "Bends like a thin sheet of spring steel. Fast, and linear: the classic. Flattens a little between vertices",
+        0,
+    ),
+    (
+        "TOTAL_CURVATURE",
+        "Total Curvature",
+        "The roundest surface: a sphere from vertices on a sphere. Takes some three times as long, on rough meshes more",
+        1,
+    ),
+    (
+        "MINIMUM_VARIATION",
+        "Minimum Variation",
+        "Curvature changes as little as it can: the calmest reflections. Slower still",
+        2,
     ),
 )
+
+# what the panel has room for
+ENERGY_MEANINGS = {
+    "THIN_PLATE": "Fast, flattens between vertices",
+    "TOTAL_CURVATURE": "Roundest, 3× the time or more",
+    "MINIMUM_VARIATION": "Calmest reflections, slowest",
+}
 
 INTERPOLATIONS = (
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source"),
@@ -63,7 +87,10 @@ class FairingSettings:
         soft_max=5,
     )
     energy: EnumProperty(
-        name="Energy", description="What the surface tries to have as little of as it can", items=ENERGIES
+        name="Energy",
+        description="What the surface tries to have as little of as it can",
+        items=ENERGIES,
+        default=DEFAULT_ENERGY,
     )
     interpolation: EnumProperty(
         name="Vertices",
@@ -203,6 +230,11 @@ class FairingSettings:
 
 
 NAMES = tuple(FairingSettings.__annotations__)
+
+
+def energy_name(identifier):
+    """`Thin Plate` for THIN_PLATE."""
+    return next(name for key, name, *_ in ENERGIES if key == identifier)
 
 
 def copy_settings(source, target):

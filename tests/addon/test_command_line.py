@@ -2,6 +2,7 @@
 """The command on real files: what comes in goes out finer, with its exit codes, messages and report."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from addon import native
 from addon.command_line import main as command
 
 ROOT = Path(__file__).resolve().parents[2]
+CORE = Path(native.core().__file__).parents[1]  # of this process, for others
 
 
 @pytest.fixture(autouse=True)
@@ -129,7 +131,8 @@ def test_settings_reach_the_core():
     assert np.isclose(entry["settings"]["crease_angle"], np.radians(30))
     assert entry["objects"][0]["report"]["threads"] == 1
     assert np.allclose(np.abs(read_obj("out.obj")).max(axis=1), 1.0)  # all edges creased: the box itself
-    _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, "--tolerance", 0.1)
+    near = ("--tolerance", 0.1, "--energy", "thin_plate")
+    _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, *near)
     assert 0 < entry["objects"][0]["report"]["largest_deviation"] <= 0.1 * (1 + 1e-6)
 
 
@@ -163,6 +166,33 @@ def test_the_table_has_a_line_for_each_file(capfd):
     assert head.split()[0] == "file" and line.split()[:3] == ["in.obj", "6", "96"] and "→" in line
 
 
+def radii(path):
+    return np.linalg.norm(read_obj(path), axis=1)
+
+
+def test_energy_reaches_the_core_and_the_report():
+    write_obj("in.obj")
+    _, (plate,) = entries("in.obj", "plate.obj", "--levels", 2, "--energy", "thin_plate")
+    _, (round_one,) = entries("in.obj", "round.obj", "--levels", 2, "--energy", "total_curvature")
+    assert (plate["settings"]["energy"], round_one["settings"]["energy"]) == ("THIN_PLATE", "TOTAL_CURVATURE")
+    assert plate["objects"][0]["report"]["curvature"] == []
+    assert round_one["objects"][0]["report"]["curvature"][-1]["converged"]
+    assert np.ptp(radii("round.obj")) < 1e-5 < 0.1 < np.ptp(radii("plate.obj")), (
+        "a sphere from a cube's vertices"
+    )
+
+
+def test_the_table_says_accuracy_as_the_energy_has_it(capfd):
+    write_obj("in.obj")
+    run("in.obj", "out.obj", "--levels", 1, "--energy", "thin_plate")
+    head, *_, line = capfd.readouterr().err.splitlines()
+    assert head.split()[-1] == "residual" and float(line.split()[-1]) < 1e-6
+    run("in.obj", "out.obj", "--levels", 1, "--energy", "total_curvature")
+    head, *_, line = capfd.readouterr().err.splitlines()
+    assert head.split()[-2:] == ["steps", "decrement"] and len(head) == len(line)
+    assert int(line.split()[-2]) >= 1 and float(line.split()[-1]) < 0.1
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -175,6 +205,7 @@ def test_the_table_has_a_line_for_each_file(capfd):
         ("in.obj", "out.obj", "--lev", "2"),
         ("in.obj", "out.obj", "--crease-angle", "181"),
         ("in.obj", "out.obj", "--boundary", "round"),
+        ("in.obj", "out.obj", "--energy", "least"),
         ("in.obj", "out.obj", "--interpolation", "exact", "--tolerance", "0.1"),
     ],
 )
@@ -269,7 +300,7 @@ def process(*words):
     """A process of its own: exit code, standard output, standard error."""
     done = subprocess.run(
         [sys.executable, "-c", _PROCESS, *map(str, words)],
-        env={"PYTHONPATH": str(ROOT), "PATH": ""},
+        env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": ""},
         capture_output=True,
         timeout=120,
     )

@@ -8,7 +8,7 @@ import pytest
 from addon.command_line import options
 from addon.command_line.arguments import parser
 from addon.command_line.places import BadPlaces, places
-from addon.settings.properties import NAMES
+from addon.settings.properties import DEFAULT_ENERGY, ENERGIES, NAMES
 
 
 def settings(*words):
@@ -53,6 +53,15 @@ def test_a_tolerance_needs_no_second_option():
     assert settings("--interpolation", "approximate").tolerance == 0.01
     with pytest.raises(ValueError, match="--interpolation approximate"):
         settings("--interpolation", "exact", "--tolerance", "0.1")
+
+
+def test_energies():
+    assert settings().energy == DEFAULT_ENERGY
+    for key, *_ in ENERGIES:
+        assert settings("--energy", key.lower()).energy == key
+        assert settings("--energy", key.lower().replace("_", "-")).energy == key, "as options are spelled"
+        assert f"{key.lower()}: " in " ".join(parser("").format_help().split())
+    assert "--energy thin_plate|total_curvature|minimum_variation" in parser("").format_help()
 
 
 def test_switches():

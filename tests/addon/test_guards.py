@@ -27,6 +27,7 @@ PURE_FILES = (
     "command_line/progress.py",
     "command_line/report.py",
     "inspection/colours.py",
+    "inspection/convergence.py",
     "inspection/curvature.py",
     "inspection/measures.py",
 )

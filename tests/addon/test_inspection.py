@@ -231,6 +231,32 @@ def test_readout_has_before_and_after():
     assert rows["Off the vertices"] == ("", "0.1")
 
 
+def test_readout_says_how_the_steps_went():
+    source, target = faired_pair()
+    report = json.loads(target[readout.REPORT])
+    step = {
+        "energy": 5.0,
+        "decrement": 0.5,
+        "length": 1.0,
+        "iterations": 0,
+        "residual": 1e-12,
+        "direct": True,
+    }
+    last = {"level": 2, "converged": True, "steps": [step, step | {"decrement": 2e-5}]}
+    target[readout.REPORT] = json.dumps(report | {"curvature": [{"level": 1, "steps": [step]}, last]})
+    rows = {label: text for label, *text in readout.table(readout.take(bpy.context, target, source))}
+    assert rows["Steps"] == ["", "2"] and rows["Last decrement"] == ["", "2.0e-05"]
+    target[readout.REPORT] = json.dumps(report | {"curvature": []})
+    assert "Steps" not in [row[0] for row in readout.table(readout.take(bpy.context, target, source))]
+
+
+def test_readout_minds_no_report_of_another_kind():
+    _, target = faired_pair()
+    for text in ("[]", "null", "{", "{}"):
+        target[readout.REPORT] = text
+        assert readout.take(bpy.context, target)["after"]["steps"] is None
+
+
 def test_readout_of_a_plain_mesh_has_no_before():
     activate(add("Box", *CUBE))
     assert bpy.ops.object.fairing_measure() == {"FINISHED"}

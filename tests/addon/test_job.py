@@ -8,6 +8,7 @@ from scenes import CUBE, activate, add, add_suzanne, fair, positions
 
 from addon.inspection import override
 from addon.run.job import Job
+from addon.settings.properties import ENERGIES
 
 
 def test_uv_groups_and_materials_arrive():
@@ -64,11 +65,30 @@ def test_symmetry_is_exact():
     # Suzanne as Blender makes her is symmetric to rounding only
     points = positions(source.data)
     assert mirror_defect(points) == 0
-    result = fair(levels=3)
+    result = fair(levels=3, energy="THIN_PLATE")
     assert mirror_defect(positions(result.data) + np.float32(0.0)) == 0
     activate_shown(source)
-    loose = fair(levels=3, keep_symmetry=False)
+    loose = fair(levels=3, energy="THIN_PLATE", keep_symmetry=False)
     assert mirror_defect(positions(loose.data) + np.float32(0.0)) > 0, "else the test says nothing"
+
+
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_symmetry_is_exact_with_every_energy(energy):
+    add("Box", *CUBE)
+    assert mirror_defect(positions(fair(levels=2, energy=energy).data) + np.float32(0.0)) == 0
+
+
+def test_a_surface_that_is_not_symmetric_is_noted():
+    add("Box", *CUBE)
+    job = Job(bpy.context, bpy.context.object, bpy.context.scene.discrete_fairing)
+    job.settings.keep_symmetry = False
+    job.compute()
+    assert not any("symmetric" in note for note in job.notes)
+    job.result.vertices[8:, 1] += 0.1
+    job._symmetrize()
+    assert [note for note in job.notes if "its surface is not" in note] == [
+        "The mesh is symmetric in Y but its surface is not, by more than rounding: no exact symmetry."
+    ]
 
 
 def test_modifiers_are_copied_on_request_only():

@@ -7,10 +7,10 @@ from fake_layout import Layout, draw
 from scenes import CUBE, add, add_suzanne, face_values
 
 from addon import native
-from addon.interface import panel
+from addon.interface import notice, panel
 from addon.request import size
 from addon.settings import layout as settings_layout
-from addon.settings.properties import NAMES, copy_settings
+from addon.settings.properties import ENERGIES, ENERGY_MEANINGS, NAMES, copy_settings
 
 
 def test_every_setting_is_shown_somewhere():
@@ -24,6 +24,18 @@ def test_every_setting_is_shown_somewhere():
 def test_triangle_count_stands_under_the_levels():
     add("Box", *CUBE)
     assert draw(panel.VIEW3D_PT_fairing)[:2] == ["levels", "768 triangles"]
+
+
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_energy_stands_near_the_top_with_what_it_means(energy):
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.energy = energy
+    assert draw(panel.VIEW3D_PT_fairing)[2:4] == ["energy", ENERGY_MEANINGS[energy]]
+
+
+def test_what_an_energy_means_fits_the_sidebar():
+    assert set(ENERGY_MEANINGS) == {key for key, *_ in ENERGIES}
+    assert all(len(meaning) <= notice.WIDTH for meaning in ENERGY_MEANINGS.values())
 
 
 def test_button_carries_the_settings():
@@ -47,7 +59,7 @@ def test_missing_core_is_said_in_the_panel(monkeypatch):
 @pytest.mark.parametrize("levels", [1, 3])
 def test_count_is_what_comes(levels):
     source = add_suzanne()
-    bpy.ops.object.fair_surface(levels=levels)
+    bpy.ops.object.fair_surface(levels=levels, energy="THIN_PLATE")
     fine = face_values(bpy.context.object.data, "loop_total", "i")
     assert size.triangle_count(size.face_sizes(source.data), levels) == int((fine - 2).sum())
 

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, set_edge_attribute
 
+from addon import native
 from addon.preferences import Defaults
 from addon.read.mesh import read_mesh
 from addon.request.arguments import fair_arguments
-from addon.settings.properties import NAMES
+from addon.settings.properties import DEFAULT_ENERGY, ENERGIES, NAMES
 
 
 def settings(**changes):
@@ -28,7 +29,7 @@ def test_defaults():
     given = arguments()
     assert (given["levels"], given["energy"], given["interpolation"], given["boundary"]) == (
         3,
-        "thin_plate",
+        DEFAULT_ENERGY.lower(),
         "exact",
         "curve",
     )
@@ -46,6 +47,12 @@ def test_values():
     assert given["boundary"] == "free" and given["metric_exponent"] == 1.0 and given["epsilon"] == 0.125
     assert given["crease_angle"] == 1.0 and given["corner_angle"] == 2.0
     assert given["repair_orientation"] and given["memory_limit"] == 3 * 2**20
+
+
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_energies_are_those_of_the_core(energy):
+    given = arguments(energy=energy)["energy"]
+    assert given in native.core()._native.Energy.__members__ and given.upper() == energy
 
 
 def test_tolerance_belongs_to_approximation():

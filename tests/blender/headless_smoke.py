@@ -92,9 +92,15 @@ def test_source_is_untouched():
     assert result.matrix_world == source.matrix_world
 
 
+def test_cube_becomes_a_sphere():
+    source = active_mesh_object(bpy.ops.mesh.primitive_cube_add)
+    radii = np.linalg.norm(positions(fair(source, energy="TOTAL_CURVATURE").data), axis=1)
+    assert np.ptp(radii) < 1e-5, np.ptp(radii)
+
+
 def test_approximation_runs():
     source = active_mesh_object(bpy.ops.mesh.primitive_monkey_add)
-    result = fair(source, interpolation="APPROXIMATE", tolerance=0.05)
+    result = fair(source, energy="THIN_PLATE", interpolation="APPROXIMATE", tolerance=0.05)
     control = positions(source.data)
     moved = np.linalg.norm(positions(result.data)[: len(control)] - control, axis=1)
     assert moved.max() <= 0.05 * (1 + 1e-5), moved.max()

@@ -4,7 +4,7 @@ import bpy
 
 settings = bpy.context.scene.discrete_fairing
 
-settings.energy = "THIN_PLATE"
+settings.energy = "TOTAL_CURVATURE"
 settings.interpolation = "EXACT"
 settings.boundary = "CURVE"
 settings.use_crease_attribute = True

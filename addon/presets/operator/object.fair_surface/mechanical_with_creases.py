@@ -4,7 +4,7 @@ import bpy
 
 op = bpy.context.active_operator
 
-op.energy = "THIN_PLATE"
+op.energy = "TOTAL_CURVATURE"
 op.interpolation = "EXACT"
 op.boundary = "CURVE"
 op.use_crease_attribute = True

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The choice of energy: what it makes, where it is remembered, and what is said of a run that did not end."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add, fair, positions
+
+from addon.inspection import convergence
+from addon.run import operator
+from addon.run.job import Job
+from addon.settings.properties import DEFAULT_ENERGY, ENERGIES, energy_name
+
+KEYS = [key for key, *_ in ENERGIES]
+STEP = {"decrement": 0.25}
+
+
+def radii(target):
+    return np.linalg.norm(positions(target.data), axis=1)
+
+
+def again(source, **settings):
+    source.hide_set(False)
+    activate(source)
+    return fair(**settings)
+
+
+def add_with_key():
+    source = add("Box", *CUBE)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 1.0
+    return source
+
+
+def test_one_default_everywhere():
+    properties = bpy.ops.object.fair_surface.get_rna_type().properties
+    assert properties["energy"].default == DEFAULT_ENERGY
+    assert bpy.context.scene.discrete_fairing.energy == DEFAULT_ENERGY
+    assert bpy.data.objects.new("New", None).discrete_fairing.energy == DEFAULT_ENERGY
+
+
+def test_files_keep_their_energy():
+    assert [number for *_, number in ENERGIES] == [0, 1, 2]
+    assert KEYS == ["THIN_PLATE", "TOTAL_CURVATURE", "MINIMUM_VARIATION"]
+
+
+def test_a_cube_becomes_a_sphere_by_total_curvature_only():
+    source = add("Box", *CUBE)
+    assert np.ptp(radii(fair(levels=3, energy="TOTAL_CURVATURE"))) < 1e-5
+    assert np.ptp(radii(again(source, levels=3, energy="THIN_PLATE"))) > 0.1
+
+
+def test_recompute_remembers_it():
+    add("Box", *CUBE)
+    result = fair(levels=2, energy="THIN_PLATE")
+    assert result.discrete_fairing.energy == "THIN_PLATE"
+    result.discrete_fairing.energy = "TOTAL_CURVATURE"
+    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    assert result.discrete_fairing.energy == "TOTAL_CURVATURE" and np.ptp(radii(result)) < 1e-5
+
+
+def test_report_has_the_steps():
+    source = add("Box", *CUBE)
+    report = json.loads(fair(levels=2, energy="TOTAL_CURVATURE")["fairing_report"])
+    assert convergence.has_converged(report)
+    assert convergence.steps(report) >= 1 and 0 <= convergence.decrement(report) < 1
+    report = json.loads(again(source, levels=2, energy="THIN_PLATE")["fairing_report"])
+    assert convergence.has_converged(report)
+    assert convergence.steps(report) is None and convergence.decrement(report) is None
+
+
+@pytest.mark.parametrize("report", [{}, {"curvature": []}])
+def test_no_steps_are_no_fault(report):
+    assert convergence.has_converged(report) and convergence.decrement(report) is None
+
+
+def test_a_flat_surface_needs_no_step():
+    report = {"curvature": [{"converged": True, "steps": []}]}
+    assert convergence.steps(report) == 0 and convergence.decrement(report) is None
+
+
+def job_that_stopped(warnings=(), converged=False):
+    job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
+    job.settings.levels, job.settings.energy = 1, "TOTAL_CURVATURE"
+    job.compute()
+    levels = [{"converged": not converged, "steps": [STEP]}, {"converged": converged, "steps": [STEP]}]
+    job.result.report.update(curvature=levels, warnings=list(warnings))
+    return job
+
+
+def test_a_run_that_did_not_end_is_told():
+    (sentence,) = job_that_stopped().warnings()
+    assert sentence.startswith("Box: not converged.") and "Total Curvature" in sentence
+
+
+def test_only_the_finest_level_counts():
+    assert job_that_stopped(converged=True).warnings() == []
+
+
+def test_it_is_told_once():
+    said = {"code": "NOT_CONVERGED", "message": "The solver stopped.", "elements": [], "kind": "mesh"}
+    assert job_that_stopped([said]).warnings() == ["Box: The solver stopped."]
+    other = said | {"code": "ISOLATED_VERTICES"}
+    assert len(job_that_stopped([other]).warnings()) == 2
+
+
+def test_a_note_says_that_shape_keys_only_blend(capfd):
+    source = add_with_key()
+    assert len(fair(levels=1, energy="TOTAL_CURVATURE").data.shape_keys.key_blocks) == 2
+    assert "Each shape key is faired by itself" in capfd.readouterr().out
+    again(source, levels=1, energy="THIN_PLATE")
+    again(source, levels=1, energy="TOTAL_CURVATURE", use_shape_keys=False)
+    again(add("Plain", *CUBE), levels=1, energy="TOTAL_CURVATURE")
+    assert "shape key" not in capfd.readouterr().out
+
+
+def halfway_error(energy):
+    """How far the blend of the surfaces of two shapes is from the surface of the shape between."""
+    source = add_with_key()
+    source.shape_key_add(name="Half Up").data[0].co.z += 0.5
+    result = fair(levels=2, energy=energy)
+    basis, up, half = (shape_positions(key) for key in result.data.shape_keys.key_blocks)
+    return np.abs(0.5 * (basis + up) - half).max()
+
+
+def shape_positions(key):
+    values = np.empty(3 * len(key.data), np.float32)
+    key.data.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def test_shape_keys_mix_linearly_with_the_thin_plate_only():
+    assert halfway_error("THIN_PLATE") < 1e-5 < 1e-3 < halfway_error("TOTAL_CURVATURE")
+
+
+@pytest.mark.parametrize("energy", KEYS)
+def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
+    add("Box", *CUBE)
+    started = []
+    monkeypatch.setattr(operator, "IMMEDIATE", 5 * 768)
+    fake = type("Fake", (), {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"})
+    fake.start = lambda self, context, jobs: started.append(jobs) or "started"
+    job = type("J", (), {"triangles": 768, "settings": type("S", (), {"energy": energy})})
+    answer = operator._Fairing.invoke(fake(), bpy.context, None)
+    assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")
+
+
+def test_names():
+    assert energy_name("MINIMUM_VARIATION") == "Minimum Variation"
