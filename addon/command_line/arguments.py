@@ -15,7 +15,7 @@ names. Coordinates stay what they are: no axes are swapped, no units converted, 
 _EXAMPLES = f"""\
 examples:
   {_PROGRAM} in.obj out.obj --levels 4
-  {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40 --energy thin_plate
+  {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
   {_PROGRAM} parts/*.stl out/ --format ply
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 

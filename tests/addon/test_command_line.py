@@ -131,7 +131,12 @@ def test_settings_reach_the_core():
     assert np.isclose(entry["settings"]["crease_angle"], np.radians(30))
     assert entry["objects"][0]["report"]["threads"] == 1
     assert np.allclose(np.abs(read_obj("out.obj")).max(axis=1), 1.0)  # all edges creased: the box itself
-    near = ("--tolerance", 0.1, "--energy", "thin_plate")
+    near = (
+        "--tolerance",
+        0.1,
+        "--energy",
+        "thin_plate",
+    )  # the others find a sphere there and move nothing
     _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, *near)
     assert 0 < entry["objects"][0]["report"]["largest_deviation"] <= 0.1 * (1 + 1e-6)
 

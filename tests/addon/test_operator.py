@@ -19,6 +19,8 @@ from scenes import (
     snapshot,
 )
 
+from addon.settings.properties import ENERGIES
+
 
 @pytest.mark.parametrize("levels", [1, 2, 3])
 def test_cube_in_quads(levels):
@@ -198,9 +200,10 @@ def test_report_stays_with_the_result():
     assert {"energy", "iterations", "seconds", "warnings"} <= set(report)
 
 
-def test_approximation_keeps_its_tolerance():
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_approximation_keeps_its_tolerance(energy):
     source = add_suzanne()
-    result = fair(levels=1, energy="THIN_PLATE", interpolation="APPROXIMATE", tolerance=0.02)
+    result = fair(levels=1, energy=energy, interpolation="APPROXIMATE", tolerance=0.02)
     moved = np.linalg.norm(
         positions(result.data)[: len(source.data.vertices)] - positions(source.data), axis=1
     )

@@ -4,7 +4,7 @@ import bpy
 
 settings = bpy.context.scene.discrete_fairing
 
-settings.energy = "THIN_PLATE"
+settings.energy = "TOTAL_CURVATURE"
 settings.interpolation = "APPROXIMATE"
 settings.tolerance = 0.005
 settings.boundary = "CURVE"

@@ -4,7 +4,7 @@ import bpy
 
 op = bpy.context.active_operator
 
-op.energy = "THIN_PLATE"
+op.energy = "TOTAL_CURVATURE"
 op.interpolation = "APPROXIMATE"
 op.tolerance = 0.005
 op.boundary = "CURVE"
