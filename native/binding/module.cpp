@@ -278,9 +278,11 @@ py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std
 }
 
 py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
-                        const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes) {
+                        const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes,
+                        Energy energy) {
   const std::vector<double> none(3 * std::size_t(vertices));
-  const RunSize size = predict_size(PolygonMesh{none, as_span(corners), as_span(offsets)}, levels, shapes);
+  const RunSize size =
+      predict_size(PolygonMesh{none, as_span(corners), as_span(offsets)}, levels, shapes, energy);
   py::dict d;
   d["vertices"] = size.points;
   d["triangles"] = size.triangles;
@@ -398,7 +400,7 @@ PYBIND11_MODULE(_native, m) {
   m.def("faces_to_flip", &flipped_faces, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert());
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"));
+        py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"));
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;
 #else

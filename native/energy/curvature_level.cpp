@@ -178,6 +178,7 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
   for (const auto& part : {vertex_energy, edge_energy, face_energy})
     for (const double e : part) total += e;
   if (varies()) total = connect(x, tensors, surface.normal.data(), surface.force.data());
+  bending_ = total;
   vertex_weight_.assign(shared_.weights.size(), 0.0);
   for (std::size_t v = 0; v < shared_.weights.size(); ++v) {
     const double weight = shared_.weights[v];

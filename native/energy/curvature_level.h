@@ -24,7 +24,7 @@ namespace fairing {
 // What all levels share.
 struct CurvatureShared {
   const ControlMesh& mesh;
-  const Unknowns& unknowns;
+  Unknowns unknowns;
   CurvatureEnergy energy;
   Workers& workers;
   VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
@@ -57,6 +57,9 @@ class CurvatureLevel final : public LevelOperator {
   // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
   double linearize(const double* x, Surface* out = nullptr);
 
+  // The latest energy without the weights' part.
+  double bending() const { return bending_; }
+
   // M as it would be after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
 
@@ -82,6 +85,7 @@ class CurvatureLevel final : public LevelOperator {
 
   CurvatureShared& shared_;
   const Lattice& lattice_;
+  double bending_ = 0;
   RingRows rows_;                           // sqrt(w) J
   std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
   std::unique_ptr<Connection> connection_;  // minimum variation only

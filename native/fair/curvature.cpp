@@ -22,10 +22,19 @@ constexpr int long_patience = 14, short_patience = 6;
 constexpr int polishing_patience = 3;
 
 // Of the steps to the least variation.
-constexpr double variation_decrement = 1e-3;
+constexpr double variation_decrement = 1e-3, late_variation_decrement = 3e-2;
+constexpr int variation_patience = 10;  // steps, after which the second will do
 constexpr double variation_late = 1e-3;
-constexpr double first_share = 0.1, least_share_of_damping = 1e-3;  // of the energies' ratio
+constexpr double first_share = 0.1, least_share = 1e-6;  // of the energies' ratio
 constexpr double still = 1e-4;  // of the curvature: variation that is as good as none
+
+constexpr int release_rounds = 2;
+constexpr double release_pull = 0.1;    // of a weight that balances a control edge
+constexpr double release_aim = 0.9999;  // of epsilon: rounding must not carry a vertex over it
+
+constexpr double steps_begin = 0.3, steps_end = 0.85;  // of the run
+
+constexpr double flat = 1e-16;  // an energy that is rounding
 
 constexpr double hopeful =
     1.5;  // a start's energy, to the level below's, that needs no other to compare with
@@ -38,6 +47,7 @@ constexpr double late = 1e-2;  // decrement
 constexpr double least_length = 1.0 / 8;
 constexpr int most_rejections = 4;
 constexpr double accelerated = 0.1;  // decrement below which steps are accelerated
+constexpr double first_ratio = 10;   // times the first ratio of decrements, which flatters
 constexpr double regular = 0.5;      // ratio of decrements below which they tell what is left
 
 class DisplacementTransfer final : public LevelTransfer {
@@ -71,7 +81,8 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
 
 CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
                                  const Stencils& stencils, const Unknowns& unknowns,
-                                 const FairOptions& options, Workers& workers, Monitor& monitor)
+                                 const FairOptions& options, ControlHold hold, double epsilon,
+                                 Workers& workers, Monitor& monitor)
     : mesh_(mesh),
       lattices_(std::move(lattices)),
       base_(base),
@@ -79,6 +90,8 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
       options_(options),
       workers_(workers),
       monitor_(monitor),
+      hold_(std::move(hold)),
+      epsilon_(epsilon),
       shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
       hierarchy_(workers, monitor, hierarchy_options(unknowns, options)) {
   for (int l = base; l < int(lattices_.size()); ++l) {
@@ -90,6 +103,8 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
                    count_unknowns(lattice(l), unknowns));
   }
   hierarchy_.complete();
+  shared_.weights = hold_.weights();
+  if (hold_.any()) shared_.targets.assign(hold_.places().begin(), hold_.places().end());
 }
 
 CurvatureSystem::~CurvatureSystem() = default;
@@ -125,11 +140,13 @@ void CurvatureSystem::choose_start(int level, const Array<double>& plate, Curvat
   const std::size_t size = 3 * lattice(level).size();
   Array<double> below = std::move(surface_);
   surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(size));
-  report.plate_energy = report.start_energy = op(level).linearize(surface_.data());
+  op(level).linearize(surface_.data());
+  report.plate_energy = report.start_energy = op(level).bending();
   if (below.empty()) return;
   trial_.resize(size);
   const auto take_if_lower = [&] {
-    const double energy = op(level).linearize(trial_.data());
+    op(level).linearize(trial_.data());
+    const double energy = op(level).bending();
     if (!(energy < report.start_energy)) return;
     report.start_energy = energy;
     std::swap(surface_, trial_);
@@ -178,8 +195,80 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
     }
   }
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(surface_.size()));
-  if (finest && options_.energy == Energy::minimum_variation) vary(level, report);
+  if (finest) {
+    if (hold_.any()) finish_hold(level, report);
+    if (epsilon_ > 0) release(level, report);
+    if (options_.energy == Energy::minimum_variation) vary(level, report);
+  }
   return report;
+}
+
+// After a step within a tolerance: other weights, another energy.
+void CurvatureSystem::adapt_hold(int level) {
+  hold_.adapt(surface_);
+  shared_.weights = hold_.weights();
+  anderson_.reset();
+  energy_ = op(level).linearize(surface_.data(), &here_);
+}
+
+// From here on held control vertices stay where they are, at most at the tolerance.
+void CurvatureSystem::finish_hold(int level, CurvatureLevelReport& report) {
+  shared_.unknowns = hold_.without_held();
+  shared_.weights.clear();
+  if (!hold_.adapts()) return;
+  hold_.enforce(surface_);
+  follow(level, report);
+}
+
+// A few plain steps after control vertices have been moved; without them where they do not settle.
+void CurvatureSystem::follow(int level, CurvatureLevelReport& report) {
+  energy_ = op(level).linearize(surface_.data(), &here_);
+  const Found moved = found();
+  CurvatureLevelReport followed = report;
+  followed.converged = false;
+  minimize(level, Mode::plain, {0, options_.decrement}, short_patience, followed);
+  if (followed.converged && followed.energy <= moved.energy)
+    report = followed;
+  else
+    restore(moved);
+}
+
+// One step in which interpolated control vertices take part, drawn to their places as much as a control edge is stiff;
+// none goes further than epsilon. Then the surface follows.
+void CurvatureSystem::release(int level, CurvatureLevelReport& report) {
+  const Unknowns fixed = shared_.unknowns;
+  Unknowns freed = fixed;
+  for (Index v = 0; v < mesh_.input_vertices; ++v) {
+    const bool held = fixed.vertex[std::size_t(v)] || mesh_.feature_vertex[std::size_t(v)] ||
+                      mesh_.ring(v).empty() || mesh_.vertex_place(v) != Place::inside;
+    if (!held) freed.vertex[std::size_t(v)] = freed.any_vertex = true;
+  }
+  const std::vector<Vec3> places = mesh_.positions;
+  for (int round = 0; round < release_rounds; ++round) {
+    shared_.unknowns = freed;
+    shared_.weights.assign(places.size(), 0.0);
+    shared_.targets = places;
+    for (std::size_t v = 0; v < places.size(); ++v)
+      if (freed.vertex[v] && !fixed.vertex[v])
+        shared_.weights[v] = release_pull * curvature_weight_unit(mesh_);
+    energy_ = op(level).linearize(surface_.data(), &here_);
+    linearize_below(level);
+    damp(level, {});
+    StepReport ignored;
+    solve_step(level, ignored);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      if (!freed.vertex[v] || fixed.vertex[v]) continue;
+      const Eigen::Map<const Vec3> normal(here_.normal.data() + 3 * v);
+      Eigen::Map<Vec3> p(surface_.data() + 3 * v);
+      Vec3 offset = p + step_[v] * normal - places[v];
+      const double length = offset.norm();
+      if (length > release_aim * epsilon_) offset *= release_aim * epsilon_ / length;
+      p = places[v] + offset;
+    }
+    shared_.unknowns = fixed;
+    shared_.weights.clear();
+    follow(level, report);
+  }
 }
 
 // Plain steps from where damped ones have ended, if they go on from there.
@@ -212,7 +301,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     area = sum(workers_, points, [&](std::size_t i) { return double(shape[4 * i + 3]) * shape[4 * i + 3]; });
   };
   measure(here_.shape);
-  if (!(area > 0)) return;
+  if (!(square > flat)) return;
   shared_.energy = CurvatureEnergy::minimum_variation;
   shared_.damping = 0;
   energy_ = op(level).linearize(surface_.data(), &here_);
@@ -222,11 +311,11 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   double damping_share = first_share;
   int rejections = 0;
   for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
-    monitor_.check_cancelled();
+    report_progress(level, report);
     // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
     const double scale = energy_ + still * square / area;
-    shared_.damping = damping_share * energy_ / square;
-    if (steps == 0 || shared_.damping > 0) op(level).linearize(surface_.data(), &here_);
+    shared_.damping = damping_share * scale / square;
+    op(level).linearize(surface_.data(), &here_);
     linearize_below(level);
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
@@ -250,7 +339,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
       if (step.length < 1)
         damping_share *= 2;
       else if (gain > 0.5)
-        damping_share = damping_share / 4 < least_share_of_damping ? 0 : damping_share / 4;
+        damping_share = std::max(damping_share / 4, least_share);
       break;
     }
     if (!accepted) {
@@ -262,7 +351,9 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     }
     measure(here_.shape);
     step.movement = step.length * largest(workers_, points, [&](std::size_t i) { return step_[i]; });
-    report.converged = step.decrement <= variation_decrement || step.movement <= options_.decrement;
+    report.converged =
+        step.decrement <= (steps < variation_patience ? variation_decrement : late_variation_decrement) ||
+        step.movement <= options_.decrement;
     if (report.converged) break;
   }
   report.variation = energy_;
@@ -278,8 +369,10 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
   energy_ = op(level).linearize(surface_.data(), &here_);
   int rejections = 0;
   double last = 0;
-  for (int steps = 0; steps < options_.max_steps && rejections < most_rejections && energy_ > 0; ++steps) {
-    monitor_.check_cancelled();
+  bool last_but_one = false;
+  for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
+    if ((report.converged = energy_ < flat)) break;
+    report_progress(level, report);
     linearize_below(level);
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
@@ -293,13 +386,29 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
     }
     // Steps gain by a ratio that the last two tell, and with it what is left.
     const double ratio = last > 0 ? step.decrement / last : 1;
-    const double ahead = ratio < regular ? ratio / (1 - ratio) : 1;
+    const double trusted = ratio * (last_but_one ? 1 : first_ratio);
+    const double ahead = trusted < regular ? trusted / (1 - trusted) : 1;
+    last_but_one = last > 0;
     last = step.decrement;
-    report.converged = enough.decrement > 0 ? step.decrement <= enough.decrement : ahead * step.movement <= enough.movement;
+    if (hold_.adapts() && !shared_.weights.empty()) {
+      adapt_hold(level);
+      last = 0;
+    }
+    report.converged =
+        enough.decrement > 0 ? step.decrement <= enough.decrement : ahead * step.movement <= enough.movement;
+    report.converged &= shared_.weights.empty() || !hold_.adapts() || hold_.holds(surface_);
     if (report.converged) break;
     if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;
   }
-  report.energy = energy_;
+  report.energy = op(level).bending();
+}
+
+// Nobody knows how many steps there will be; most runs take four.
+void CurvatureSystem::report_progress(int level, const CurvatureLevelReport& report) {
+  monitor_.check_cancelled();
+  if (level + 1 < int(lattices_.size())) return;
+  const double steps = double(report.steps.size());
+  monitor_.report(Phase::solve, steps_begin + (steps_end - steps_begin) * steps / (steps + 4));
 }
 
 // The step h of K h = force, in step_; returns h . K h, by which it would lower the energy.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "energy/curvature_level.h"
+#include "fair/control_hold.h"
 #include "fair/local_damping.h"
 #include "fair/options.h"
 #include "fair/report.h"
@@ -17,10 +18,11 @@ namespace fairing {
 
 class CurvatureSystem {
  public:
-  // `lattices` are all levels from 0 on; levels below `base` have no unknowns.
+  // `lattices` are all levels from 0 on; levels below `base` have no unknowns. `epsilon` in working units: how far
+  // interpolated control vertices are let go at the end.
   CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
                   const Stencils& stencils, const Unknowns& unknowns, const FairOptions& options,
-                  Workers& workers, Monitor& monitor);
+                  ControlHold hold, double epsilon, Workers& workers, Monitor& monitor);
   ~CurvatureSystem();
 
   // The surface of a level, from `plate`, the thin plate's. Levels have to come in order; on each but the first the
@@ -55,8 +57,13 @@ class CurvatureSystem {
     double movement = 0;
   };
   void minimize(int level, Mode mode, const Enough& enough, int patience, CurvatureLevelReport& report);
+  void adapt_hold(int level);
+  void finish_hold(int level, CurvatureLevelReport& report);
+  void release(int level, CurvatureLevelReport& report);
+  void follow(int level, CurvatureLevelReport& report);
   void polish(int level, CurvatureLevelReport& report);
   void vary(int level, CurvatureLevelReport& report);
+  void report_progress(int level, const CurvatureLevelReport& report);
   void linearize_below(int level);
   void damp(int level, const Array<float>& mu);
   double solve_step(int level, StepReport& report);
@@ -70,6 +77,8 @@ class CurvatureSystem {
   const FairOptions& options_;
   Workers& workers_;
   Monitor& monitor_;
+  ControlHold hold_;
+  double epsilon_;
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<LevelTransfer>> transfers_;

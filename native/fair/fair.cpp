@@ -107,7 +107,7 @@ struct Solver {
     std::vector<LevelReport> levels;
     watch.enter(Phase::solve, 0);
     curvature.clear();
-    std::unique_ptr<CurvatureSystem> curved = make_curved();
+    std::unique_ptr<CurvatureSystem> curved = make_curved(place);
     const auto on_level = [&](int level, Array<double>& points) {
       if (constraint.active()) {
         watch.enter(Phase::constrain, 0.5);
@@ -126,20 +126,20 @@ struct Solver {
     return levels;
   }
 
-  std::unique_ptr<CurvatureSystem> make_curved() {
-    if (options.energy == Energy::thin_plate || options.method == Method::back_leg ||
-        system.base() > options.levels)
-      return nullptr;
+  std::unique_ptr<CurvatureSystem> make_curved(const Placement& place) {
+    if (options.energy == Energy::thin_plate || system.base() > options.levels) return nullptr;
     std::vector<const Lattice*> lattices;
     for (int l = 0; l <= options.levels; ++l) lattices.push_back(&system.lattice(l));
-    return std::make_unique<CurvatureSystem>(mesh, lattices, system.base(), stencils,
-                                             system.shared().unknowns, options, system.shared().workers,
-                                             system.monitor());
+    const Unknowns& unknowns = system.shared().unknowns;
+    return std::make_unique<CurvatureSystem>(
+        mesh, lattices, system.base(), stencils, unknowns, options,
+        ControlHold(mesh, place.working, unknowns, options, options.tolerance / frame.scale),
+        options.epsilon / frame.scale, system.shared().workers, system.monitor());
   }
 
   // Returns the solves taken.
   int release(const Placement& place, Array<double>& x) {
-    if (!(options.epsilon > 0)) return 0;
+    if (!(options.epsilon > 0) || options.energy != Energy::thin_plate) return 0;
     watch.enter(Phase::constrain, 0.8);
     return release_control_vertices(system, mesh, place.working, options.epsilon / frame.scale, x);
   }
@@ -179,7 +179,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   Workers workers(options.threads);
   report.threads = workers.count();
   ControlMesh mesh = make_control_mesh(input, options.features, checked.flipped_faces);
-  const RunSize size = predict_size(mesh, options.levels, shapes);
+  const RunSize size = predict_size(mesh, options.levels, shapes, options.energy);
   require_fit(size, options);
   report.predicted_bytes = std::size_t(size.bytes);
 

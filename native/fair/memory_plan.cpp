@@ -25,9 +25,24 @@ std::int64_t factor_bytes(std::int64_t unknowns) {
   return 12 * unknowns * (40 + 4 * std::bit_width(std::uint64_t(unknowns)));
 }
 
+// What Gauss-Newton steps hold beside the thin plate's system: rows of all levels, and the factor of the finest one that may
+// prove hard; on the finest level surfaces, steps, and what steps are accelerated by.
+std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_levels, Energy energy) {
+  constexpr std::int64_t row = 112, moments = 112, surfaces = 560;  // a point
+  const bool varies = energy == Energy::minimum_variation;
+  std::int64_t hard = 0;
+  for (int l = 0; l <= levels; ++l) {
+    const std::int64_t size = lattice_size(c.vertices, c.edges, c.triangles, c.quads, l);
+    if (size <= std::int64_t(direct_limit_of_hard)) hard = size;
+  }
+  const std::int64_t points = lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels);
+  return (varies ? 2 * row + moments : row) * all_levels + surfaces * points +
+         (varies ? 5 : 2) * factor_bytes(hard);
+}
+
 // What the driver, the solver and the passes hold at their peak. The factor of a level that proves hard on the way
 // (solver/coarse.h) comes on top.
-std::int64_t peak_bytes(const Counts& c, int levels) {
+std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
   const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
   const auto size = [&](int level) { return lattice_size(c.vertices, c.edges, c.triangles, c.quads, level); };
   const std::int64_t points = size(levels), below = levels > 0 ? size(levels - 1) : 0;
@@ -47,8 +62,9 @@ std::int64_t peak_bytes(const Counts& c, int levels) {
   const std::int64_t rings = 2 * c.sides() * (5 * 4 + 5 * 4 + 3 * 8 + 3 * 8 + 3 * 4) / 2;
   const std::int64_t stencils =
       rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
+  const std::int64_t steps = energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_levels, energy);
   const std::int64_t output = n * n * (16 * c.triangles + 20 * c.quads);
-  return std::max(outer + inner + spectrum + exchange + stencils + factor_bytes(factored),
+  return std::max(outer + inner + spectrum + exchange + stencils + factor_bytes(factored) + steps,
                   24 * points + output) +
          (1 << 14);
 }
@@ -57,19 +73,19 @@ std::size_t memory_limit(const FairOptions& options) {
   return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
 }
 
-RunSize run_size(const Counts& c, int levels, std::size_t shapes) {
+RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels);
   size.triangles = n * n * (c.triangles + 2 * c.quads);
   // A shape takes what comes out of it; it is solved where the first surface was.
-  size.bytes = peak_bytes(c, levels) + std::int64_t(shapes) * 24 * size.points;
+  size.bytes = peak_bytes(c, levels, energy) + std::int64_t(shapes) * 24 * size.points;
   return size;
 }
 
 }  // namespace
 
-RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes) {
+RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, Energy energy) {
   Counts c;
   c.vertices = mesh.vertex_count();
   std::vector<std::uint64_t> keys;
@@ -93,15 +109,15 @@ RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes) {
   }
   std::sort(keys.begin(), keys.end());
   c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
-  return run_size(c, levels, shapes);
+  return run_size(c, levels, shapes, energy);
 }
 
-RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes) {
+RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
-  return run_size(c, levels, shapes);
+  return run_size(c, levels, shapes, energy);
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {
@@ -127,10 +143,11 @@ void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
   // Every edge shared, and no vertex more than there are: no run is smaller.
   const auto corners = std::int64_t(mesh.corners.size());
   const std::size_t shapes = options.shape_count(mesh.coordinates.size());
-  const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels, shapes);
+  const RunSize least =
+      run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels, shapes, options.energy);
   const std::size_t limit = memory_limit(options);
   if (limit && least.bytes > std::int64_t(limit))
-    require_fit(predict_size(mesh, options.levels, shapes), options);
+    require_fit(predict_size(mesh, options.levels, shapes, options.energy), options);
 }
 
 }  // namespace fairing

@@ -18,9 +18,11 @@ struct RunSize {
 
 // From the plain arrays alone, checked or not (polygons count as if split around a centre; quads that will be split
 // count as quads).
-RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes = 0);
+RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes = 0,
+                     Energy energy = Energy::thin_plate);
 // Exact counts.
-RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0);
+RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,
+                     Energy energy = Energy::thin_plate);
 
 // Throws FairingError(too_large) with the figures when the run does not fit in the limit or in 32-bit ids; the first
 // costs nothing, and lets pass what only an exact count can tell.

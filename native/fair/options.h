@@ -26,8 +26,9 @@ enum class Method {
 struct FairOptions {
   int levels = 3;
   Energy energy = Energy::thin_plate;
-  double decrement = 3e-6;  // Gauss-Newton steps end where less is left to move, as a share of the mesh's size
-  int max_steps = 20;       // on the finest level
+  double decrement =
+      3e-6;            // Gauss-Newton steps end where less is left to move, as a share of the mesh's size
+  int max_steps = 20;  // on the finest level
   ChartOptions chart;
   FeatureOptions features;
   bool repair_orientation = false;

@@ -29,7 +29,7 @@ struct StepReport {
   double energy = 0;       // before it
   double decrement = 0;    // sqrt(h . K h / energy): how much of the energy's root a full step would take off
   double length = 1;       // of the part of the step that was gone; 0: none would do
-  double movement = 0;   // of any point, at most, in working coordinates
+  double movement = 0;     // of any point, at most, in working coordinates
   int iterations = 0;      // of the linear solve
   double residual = 0;     // its, relative to the start
   bool direct = false;

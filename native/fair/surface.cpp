@@ -14,6 +14,8 @@ constexpr double coarse_tolerance = 1e-4;
 
 // Share of the run before and after the finest level's iterations.
 constexpr double solve_begin = 0.25, solve_end = 0.8;
+// The same where Gauss-Newton steps follow, which take longer.
+constexpr double begin_of_steps = 0.3;
 
 }  // namespace
 
@@ -149,7 +151,8 @@ void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double t
   const double done = start > tolerance && so_far.residual > 0
                           ? std::log(start / so_far.residual) / std::log(start / tolerance)
                           : 1.0;
-  monitor_.report(Phase::solve, solve_begin + (solve_end - solve_begin) * std::clamp(done, 0.0, 1.0));
+  const double end = options_.energy == Energy::thin_plate ? solve_end : begin_of_steps;
+  monitor_.report(Phase::solve, solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
 }
 
 void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, Array<double>& x) {

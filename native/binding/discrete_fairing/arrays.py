@@ -107,7 +107,11 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
 
 
 def predicted_size(
-    vertex_count: int, faces: ArrayLike | Sequence[Sequence[int]], levels: int, shapes: int = 0
+    vertex_count: int,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    levels: int,
+    shapes: int = 0,
+    energy: str = "thin_plate",
 ) -> dict[str, int]:
     """What a run would make and take, without running it (quads that will be split count as quads).
 
@@ -120,5 +124,11 @@ def predicted_size(
             f"{vertex_count} vertices and {shapes} shapes at {levels} levels; it must be from 0, and 0 to "
             f"{MOST_LEVELS}.",
         )
+    energies = _native.Energy.__members__
+    if energy not in energies:
+        listed = " or ".join(f'"{name}"' for name in energies)
+        raise fairing_error("BAD_OPTION", f"energy is {energy!r}; it must be {listed}.")
     corners, offsets = face_arrays(faces)
-    return _native.predicted_size(int(vertex_count), corners, offsets, int(levels), int(shapes))
+    return _native.predicted_size(
+        int(vertex_count), corners, offsets, int(levels), int(shapes), energies[energy]
+    )

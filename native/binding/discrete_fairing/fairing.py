@@ -40,7 +40,7 @@ def fair(
     relative_residual: float = 1e-8,
     max_iterations: int = 200,
     smoother_degree: int = 0,
-    decrement: float = 3e-6,
+    decrement: float = 1e-6,
     max_steps: int = 20,
     sweeps: int = 10,
     threads: int = 0,
