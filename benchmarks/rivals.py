@@ -7,6 +7,7 @@ package is not installed and Refused where it cannot take the mesh.
 
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module, metadata
 from pathlib import Path
@@ -44,6 +45,12 @@ def installed(name: str, package: str) -> ModuleType:
     except ImportError as error:
         # without dependencies: NumPy has to stay as the module bpy wants it
         raise Missing(f"{package} is not installed: .venv/bin/pip install --no-deps {package}") from error
+
+
+def load_early() -> None:
+    """Before the module bpy: libigl can crash where that has been loaded first."""
+    with suppress(Missing):
+        installed("igl", "libigl")
 
 
 def versions() -> dict[str, str]:

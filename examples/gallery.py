@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The gallery: each shape as control mesh and as the surface of each energy, in clay, zebra stripes and curvature colours.
+
+    .venv/bin/python examples/gallery.py                      all of them, to docs/images/gallery/
+    .venv/bin/python examples/gallery.py octahedron hull      only those named
+    .venv/bin/python examples/gallery.py sphere_from_four_points    the README's first picture
+
+Spot and the fish are not part of the project: `--meshes FOLDER` says where `spot_control_mesh.obj` and
+`fish_control_mesh.obj` are; without it they are left out. Rendered by Cycles on the processor, some five seconds a tile.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import bpy
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
+
+import discrete_fairing as df  # noqa: E402
+from gallery_picture import Column, draw  # noqa: E402
+from gallery_shapes import SHAPES, Absent  # noqa: E402
+
+IMAGES = ROOT / "docs" / "images"
+ENERGIES = {
+    "thin_plate": "thin plate",
+    "total_curvature": "total curvature",
+    "minimum_variation": "minimum variation",
+}
+HERO = "sphere_from_four_points"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join([HERO, *SHAPES]))
+    parser.add_argument("--meshes", type=Path, help="the folder with the meshes that are not the project's")
+    parser.add_argument(
+        "--energies", nargs="+", default=[*ENERGIES], choices=ENERGIES, help="the columns; all by default"
+    )
+    parser.add_argument("--samples", type=float, default=1.0, help="of each picture, times the usual")
+    options = parser.parse_args()
+    unknown = {*options.names} - {HERO, *SHAPES}
+    if unknown:
+        parser.error(f"no such picture: {', '.join(sorted(unknown))}")
+    (IMAGES / "gallery").mkdir(parents=True, exist_ok=True)
+    for name in options.names or [HERO, *SHAPES]:
+        picture(name, options)
+
+
+def picture(name, options):
+    """One picture; left out, with a word, where its mesh is not here."""
+    hero = name == HERO
+    shape = SHAPES["tetrahedron" if hero else name]
+    try:
+        control = shape.make(options.meshes)
+    except Absent as why:
+        print(f"{name}: left out, {why}")
+        return
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    columns = [Column("control mesh", control.vertices, control.faces, control.crease_edges, is_control=True)]
+    for energy in options.energies:
+        if hero and energy == "minimum_variation":
+            continue
+        result = fair(control, shape.levels, energy)
+        if result is not None:
+            triangles, quads = result.faces
+            faces = triangles.tolist() + quads.tolist()
+            columns.append(
+                Column(ENERGIES[energy], result.vertices, faces, creased=bool(len(control.crease_edges)))
+            )
+    path = IMAGES / (f"{name}.png" if hero else f"gallery/{name}.png")
+    with TemporaryDirectory() as folder:
+        draw(path, folder, columns, shape.view, ("clay", "zebra") if hero else None, options.samples)
+    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
+
+
+def fair(control, levels, energy):
+    """The surface, or None where this build does not have that energy."""
+    creases = control.crease_edges if len(control.crease_edges) else None
+    try:
+        return df.fair(
+            control.vertices, control.faces, levels=levels, energy=energy, crease_edges=creases, measure=False
+        )
+    except (ValueError, df.FairingError) as error:
+        if energy == "thin_plate":
+            raise
+        print(f"no {energy} here: {error}")
+        return None
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the gallery shows, and from where."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import radians
+
+import bpy
+import control_meshes
+import numpy as np
+from control_meshes import ControlMesh
+
+
+class Absent(Exception):
+    """The mesh is not on this machine."""
+
+
+@dataclass(frozen=True)
+class View:
+    turn: float = 0.0  # degrees about the vertical
+    elevation: float = 17.0  # degrees, of the camera
+    stripes: int = 7
+    contrast: float = 1.25  # the end of the colours over the 90th percentile of total curvature's surface
+    dots: bool = False  # on the control vertices
+
+
+@dataclass(frozen=True)
+class Shape:
+    make: Callable[[object], ControlMesh]
+    levels: int
+    view: View
+
+
+def tetrahedron(_folder):
+    """On the unit sphere, one face down."""
+    angle = 2 * np.pi * np.arange(3) / 3
+    low = np.stack([8**0.5 / 3 * np.cos(angle), 8**0.5 / 3 * np.sin(angle), np.full(3, -1 / 3)], -1)
+    points = np.concatenate([low, [[0, 0, 1]]])
+    return ControlMesh(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+
+
+def octahedron(_folder):
+    """On the unit sphere, one corner up."""
+    points = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
+    ring = [(k, (k + 1) % 4) for k in range(4)]
+    return ControlMesh(points, [(a, b, 4) for a, b in ring] + [(b, a, 5) for a, b in ring])
+
+
+def torus(_folder, around=8, across=6):
+    """The Clifford torus: of all tori the one that bends least."""
+    a, b = np.meshgrid(
+        2 * np.pi * np.arange(around) / around, 2 * np.pi * np.arange(across) / across, indexing="ij"
+    )
+    ring = 2**0.5 + np.cos(b)
+    points = np.stack([ring * np.cos(a), ring * np.sin(a), np.sin(b)], -1).reshape(-1, 3)
+    faces = []
+    for u in range(around):
+        for v in range(across):
+            right, up = (u + 1) % around, (v + 1) % across
+            faces.append((u * across + v, right * across + v, right * across + up, u * across + up))
+    return ControlMesh(points, faces)
+
+
+def suzanne(_folder):
+    """Blender's own."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_monkey_add()
+    mesh = bpy.context.active_object.data
+    return ControlMesh(
+        np.array([v.co for v in mesh.vertices], float), [tuple(p.vertices) for p in mesh.polygons]
+    )
+
+
+def from_file(name):
+    """An OBJ with its y axis up."""
+
+    def make(folder):
+        paths = sorted(folder.rglob(f"*{name}")) if folder else []
+        if not paths:
+            raise Absent(f"{name} is not here (--meshes FOLDER)")
+        points, faces = [], []
+        for words in (line.split() for line in paths[0].read_text().splitlines()):
+            if words[:1] == ["v"]:
+                x, y, z = map(float, words[1:4])
+                points.append((x, -z, y))
+            elif words[:1] == ["f"]:
+                faces.append(tuple(int(word.split("/")[0]) - 1 for word in words[1:]))
+        return ControlMesh(np.array(points), faces)
+
+    return make
+
+
+def tipped(make, degrees):
+    """Turned about the x axis."""
+
+    def made(folder):
+        mesh = make(folder)
+        c, s = np.cos(radians(degrees)), np.sin(radians(degrees))
+        turn = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+        return ControlMesh(mesh.vertices @ turn.T, mesh.faces, mesh.crease_edges)
+
+    return made
+
+
+SHAPES = {
+    "tetrahedron": Shape(tetrahedron, 6, View(turn=-65, contrast=2, dots=True)),
+    "octahedron": Shape(octahedron, 5, View(turn=-65, contrast=2, dots=True)),
+    "torus": Shape(torus, 4, View(turn=10, elevation=38, stripes=6)),
+    "suzanne": Shape(suzanne, 3, View(turn=24, stripes=3)),
+    "hull": Shape(
+        tipped(lambda _folder: control_meshes.hull(), -30), 4, View(turn=-65, stripes=12, contrast=1)
+    ),
+    "spot": Shape(from_file("spot_control_mesh.obj"), 4, View(turn=135, stripes=3)),
+    "fish": Shape(from_file("fish_control_mesh.obj"), 4, View(turn=-60, stripes=5)),
+}
