@@ -92,6 +92,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["start_variation"] = l.start_variation;
   d["variation"] = l.variation;
   d["converged"] = l.converged;
+  d["accurate"] = l.accurate;
   py::list steps;
   for (const StepReport& s : l.steps) {
     py::dict step;
@@ -99,6 +100,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
     step["energy"] = s.energy;
     step["decrement"] = s.decrement;
     step["length"] = s.length;
+    step["movement"] = s.movement;
     step["iterations"] = s.iterations;
     step["residual"] = s.residual;
     step["direct"] = s.direct;
@@ -341,7 +343,7 @@ PYBIND11_MODULE(_native, m) {
       .def(py::init<>())
       .def_readwrite("levels", &FairOptions::levels)
       .def_readwrite("energy", &FairOptions::energy)
-      .def_readwrite("decrement", &FairOptions::decrement)
+      .def_readwrite("step_tolerance", &FairOptions::step_tolerance)
       .def_readwrite("max_steps", &FairOptions::max_steps)
       .def_property(
           "chart", [](const FairOptions& o) { return o.chart.kind; },

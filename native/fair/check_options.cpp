@@ -29,7 +29,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   in_range("tolerance", o.tolerance, 0, 1e300);
   in_range("epsilon", o.epsilon, 0, 1e300);
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
-  in_range("decrement", o.decrement, 0, 0.1);
+  in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");
   if (o.method == Method::back_leg && o.energy != Energy::thin_plate)
     refuse("method=\"back_leg\" is the paper's own, for the thin plate; use multigrid for other energies.");

@@ -36,6 +36,7 @@ constexpr double steps_begin = 0.3, steps_end = 0.85;  // of the run
 
 constexpr double flat = 1e-16;  // an energy that is rounding
 
+constexpr double real_gain = 1 - 1e-9;  // what rounding may not decide
 constexpr double hopeful =
     1.5;  // a start's energy, to the level below's, that needs no other to compare with
 constexpr double as_low = 1.01;  // as the energy by damped steps
@@ -147,7 +148,7 @@ void CurvatureSystem::choose_start(int level, const Array<double>& plate, Curvat
   const auto take_if_lower = [&] {
     op(level).linearize(trial_.data());
     const double energy = op(level).bending();
-    if (!(energy < report.start_energy)) return;
+    if (!(energy < real_gain * report.start_energy)) return;
     report.start_energy = energy;
     std::swap(surface_, trial_);
   };
@@ -174,7 +175,8 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   if (level < base_) return report;
   const bool finest = level + 1 == int(lattices_.size());
   choose_start(level, plate, report);
-  const Enough accurate{0, options_.decrement}, near{plain_decrement, 0}, damped_enough{damped_decrement, 0};
+  const Enough accurate{0, options_.step_tolerance}, near{plain_decrement, 0},
+      damped_enough{damped_decrement, 0};
   const Array<double> start = surface_;
   const CurvatureLevelReport fresh = report;
 
@@ -198,9 +200,18 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   if (finest) {
     if (hold_.any()) finish_hold(level, report);
     if (epsilon_ > 0) release(level, report);
+    if (!(report.energy <= report.plate_energy)) fall_back(level, plate, report);
     if (options_.energy == Energy::minimum_variation) vary(level, report);
   }
   return report;
+}
+
+// Steps may end in a fold; then the thin plate's surface is the better one.
+void CurvatureSystem::fall_back(int level, const Array<double>& plate, CurvatureLevelReport& report) {
+  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(3 * lattice(level).size()));
+  energy_ = op(level).linearize(surface_.data(), &here_);
+  report.energy = op(level).bending();
+  report.converged = report.accurate = false;
 }
 
 // After a step within a tolerance: other weights, another energy.
@@ -226,7 +237,7 @@ void CurvatureSystem::follow(int level, CurvatureLevelReport& report) {
   const Found moved = found();
   CurvatureLevelReport followed = report;
   followed.converged = false;
-  minimize(level, Mode::plain, {0, options_.decrement}, short_patience, followed);
+  minimize(level, Mode::plain, {0, options_.step_tolerance}, short_patience, followed);
   if (followed.converged && followed.energy <= moved.energy)
     report = followed;
   else
@@ -277,7 +288,7 @@ void CurvatureSystem::polish(int level, CurvatureLevelReport& report) {
   const Found damped = found();
   CurvatureLevelReport polished = report;
   polished.converged = false;
-  minimize(level, Mode::plain, {0, options_.decrement}, polishing_patience, polished);
+  minimize(level, Mode::plain, {0, options_.step_tolerance}, polishing_patience, polished);
   if (polished.converged && polished.energy <= as_low * report.energy)
     report = polished;
   else
@@ -353,7 +364,8 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     step.movement = step.length * largest(workers_, points, [&](std::size_t i) { return step_[i]; });
     report.converged =
         step.decrement <= (steps < variation_patience ? variation_decrement : late_variation_decrement) ||
-        step.movement <= options_.decrement;
+        step.movement <= options_.step_tolerance;
+    report.accurate = step.movement <= options_.step_tolerance;
     if (report.converged) break;
   }
   report.variation = energy_;
@@ -396,6 +408,7 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
     }
     report.converged =
         enough.decrement > 0 ? step.decrement <= enough.decrement : ahead * step.movement <= enough.movement;
+    report.accurate = ahead * step.movement <= options_.step_tolerance;
     report.converged &= shared_.weights.empty() || !hold_.adapts() || hold_.holds(surface_);
     if (report.converged) break;
     if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;

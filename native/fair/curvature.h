@@ -57,6 +57,7 @@ class CurvatureSystem {
     double movement = 0;
   };
   void minimize(int level, Mode mode, const Enough& enough, int patience, CurvatureLevelReport& report);
+  void fall_back(int level, const Array<double>& plate, CurvatureLevelReport& report);
   void adapt_hold(int level);
   void finish_hold(int level, CurvatureLevelReport& report);
   void release(int level, CurvatureLevelReport& report);

@@ -26,8 +26,8 @@ enum class Method {
 struct FairOptions {
   int levels = 3;
   Energy energy = Energy::thin_plate;
-  double decrement =
-      3e-6;            // Gauss-Newton steps end where less is left to move, as a share of the mesh's size
+  double step_tolerance =
+      1e-6;            // Gauss-Newton steps end where less is left to move; share of the mesh's size
   int max_steps = 20;  // on the finest level
   ChartOptions chart;
   FeatureOptions features;

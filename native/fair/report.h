@@ -40,7 +40,8 @@ struct CurvatureLevelReport {
   double plate_energy = 0, start_energy = 0, energy = 0;  // in working coordinates
   double start_variation = 0, variation = 0;              // minimum variation, on the finest level
   std::vector<StepReport> steps;
-  bool converged = false;
+  bool converged = false;  // to a decrement of 3e-2 at the least, with which its square is below 1e-3
+  bool accurate = false;   // to options.step_tolerance
 };
 
 struct ShapeReport {

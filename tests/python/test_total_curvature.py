@@ -19,8 +19,8 @@ from surfaces import (
 )
 from test_invariance import relabelled
 
-TIGHT = {"decrement": 1e-11, "max_steps": 60}
-SETTLED = {"decrement": 1e-9, "max_steps": 60}  # the stopping test is no part of what a test compares
+TIGHT = {"step_tolerance": 1e-11, "max_steps": 60}
+SETTLED = {"step_tolerance": 1e-9, "max_steps": 60}  # the stopping test is no part of what a test compares
 # Where the steps end elsewhere than on the sphere. The theorem says that the sphere is a critical point, and nothing of
 # the way there: docs/total-curvature.md counts these.
 MISSED = {("J2_cut", 3), ("J4_cut", 3), ("J5_cut", 2), ("J5_cut", 3), ("8/3", 3), ("8/7", 3)}

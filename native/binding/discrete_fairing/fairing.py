@@ -40,7 +40,7 @@ def fair(
     relative_residual: float = 1e-8,
     max_iterations: int = 200,
     smoother_degree: int = 0,
-    decrement: float = 1e-6,
+    step_tolerance: float = 1e-6,
     max_steps: int = 20,
     sweeps: int = 10,
     threads: int = 0,
@@ -106,7 +106,7 @@ def fair(
     relative_residual : float
         Where the solver stops: residual relative to the control polyhedron's, and error relative to the solution in
         the energy norm.
-    decrement : float, share of the mesh's size
+    step_tolerance : float, share of the mesh's size
         Where the Gauss-Newton steps end: where less is left to move.
     max_steps : int
         The most Gauss-Newton steps on a level.
@@ -136,7 +136,7 @@ def fair(
     o = _native.Options()
     o.levels = whole("levels", levels)
     o.energy = choice("energy", energy, _native.Energy)
-    o.decrement = real("decrement", decrement)
+    o.step_tolerance = real("step_tolerance", step_tolerance)
     o.max_steps = whole("max_steps", max_steps)
     o.metric_exponent = real("metric_exponent", metric_exponent)
     o.chart_blend = real("chart_blend", chart_blend)
