@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 # of the operator, the panel and the command line alike
-DEFAULT_ENERGY = "TOTAL_CURVATURE"
+DEFAULT_ENERGY = "THIN_PLATE"
 
 # numbered, because files keep the number
 ENERGIES = (
