@@ -2,8 +2,6 @@
 #include "fair/curvature.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "execution/vectors.h"
 #include "fair/surface.h"

@@ -37,3 +37,13 @@ def test_predicted_size_counts_the_boundary(name):
     vertices, faces = meshes.OPEN[name]()
     result = df.fair(vertices, faces, 2)
     assert len(result.vertices) <= df.predicted_size(len(vertices), faces, 2)["vertices"]
+
+
+@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
+@pytest.mark.parametrize("name", ["random_hull", "torus_quads", "wavy_patch"])
+def test_prediction_bounds_the_peak_of_steps(name, energy):
+    """Not tightly: a level that proves hard is factored, and nobody knows before."""
+    vertices, faces = meshes.ALL[name]()
+    report = df.fair(vertices, faces, 3, energy, threads=1).report
+    assert report["peak_bytes"] <= report["predicted_bytes"] <= 8 * report["peak_bytes"]
+    assert df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]

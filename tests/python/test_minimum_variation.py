@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The variation of curvature: spheres have none, and no peak is left at the control vertices."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+
+def on_unit_sphere(mesh):
+    vertices, faces = mesh
+    vertices = np.asarray(vertices, float)
+    return vertices / np.linalg.norm(vertices, axis=1)[:, None], faces
+
+
+def finest(result):
+    return result.report["curvature"][-1]
+
+
+@pytest.mark.parametrize("levels", [2, 3])
+@pytest.mark.parametrize("name", ["tetrahedron", "octahedron", "icosahedron", "cube", "random_hull"])
+def test_inscribed_meshes_become_spheres(name, levels):
+    result = df.fair(*on_unit_sphere(meshes.ALL[name]()), levels, "minimum_variation")
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
+    assert finest(result)["converged"]
+
+
+@pytest.mark.parametrize("name", ["creature", "torus_quads", "wavy_patch"])
+def test_variation_falls_and_total_curvature_started_it(name):
+    vertices, faces = meshes.ALL[name]()
+    result = df.fair(vertices, faces, 2, "minimum_variation")
+    report = finest(result)
+    assert 0 < report["variation"] < report["start_variation"]
+    assert np.isfinite(result.vertices).all()
+    assert np.array_equal(result.vertices[: len(vertices)], np.asarray(vertices, float))
+    kinds = [step["functional"] for step in report["steps"]]
+    assert kinds == sorted(kinds, reverse=True) and kinds[-1] == "minimum_variation"
+
+
+def test_a_patch_of_a_sphere_is_found():
+    """Six by six quads whose vertices lie on a sphere. The boundary's curves do not, so only the middle is compared."""
+    at = np.linspace(-0.6, 0.6, 7)
+    vertices = np.array([(x, y, np.sqrt(1 - x * x - y * y)) for x in at for y in at])
+    faces = [(7 * i + j, 7 * i + j + 7, 7 * i + j + 8, 7 * i + j + 1) for i in range(6) for j in range(6)]
+
+    def error(energy):
+        points = df.fair(vertices, faces, 3, energy).vertices
+        middle = points[(np.abs(points[:, :2]) < 0.31).all(axis=1)]
+        return np.abs(np.linalg.norm(middle, axis=1) - 1).max()
+
+    assert error("minimum_variation") < 5e-5 < 5e-4 < error("total_curvature") < error("thin_plate")
+
+
+def test_threads_leave_no_trace():
+    one, two = (df.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2))
+    assert np.array_equal(one, two)
+
+
+def test_a_flat_mesh_stays_flat():
+    vertices, faces = meshes.flat_patch()
+    result = df.fair(vertices, faces, 2, "minimum_variation")
+    assert np.abs(result.vertices[:, 2] - result.vertices[0, 2]).max() < 1e-12
