@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/curvature_level.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "energy/assemble.h"
@@ -52,6 +53,20 @@ struct Linearizer {
   }
 };
 
+// The chart's u axis in space. Charts scale their angles to a full turn, so that no neighbour's direction agrees with the
+// chart's but by chance; the axis is where all of them agree best, whichever neighbour the chart started from.
+Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart) {
+  if (ring.empty()) return Vec3::Zero();
+  const Vec3 u = (ring[0] - ring[0].dot(normal) * normal).normalized(), v = normal.cross(u);
+  Vec2 turn = Vec2::Zero();
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Vec2 d = Vec2(ring[j].dot(u), ring[j].dot(v)).normalized(), c = chart.ring[j].normalized();
+    turn += Vec2(d.dot(c), d.y() * c.x() - d.x() * c.y());
+  }
+  turn.normalize();
+  return turn.x() * u + turn.y() * v;
+}
+
 // One a thread.
 Linearizer& linearizer() {
   thread_local Linearizer own;
@@ -69,12 +84,9 @@ struct CurvatureLevel::Tensors {
     axis.resize(3 * points);
     area.resize(points);
   }
-  void put(std::size_t p, const ShapeRows& rows, std::span<const Vec3> ring, double root) {
-    const Vec3& normal = rows.point.normal;
-    const Vec3 first = ring.empty() ? Vec3::Zero() : ring[0];
-    const Vec3 u = (first - first.dot(normal) * normal).normalized();
+  void put(std::size_t p, const Vec3& m, const Vec3& u, double root) {
     for (std::size_t a = 0; a < 3; ++a) {
-      shape[3 * p + a] = rows.shape[Eigen::Index(a)];
+      shape[3 * p + a] = m[Eigen::Index(a)];
       axis[3 * p + a] = u[Eigen::Index(a)];
     }
     area[p] = root * root;
@@ -108,6 +120,7 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
   if (wants_points) {
     surface.normal.resize(3 * lattice_.size());
     surface.shape.resize(4 * lattice_.size());
+    surface.axis.resize(3 * lattice_.size());
   }
   const auto put_point = [&](std::size_t p, const Linearizer& l) {
     if (!wants_points) return;
@@ -116,12 +129,15 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
       surface.shape[4 * p + a] = float(l.rows.shape[Eigen::Index(a)]);
     }
     surface.shape[4 * p + 3] = float(l.root);
-    if (varies()) tensors.put(p, l.rows, l.scratch.ring.view(true).offset, l.root);
+    const Vec3 axis = chart_axis(l.rows.point.normal, l.scratch.ring.view(true).offset, l.rows.chart);
+    for (std::size_t a = 0; a < 3; ++a) surface.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
+    if (varies()) tensors.put(p, l.rows.shape, axis, l.root);
   };
   const auto clear_points = [&](std::size_t p, std::size_t count) {
     if (!wants_points) return;
     std::fill_n(surface.normal.data() + 3 * p, 3 * count, 0.0);
     std::fill_n(surface.shape.data() + 4 * p, 4 * count, 0.0f);
+    std::fill_n(surface.axis.data() + 3 * p, 3 * count, 0.0f);
     if (varies()) tensors.clear(p, count);
   };
   if (!mesh.region.whole()) clear_points(0, lattice_.size());  // faces outside are not visited

@@ -53,6 +53,7 @@ class CurvatureLevel final : public LevelOperator {
     Array<double> force;   // minus half the energy's gradient, on the unknowns: K h = force is the step
     Array<double> normal;  // 3 a point
     Array<float> shape;    // 4 a point: M's orthonormal components, and the root of the area
+    Array<float> axis;     // 3 a point: the chart's u axis in space
   };
   // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
   double linearize(const double* x, Surface* out = nullptr);

@@ -337,7 +337,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     for (step.length = 1; step.length >= least_length && !accepted; step.length /= 2) {
       const double energy = try_step(level, step.length);
       if (step.length == 1)
-        damping.judge(predicted_, here_.shape, there_.shape, rejections, steps - rejections, step.decrement);
+        damping.judge(predicted_, here_, there_, rejections, steps - rejections, step.decrement);
       if (!(energy <= energy_ + slack * step.decrement * scale) && !(step.decrement < variation_late))
         continue;
       const double gain = reduction > 0 ? (energy_ - energy) / reduction : 1;
@@ -450,7 +450,7 @@ bool CurvatureSystem::advance(int level, StepReport& step, LocalDamping* damping
     const double energy = try_step(level, step.length);
     step.movement = step.length * largest(workers_, step_.size(), [&](std::size_t i) { return step_[i]; });
     if (step.length == 1 && !is_late &&
-        damping->judge(predicted_, here_.shape, there_.shape, rejections, steps, step.decrement))
+        damping->judge(predicted_, here_, there_, rejections, steps, step.decrement))
       anderson_.reset();
     if (!std::isfinite(energy) || (!is_late && energy > energy_ * (1 + slack * step.decrement))) continue;
     anderson_.took(step.length);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fair/local_damping.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "execution/vectors.h"
 
@@ -15,29 +17,41 @@ constexpr int patience = 5;                   // steps, after which what failed 
 constexpr float insistence = 3;
 constexpr double near_the_end = 0.03;  // decrement below which damping fades wherever the prediction held
 
+Eigen::Matrix3d tensor(const float* m, const CurvatureLevel::Surface& surface, std::size_t point) {
+  constexpr double root_half = std::numbers::sqrt2 / 2;
+  const Vec3 u = Eigen::Map<const Eigen::Vector3f>(surface.axis.data() + 3 * point).cast<double>();
+  const Vec3 v = Eigen::Map<const Vec3>(surface.normal.data() + 3 * point).cross(u);
+  const Eigen::Matrix3d uu = u * u.transpose(), vv = v * v.transpose(), uv = u * v.transpose();
+  return root_half *
+         (double(m[0]) * (uu + vv) + double(m[1]) * (uu - vv) + double(m[2]) * (uv + uv.transpose()));
+}
+
 }  // namespace
 
 LocalDamping::LocalDamping(const Lattice& lattice, const Unknowns& unknowns, Workers& workers)
     : lattice_(lattice), unknowns_(unknowns), workers_(workers) {}
 
-bool LocalDamping::judge(const Array<float>& predicted, const Array<float>& before, const Array<float>& after,
-                         int rejections, int steps, double decrement) {
+bool LocalDamping::judge(const Array<float>& predicted, const CurvatureLevel::Surface& before,
+                         const CurvatureLevel::Surface& after, int rejections, int steps, double decrement) {
   const std::size_t points = lattice_.size();
   const auto square = [](const float* m) {
     return double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
   };
   const auto area = [](const float* m) { return double(m[3]) * m[3]; };
-  const double whole = sum(workers_, points, [&](std::size_t i) { return area(&before[4 * i]); });
-  const double energy =
-      sum(workers_, points, [&](std::size_t i) { return area(&before[4 * i]) * square(&before[4 * i]); });
+  const double whole = sum(workers_, points, [&](std::size_t i) { return area(&before.shape[4 * i]); });
+  const double energy = sum(workers_, points, [&](std::size_t i) {
+    return area(&before.shape[4 * i]) * square(&before.shape[4 * i]);
+  });
   const double mean = whole > 0 ? energy / whole : 0;
   Array<float> miss(points), marks(points);
   const double bound = failed * std::pow(0.5, rejections);
   for_each_index(workers_, points, [&](std::size_t i) {
-    const float *m = &before[4 * i], *now = &after[4 * i], *p = &predicted[3 * i];
-    const float d[3] = {now[0] - p[0], now[1] - p[1], now[2] - p[2]};
+    const float *m = &before.shape[4 * i], *now = &after.shape[4 * i];
+    // Charts turn with their first neighbour, which is nobody's choice: tensors are compared in space.
+    const Eigen::Matrix3d change = tensor(now, after, i) - tensor(&predicted[3 * i], before, i);
     const double scale = square(m) + square(now) + mean;
-    miss[i] = m[3] > 0 && now[3] > 0 && scale > 0 ? float(square(d) / scale) : (m[3] > 0 ? 1.0f : 0.0f);
+    miss[i] =
+        m[3] > 0 && now[3] > 0 && scale > 0 ? float(change.squaredNorm() / scale) : (m[3] > 0 ? 1.0f : 0.0f);
     marks[i] = double(miss[i]) > bound ? 1.0f : 0.0f;
   });
   grow(marks);

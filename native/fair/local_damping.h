@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "energy/ring_rows.h"
+#include "energy/curvature_level.h"
 
 namespace fairing {
 
@@ -15,10 +15,10 @@ class LocalDamping {
   // Empty while there is none.
   const Array<float>& mu() const { return any_ ? mu_ : none_; }
 
-  // After a full step: what M was foreseen to be (3 numbers a point), what it was and what it is (4, with the root of the
-  // area). `rejections` of steps before, `steps` accepted so far, the relative decrement. Returns whether mu changed.
-  bool judge(const Array<float>& predicted, const Array<float>& before, const Array<float>& after,
-             int rejections, int steps, double decrement);
+  // After a full step: what M was foreseen to be (3 numbers a point, in the charts of before), what it was and what it is.
+  // `rejections` of steps before, `steps` accepted so far, the relative decrement. Returns whether mu changed.
+  bool judge(const Array<float>& predicted, const CurvatureLevel::Surface& before,
+             const CurvatureLevel::Surface& after, int rejections, int steps, double decrement);
 
  private:
   void grow(Array<float>& marks);
