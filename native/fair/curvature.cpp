@@ -137,34 +137,40 @@ void CurvatureSystem::damp(int level, const Array<float>& mu) {
 // normals.
 void CurvatureSystem::choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report) {
   const std::size_t size = 3 * lattice(level).size();
-  Array<double> below = std::move(surface_);
+  const Array<double> below = std::move(surface_);
+  const double energy_below = energy_;
   surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(size));
-  op(level).linearize(surface_.data());
+  energy_ = op(level).linearize(surface_.data(), &there_);
   report.plate_energy = report.start_energy = op(level).bending();
-  if (below.empty()) return;
-  trial_.resize(size);
-  const auto take_if_lower = [&] {
-    op(level).linearize(trial_.data());
-    const double energy = op(level).bending();
-    if (!(energy < real_gain * report.start_energy)) return;
-    report.start_energy = energy;
-    std::swap(surface_, trial_);
-  };
-  Array<double> change(below.size());
-  for_each_index(workers_, below.size(), [&](std::size_t i) { change[i] = below[i] - plate_below_[i]; });
-  prolong(lattice(level - 1), lattice(level), stencils_, nullptr, workers_, exchange_, change.data(),
-          trial_.data());
-  const Array<float>& diagonal = op(level).diagonal();
-  for_each_index(workers_, size,
-                 [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
-  take_if_lower();
-  if (report.start_energy <= hopeful * energy_) return;
-  prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(),
-                       trial_.data());
-  for_each_index(workers_, size, [&](std::size_t i) {
-    if (!(diagonal[i / 3] > 0)) trial_[i] = plate[i];
-  });
-  take_if_lower();
+  is_linearized_ = true;
+  if (!below.empty()) {
+    trial_.resize(size);
+    const auto take_if_lower = [&] {
+      const double energy = op(level).linearize(trial_.data(), &there_), bending = op(level).bending();
+      is_linearized_ = bending < real_gain * report.start_energy;
+      if (!is_linearized_) return;
+      report.start_energy = bending;
+      energy_ = energy;
+      std::swap(surface_, trial_);
+    };
+    Array<double> change(below.size());
+    for_each_index(workers_, below.size(), [&](std::size_t i) { change[i] = below[i] - plate_below_[i]; });
+    prolong(lattice(level - 1), lattice(level), stencils_, nullptr, workers_, exchange_, change.data(),
+            trial_.data());
+    const Array<float>& diagonal = op(level).diagonal();
+    for_each_index(workers_, size,
+                   [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
+    take_if_lower();
+    if (report.start_energy > hopeful * energy_below) {
+      prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(),
+                           trial_.data());
+      for_each_index(workers_, size, [&](std::size_t i) {
+        if (!(diagonal[i / 3] > 0)) trial_[i] = plate[i];
+      });
+      take_if_lower();
+    }
+  }
+  std::swap(here_, there_);
 }
 
 CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>& plate) {
@@ -376,7 +382,8 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
   anderson_.reset();
   trial_.resize(3 * lattice(level).size());
-  energy_ = op(level).linearize(surface_.data(), &here_);
+  if (!is_linearized_) energy_ = op(level).linearize(surface_.data(), &here_);
+  is_linearized_ = false;
   int rejections = 0;
   double last = 0;
   bool last_but_one = false;

@@ -89,6 +89,7 @@ class CurvatureSystem {
   Array<double> surface_, trial_, step_;
   double energy_ = 0;  // of surface_, as the next two
   CurvatureLevel::Surface here_, there_;
+  bool is_linearized_ = false;  // the level's operator about surface_, with here_ and energy_
   Array<float> predicted_;
   Anderson anderson_;
   Array<double> plate_below_;  // the thin plate's surface on the level before
