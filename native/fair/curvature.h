@@ -52,6 +52,13 @@ class CurvatureSystem {
     here_ = found.here;
     energy_ = found.energy;
   }
+  // Plain steps have to come to this decrement in time; on coarse levels they end there.
+  static constexpr double plain_decrement = 1e-3;
+  static constexpr int short_patience = 6;
+  static constexpr double least_length = 1.0 / 8;
+  static constexpr int most_rejections = 4;
+  static constexpr double flat = 1e-16;  // an energy that is rounding
+
   struct Enough {
     double decrement = 0;  // zero: what is left to move counts
     double movement = 0;

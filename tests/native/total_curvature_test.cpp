@@ -203,8 +203,7 @@ TEST(TotalCurvature, OfATorusConvergesWithSecondOrder) {
       const Lattice lattice(mesh, level);
       errors.push_back(measured(lattice, sample(lattice, plane, surface, {2 * pi, 2 * pi})) / exact - 1);
     }
-    for (std::size_t k = 2; k < errors.size(); ++k)
-      EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.9) << k;
+    for (std::size_t k = 2; k < errors.size(); ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.9) << k;
     EXPECT_GT(std::log2(errors[2] / errors[3]), 1.95);
     EXPECT_NEAR(errors.front(), 0, 1.6e-2);
     EXPECT_NEAR(errors.back(), 0, 3e-4);
