@@ -120,7 +120,7 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
   if (wants_points) {
     surface.normal.resize(3 * lattice_.size());
     surface.shape.resize(4 * lattice_.size());
-    surface.axis.resize(3 * lattice_.size());
+    if (surface.with_axes) surface.axis.resize(3 * lattice_.size());
   }
   const auto put_point = [&](std::size_t p, const Linearizer& l) {
     if (!wants_points) return;
@@ -129,15 +129,17 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
       surface.shape[4 * p + a] = float(l.rows.shape[Eigen::Index(a)]);
     }
     surface.shape[4 * p + 3] = float(l.root);
+    if (!surface.with_axes && !varies()) return;
     const Vec3 axis = chart_axis(l.rows.point.normal, l.scratch.ring.view(true).offset, l.rows.chart);
-    for (std::size_t a = 0; a < 3; ++a) surface.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
+    for (std::size_t a = 0; a < 3 && surface.with_axes; ++a)
+      surface.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
     if (varies()) tensors.put(p, l.rows.shape, axis, l.root);
   };
   const auto clear_points = [&](std::size_t p, std::size_t count) {
     if (!wants_points) return;
     std::fill_n(surface.normal.data() + 3 * p, 3 * count, 0.0);
     std::fill_n(surface.shape.data() + 4 * p, 4 * count, 0.0f);
-    std::fill_n(surface.axis.data() + 3 * p, 3 * count, 0.0f);
+    if (surface.with_axes) std::fill_n(surface.axis.data() + 3 * p, 3 * count, 0.0f);
     if (varies()) tensors.clear(p, count);
   };
   if (!mesh.region.whole()) clear_points(0, lattice_.size());  // faces outside are not visited

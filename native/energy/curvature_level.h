@@ -50,16 +50,20 @@ class CurvatureLevel final : public LevelOperator {
 
   // What a surface gives besides K, where asked for; all are resized. Zero where a point has no fit.
   struct Surface {
-    Array<double> force;   // minus half the energy's gradient, on the unknowns: K h = force is the step
-    Array<double> normal;  // 3 a point
-    Array<float> shape;    // 4 a point: M's orthonormal components, and the root of the area
-    Array<float> axis;     // 3 a point: the chart's u axis in space
+    Array<double> force;     // minus half the energy's gradient, on the unknowns: K h = force is the step
+    Array<double> normal;    // 3 a point
+    Array<float> shape;      // 4 a point: M's orthonormal components, and the root of the area
+    bool with_axes = false;  // asked for:
+    Array<float> axis;       // 3 a point, the chart's u axis in space
   };
   // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
   double linearize(const double* x, Surface* out = nullptr);
 
   // The latest energy without the weights' part.
   double bending() const { return bending_; }
+
+  // Call after shared.damping has changed: nothing else of K depends on it but what apply() and assemble() look up.
+  void update_diagonal();
 
   // M as it would be after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
@@ -79,7 +83,6 @@ class CurvatureLevel final : public LevelOperator {
  private:
   struct Tensors;
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
-  void update_diagonal();
   template <class T>
   void apply_any(const T* x, T* y, Exchange<T, 1>& exchange);
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }

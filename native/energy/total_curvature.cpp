@@ -21,7 +21,7 @@ double total_curvature(const Lattice& lattice, Workers& workers, const double* x
   std::vector<double> vertex(std::size_t(mesh.vertex_count()), 0.0), edge(mesh.edges.size(), 0.0),
       face(mesh.faces.size(), 0.0);
   // Lifted areas would add up to more than the surface has; the fit's trace, which is not symmetric, does no harm here.
-  const float* lift = nullptr;
+  constexpr const float* lift = nullptr;
   workers.for_parts(vertex.size(), 256, [&](std::size_t begin, std::size_t end) {
     WalkScratch scratch;
     SurfaceChart chart;

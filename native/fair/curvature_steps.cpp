@@ -54,6 +54,7 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
   anderson_.reset();
   trial_.resize(3 * lattice(level).size());
+  here_.with_axes = there_.with_axes = mode == Mode::damped;  // what local damping compares in
   if (!is_linearized_) energy_ = op(level).linearize(surface_.data(), &here_);
   is_linearized_ = false;
   int rejections = 0;

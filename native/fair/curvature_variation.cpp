@@ -32,6 +32,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   if (!(square > flat)) return;
   shared_.energy = CurvatureEnergy::minimum_variation;
   shared_.damping = 0;
+  here_.with_axes = there_.with_axes = true;
   energy_ = op(level).linearize(surface_.data(), &here_);
   report.start_variation = energy_;
   report.converged = false;
@@ -43,7 +44,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
     const double scale = energy_ + still * square / area;
     shared_.damping = damping_share * scale / square;
-    op(level).linearize(surface_.data(), &here_);
+    op(level).update_diagonal();
     linearize_below(level);
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
