@@ -6,6 +6,7 @@ from bpy.props import IntProperty
 
 from .. import native
 from ..read.source import source_objects
+from ..refusal import Refusing
 from . import messages, record, repair
 from .selection import select_defects, select_in_all
 
@@ -24,13 +25,8 @@ def why_not(context):
     return ""
 
 
-class _Checking:
-    @classmethod
-    def poll(cls, context):
-        reason = why_not(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+class _Checking(Refusing):
+    why_not = staticmethod(why_not)
 
 
 class MESH_OT_fairing_check(_Checking, bpy.types.Operator):
@@ -113,12 +109,4 @@ def _groups(defects):
 
 CLASSES = (MESH_OT_fairing_check, MESH_OT_fairing_select_defect, MESH_OT_fairing_repair)
 
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

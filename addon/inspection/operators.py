@@ -4,6 +4,7 @@
 import bpy
 from bpy.props import EnumProperty
 
+from ..refusal import Refusing
 from . import display, readout
 from .properties import MODES
 
@@ -27,15 +28,10 @@ def why_not(context):
     return ""
 
 
-class _Inspecting:
+class _Inspecting(Refusing):
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        reason = why_not(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
+    why_not = staticmethod(why_not)
 
 
 class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
@@ -117,12 +113,4 @@ CLASSES = (
     VIEW3D_OT_fairing_viewport,
 )
 
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

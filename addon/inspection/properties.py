@@ -173,9 +173,11 @@ class DISCRETE_FAIRING_PG_inspection(bpy.types.PropertyGroup):
 CLASSES = (DISCRETE_FAIRING_PG_shown, DISCRETE_FAIRING_PG_inspection)
 
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
+
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     bpy.types.Object.discrete_fairing_inspection = PointerProperty(type=DISCRETE_FAIRING_PG_shown)
     bpy.types.Scene.discrete_fairing_inspection = PointerProperty(type=DISCRETE_FAIRING_PG_inspection)
 
@@ -183,5 +185,4 @@ def register():
 def unregister():
     del bpy.types.Scene.discrete_fairing_inspection
     del bpy.types.Object.discrete_fairing_inspection
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()

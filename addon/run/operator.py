@@ -5,6 +5,7 @@ import bpy
 
 from .. import native
 from ..read.source import source_objects
+from ..refusal import Refusing
 from ..settings.layout import draw_settings
 from ..settings.properties import FairingSettings
 from ..write.object import select_only
@@ -28,15 +29,8 @@ def why_not(context):
     return ""
 
 
-class _Fairing(ModalRun):
+class _Fairing(Refusing, ModalRun):
     """What both operators share: jobs are made, computed, and only when all are done something is written."""
-
-    @classmethod
-    def poll(cls, context):
-        reason = cls.why_not(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
 
     def invoke(self, context, _event):
         jobs = self._prepare(context)
@@ -148,12 +142,4 @@ class OBJECT_OT_fair_recompute(_Fairing, bpy.types.Operator):
 
 CLASSES = (OBJECT_OT_fair_surface, OBJECT_OT_fair_recompute)
 
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

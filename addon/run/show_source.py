@@ -3,25 +3,19 @@
 
 import bpy
 
+from ..refusal import Refusing
 from ..write.object import select_only
 
 
-class OBJECT_OT_fair_show_source(bpy.types.Operator):
+class OBJECT_OT_fair_show_source(Refusing, bpy.types.Operator):
     """Show the source of this surface and select it, to work on its vertices"""
 
     bl_idname = "object.fair_show_source"
     bl_label = "Show Source"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        reason = cls._why_not(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
-
     @staticmethod
-    def _why_not(context):
+    def why_not(context):
         active = context.active_object
         if context.mode != "OBJECT":
             return "Go to Object Mode first"

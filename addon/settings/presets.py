@@ -41,13 +41,14 @@ def draw_presets(layout):
 CLASSES = (OBJECT_OT_fairing_preset_add, VIEW3D_PT_fairing_presets)
 
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
+
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     bpy.utils.register_preset_path(_FOLDER)
 
 
 def unregister():
     bpy.utils.unregister_preset_path(_FOLDER)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()

@@ -263,9 +263,11 @@ class DISCRETE_FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
 CLASSES = (DISCRETE_FAIRING_PG_settings, DISCRETE_FAIRING_PG_surface)
 
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
+
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     bpy.types.Scene.discrete_fairing = bpy.props.PointerProperty(type=DISCRETE_FAIRING_PG_settings)
     bpy.types.Object.discrete_fairing = bpy.props.PointerProperty(type=DISCRETE_FAIRING_PG_surface)
 
@@ -273,5 +275,4 @@ def register():
 def unregister():
     del bpy.types.Object.discrete_fairing
     del bpy.types.Scene.discrete_fairing
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()
