@@ -10,6 +10,8 @@ from pathlib import Path
 
 import charts
 import cholesky
+import clean_meshes
+import curvature_peaks
 import memory
 import million
 import paper
@@ -27,6 +29,8 @@ BENCHMARKS = {
     "memory": memory.run,
     "shared": shared.run,
     "side_by_side": side_by_side.run,
+    "peaks": curvature_peaks.run,
+    "clean": clean_meshes.run,
 }
 
 

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every clean mesh of the collection that may lie beside the project, at L = 3: does the solver converge, how soon?"""
 
-import sys
 import time
 from pathlib import Path
 from typing import Any
 
 import discrete_fairing as df
+import from_tests
 import runs
 import table
 
-TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
 LEVELS, LIMIT = 3, 40
 MOST_TRIANGLES = 4_000_000  # after refinement; larger ones get fewer levels
 
@@ -51,10 +50,7 @@ def one(path: Path, files: Any, data: Any) -> dict[str, Any]:
 
 def run() -> dict[str, Any]:
     """The whole collection; nothing where it is absent."""
-    sys.path.append(str(TESTS))  # the readers of the tests
-    import mesh_files
-    import shared_data
-
+    mesh_files, shared_data = from_tests.readers()
     folder = shared_data.SHARED / "good"
     if not folder.is_dir():
         print("shared: the collection of meshes is not here.")

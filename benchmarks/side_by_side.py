@@ -8,12 +8,12 @@ A tool that is not installed, or does not take a mesh, leaves a line that says s
 """
 
 import argparse
-import importlib.util
 import json
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
+import from_tests
 import numpy as np
 import rivals
 import surface_measures as measures
@@ -31,12 +31,7 @@ HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "sec
 def control_meshes() -> dict[str, tuple[np.ndarray, list[list[int]], int, bool]]:
     """By name: vertices, polygons, levels, and whether all vertices are on the unit sphere."""
     rivals.load_early()
-    # benchmarks has a module of the same name
-    path = ROOT / "tests" / "python" / "control_meshes.py"
-    spec = importlib.util.spec_from_file_location("small_control_meshes", path)
-    assert spec and spec.loader
-    small = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(small)
+    small = from_tests.small_meshes()
     inscribed = {
         "icosahedron": small.icosahedron(),
         "octahedron": small.octahedron(),

@@ -49,8 +49,8 @@ def rim(triangles: np.ndarray) -> np.ndarray:
     return np.unique(unique[uses == 1])
 
 
-def largest_dihedral(points: np.ndarray, triangles: np.ndarray) -> float:
-    """The largest angle between the normals of neighbours, in degrees."""
+def dihedrals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The angles between the normals of neighbours, in degrees; faces without an area left out."""
     corner = points[triangles]
     normal, length = rows_cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
@@ -61,4 +61,9 @@ def largest_dihedral(points: np.ndarray, triangles: np.ndarray) -> float:
     whole = (length[a] > 0) & (length[b] > 0)
     a, b = a[whole], b[whole]
     product, sine = rows_cross(normal[a], normal[b])
-    return float(np.degrees(np.arctan2(sine, (normal[a] * normal[b]).sum(1)).max()))
+    return np.degrees(np.arctan2(sine, (normal[a] * normal[b]).sum(1)))
+
+
+def largest_dihedral(points: np.ndarray, triangles: np.ndarray) -> float:
+    """The largest of them."""
+    return float(dihedrals(points, triangles).max())
