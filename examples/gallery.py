@@ -5,8 +5,9 @@
     .venv/bin/python examples/gallery.py octahedron hull      only those named
     .venv/bin/python examples/gallery.py sphere_from_four_points    the README's first picture
 
-Spot and the fish are not part of the project: `--meshes FOLDER` says where `spot_control_mesh.obj` and
-`fish_control_mesh.obj` are; without it they are left out. Rendered by Cycles on the processor, some five seconds a tile.
+Bob, the cat's head, the hand, Spot and the fish are not part of the project: `--meshes FOLDER` says where `bob_small.ply`,
+`cat_head.obj`, `hand_lowres.obj`, `spot_control_mesh.obj` and `fish_control_mesh.obj` are; those that are missing are
+left out. Rendered by Cycles on the processor, some five seconds a tile.
 """
 
 import argparse

@@ -22,7 +22,7 @@ TILE = 264, 250  # pixels in the picture; rendered twice as large
 COLOURS = 256  # of the palette
 HEAD = 34  # pixels over the first row, for the labels
 WIDTH = 2.4  # of a tile, in the studio's units
-SAMPLES = {"clay": 14, "zebra": 8, "curvature": 6}
+SAMPLES = {"clay": 8, "zebra": 5, "curvature": 4}
 ROWS = {
     "zebra": "zebra stripes:\nbreaks are folds,\nkinks are jumps\nin curvature",
     "curvature": "mean curvature:\nred bulges,\nblue is hollow",
@@ -225,9 +225,9 @@ def _rendered_text(labels, shape, path):
     scene = bpy.context.scene
     for thing in scene.objects:
         thing.hide_render = thing.type != "CAMERA"
-    scene.camera.data.ortho_scale = 1.0 if width >= height else width / height
+    scene.camera.data.ortho_scale = 1.0  # of the longer side
     scene.camera.location, scene.camera.rotation_euler = (0, 0, 5), (0, 0, 0)
-    unit = 1.0 / width if width >= height else scene.camera.data.ortho_scale / width
+    unit = 1.0 / max(width, height)
     ink = _plain("Ink", INK)
     for words, x, y, size in labels:
         text = bpy.data.curves.new("Label", "FONT")

@@ -72,22 +72,35 @@ def suzanne(_folder):
 
 
 def from_file(name):
-    """An OBJ with its y axis up."""
+    """An OBJ or PLY with its y axis up."""
 
     def make(folder):
         paths = sorted(folder.rglob(f"*{name}")) if folder else []
         if not paths:
             raise Absent(f"{name} is not here (--meshes FOLDER)")
-        points, faces = [], []
-        for words in (line.split() for line in paths[0].read_text().splitlines()):
-            if words[:1] == ["v"]:
-                x, y, z = map(float, words[1:4])
-                points.append((x, -z, y))
-            elif words[:1] == ["f"]:
-                faces.append(tuple(int(word.split("/")[0]) - 1 for word in words[1:]))
-        return ControlMesh(np.array(points), faces)
+        points, faces = (_ply if name.endswith(".ply") else _obj)(paths[0])
+        return ControlMesh(np.array([(x, -z, y) for x, y, z in points]), faces)
 
     return make
+
+
+def _obj(path):
+    """Positions and polygons as they are stored."""
+    points, faces = [], []
+    for words in (line.split() for line in path.read_text().splitlines()):
+        if words[:1] == ["v"]:
+            points.append(tuple(map(float, words[1:4])))
+        elif words[:1] == ["f"]:
+            faces.append(tuple(int(word.split("/")[0]) - 1 for word in words[1:]))
+    return points, faces
+
+
+def _ply(path):
+    """The same, read by Blender."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.ply_import(filepath=str(path))  # leaves the axes alone
+    mesh = bpy.context.active_object.data
+    return [tuple(v.co) for v in mesh.vertices], [tuple(p.vertices) for p in mesh.polygons]
 
 
 def tipped(make, degrees):
@@ -110,6 +123,9 @@ SHAPES = {
     "hull": Shape(
         tipped(lambda _folder: control_meshes.hull(), -30), 4, View(turn=-65, stripes=12, contrast=1)
     ),
+    "bob": Shape(from_file("bob_small.ply"), 3, View(turn=150, elevation=25, stripes=5)),
+    "cat_head": Shape(from_file("cat_head.obj"), 3, View(turn=20, stripes=5)),
+    "hand": Shape(from_file("hand_lowres.obj"), 2, View(turn=0, stripes=5)),
     "spot": Shape(from_file("spot_control_mesh.obj"), 4, View(turn=135, stripes=3)),
     "fish": Shape(from_file("fish_control_mesh.obj"), 4, View(turn=-60, stripes=5)),
 }
