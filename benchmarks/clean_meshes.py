@@ -17,7 +17,7 @@ import rivals
 import surface_measures as measures
 import table
 
-LEVELS, FEWER, MANY = 3, 2, 300  # levels; those of meshes with more faces
+LEVELS, FEWER, MANY = 3, 2, 600  # levels; those of meshes with more faces
 DECREMENT = 1e-3**0.5  # converged: the squared decrement, a share of the energy, is below a thousandth
 STEPS, ITERATIONS = 10, 40  # at most
 FOLD = 90.0  # degrees; on creases there may be such angles by right
