@@ -26,6 +26,7 @@ SPHERE = 8 * np.pi  # ∫ κ₁² + κ₂² of any sphere; no closed surface wit
 REPEATS, ENOUGH = 3, 1.0  # runs, of which the shortest counts; processor seconds after which one will do
 # seconds are the processor's, of all threads together: other work on the machine hardly moves them
 HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "seconds")
+BOLD = (3, 4)  # of these, in Markdown
 
 
 def control_meshes() -> dict[str, tuple[np.ndarray, list[list[int]], int, bool]]:
@@ -155,14 +156,12 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
 
 
 def markdown(result: dict[str, Any]) -> str:
-    """The same tables as docs/comparison.md has them; the best figure of those that keep the vertices is bold."""
+    """The same tables as docs/comparison.md has them; bold is the best printed figure of those that keep the vertices."""
     keeps = {rival.name for rival in rivals.ALL if rival.interpolates}
     text = []
     for name, found in result["meshes"].items():
-        best = {
-            key: min(f[key] for tool, f in found.items() if tool in keeps and "absent" not in f)
-            for key in ("dihedral", "energy")
-        }
+        ours_and_theirs = [cells(f) for tool, f in found.items() if tool in keeps and "absent" not in f]
+        best = {place: min((row[place] for row in ours_and_theirs), key=float) for place in BOLD}
         text += [f"### {name[0].upper()}{name[1:]}, {result['levels'][name]} levels", ""]
         heads = ["", "least radius", "largest radius", "off", "dihedral", "E / 8π", "triangles", "seconds"]
         inscribed = "(exact sphere)" in found
@@ -173,12 +172,11 @@ def markdown(result: dict[str, Any]) -> str:
             if "absent" in figures:
                 text += [f"| {tool} | *{figures['absent']}* |" + " |" * (len(columns) - 2)]
                 continue
-            row = [tool, *cells(figures)]
-            row[4] += "°"
-            row[6] = f"{figures['triangles']:,}"
-            for place, key in ((4, "dihedral"), (5, "energy")):
-                if tool in keeps and figures[key] == best[key]:
-                    row[place] = f"**{row[place]}**"
+            row = cells(figures)
+            is_best = [tool in keeps and row[place] == best.get(place) for place in range(len(row))]
+            row[3] += "°"
+            row[5] = f"{figures['triangles']:,}"
+            row = [tool, *(f"**{cell}**" if bold else cell for cell, bold in zip(row, is_best))]
             text += ["| " + " | ".join(row[k] for k in columns) + " |"]
         text += [""]
     return "\n".join(text)
