@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, and soon there."""
+
+from functools import cache
+from pathlib import Path
+
+import butterfly
+import discrete_fairing as df
+import numpy as np
+import pytest
+from mesh_files import SUFFIXES, read_mesh
+from shared_data import creases_of, shared_files
+
+LEVELS, FEWER, MANY = 3, 2, 100  # levels; those of meshes with more faces
+CONVERGED = 1e-3**0.5  # the decrement: its square, a share of the energy, is below a thousandth
+STEPS, ITERATIONS = 10, 40
+
+CRUMPLED = "crumpled: its damped steps are short ones, and too many"
+SLOW = {  # steps to convergence
+    "cages/odedstein-meshes__penguin_penguin_control_mesh": CRUMPLED,
+    "cages/opensubdiv-shapes__catmark_lefthanded": CRUMPLED,
+    "cages/opensubdiv-shapes__catmark_righthanded": CRUMPLED,
+    "creases/opensubdiv-shapes__catmark_bishop": CRUMPLED,
+    "creases/opensubdiv-shapes__catmark_car": CRUMPLED,
+    "creases/opensubdiv-shapes__catmark_car, creases": CRUMPLED,
+    "mechanical/trimesh__plate_holes": CRUMPLED,
+}
+ABOVE = {  # the thin plate
+    "cages/odedstein-meshes__penguin_penguin_control_mesh": "slivers in folds measure much, without the lifts",
+}
+
+
+def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> list:
+    """A parameter for each mesh and, where creases are listed beside it, one more for it with them."""
+    result = []
+    for file in shared_files("good", *SUFFIXES):
+        (path,) = file.values
+        variants = [False, True] if creased and path is not None and has_creases(path) else [False]
+        for with_creases in variants:
+            name = file.id.removeprefix("good/") + (", creases" if with_creases else "")
+            marks = [*file.marks]
+            if name in (exceptions or {}):
+                marks.append(pytest.mark.xfail(reason=exceptions[name]))
+            result.append(pytest.param(path, with_creases, marks=marks, id=name))
+    return result
+
+
+def has_creases(path: Path) -> bool:
+    return any(len(part) for part in creases_of(path, sharper_than=2.0))
+
+
+@cache
+def mesh_of(path: Path):
+    """Vertices, polygons, levels."""
+    vertices, faces = read_mesh(path)
+    return vertices, faces, FEWER if len(faces) > MANY else LEVELS
+
+
+@cache
+def run(path: Path, creased: bool) -> dict:
+    """What the tests ask of one run, and not the surface, of which there would be a hundred."""
+    vertices, faces, levels = mesh_of(path)
+    options = {}
+    if creased:
+        edges, corners = creases_of(path, sharper_than=2.0)
+        there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])}  # some lists name others
+        options = {"crease_edges": [e for e in edges.tolist() if frozenset(e) in there]}
+        options["corner_vertices"] = corners
+    plate = df.fair(vertices, faces, levels, **options)
+    result = df.fair(vertices, faces, levels, "total_curvature", **options)
+    return {
+        "finite": bool(np.isfinite(result.vertices).all()),
+        "kept": result.vertices[: len(vertices)].tobytes() == vertices.tobytes(),
+        "energy": measured(result),
+        "plate_energy": measured(plate),
+        "levels": result.report["curvature"],
+    }
+
+
+def measured(result) -> float:
+    """On the surface itself, afterwards; what the steps lower has lifted weights where areas are small."""
+    return result.report["energy"]["result"]["total_curvature"]
+
+
+@pytest.mark.parametrize(("path", "creased"), cases())
+def test_finite_and_below_the_thin_plate(path, creased):
+    found = run(path, creased)
+    assert found["finite"] and found["kept"]
+    finest = found["levels"][-1]
+    assert 0 <= finest["energy"] <= finest["plate_energy"]
+
+
+@pytest.mark.parametrize(("path", "creased"), cases(ABOVE))
+def test_measures_below_the_thin_plate(path, creased):
+    found = run(path, creased)
+    assert found["energy"] <= found["plate_energy"]
+
+
+@pytest.mark.parametrize(("path", "creased"), cases(SLOW))
+def test_converges_in_few_steps(path, creased):
+    decrements = [step["decrement"] for step in run(path, creased)["levels"][-1]["steps"]]
+    assert not decrements or min(decrements[:STEPS]) <= CONVERGED
+
+
+@pytest.mark.parametrize(("path", "creased"), cases())
+def test_linear_solves_are_short(path, creased):
+    for level in run(path, creased)["levels"]:
+        assert max((step["iterations"] for step in level["steps"]), default=0) <= ITERATIONS
+
+
+@pytest.mark.parametrize(("path", "creased"), cases(creased=False))
+def test_below_the_butterfly(path, creased):
+    vertices, faces, levels = mesh_of(path)
+    triangles = np.array([[f[0], *pair] for f in faces for pair in zip(f[1:], f[2:])])
+    if not is_closed(triangles):
+        pytest.skip("open")
+    points = vertices
+    for _ in range(levels):
+        points, triangles = butterfly.refine(points, triangles)
+    assert run(path, creased)["energy"] < measured(df.fair(points, triangles, 0))
+
+
+def is_closed(triangles: np.ndarray) -> bool:
+    halves = {(t[k], t[(k + 1) % 3]) for t in triangles.tolist() for k in range(3)}
+    return all((b, a) in halves for a, b in halves)
