@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, and soon there."""
+"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, and soon there.
+
+What is not met is listed by name, and expected to fail: whatever mends it has to take it off the list.
+"""
 
 from functools import cache
 from pathlib import Path
@@ -15,19 +18,23 @@ LEVELS, FEWER, MANY = 3, 2, 100  # levels; those of meshes with more faces
 CONVERGED = 1e-3**0.5  # the decrement: its square, a share of the energy, is below a thousandth
 STEPS, ITERATIONS = 10, 40
 
-CRUMPLED = "crumpled: its damped steps are short ones, and too many"
-SLOW = {  # steps to convergence
-    "cages/odedstein-meshes__penguin_penguin_control_mesh": CRUMPLED,
-    "cages/opensubdiv-shapes__catmark_lefthanded": CRUMPLED,
-    "cages/opensubdiv-shapes__catmark_righthanded": CRUMPLED,
-    "creases/opensubdiv-shapes__catmark_bishop": CRUMPLED,
-    "creases/opensubdiv-shapes__catmark_car": CRUMPLED,
-    "creases/opensubdiv-shapes__catmark_car, creases": CRUMPLED,
-    "mechanical/trimesh__plate_holes": CRUMPLED,
+SLOW = {  # damped steps, short ones: how many to convergence
+    "cages/odedstein-meshes__penguin_penguin_control_mesh": "11 steps",
+    "cages/opensubdiv-shapes__catmark_lefthanded": "18 steps",
+    "cages/opensubdiv-shapes__catmark_righthanded": "more than the 20 that it may take",
+    "creases/opensubdiv-shapes__catmark_bishop": "11 steps",
+    "creases/opensubdiv-shapes__catmark_car": "12 steps",
+    "creases/opensubdiv-shapes__catmark_car, creases": "13 steps",
+    "mechanical/trimesh__plate_holes": "11 steps",
 }
 ABOVE = {  # the thin plate
-    "cages/odedstein-meshes__penguin_penguin_control_mesh": "slivers in folds measure much, without the lifts",
+    "cages/odedstein-meshes__penguin_penguin_control_mesh": "1522 against 1299 as measured, 607 against 1140 as lowered",
 }
+GROWS = {  # from level 2 to 3
+    "cages/geometry-central__bob_small": "iterations of the later steps double",
+    "cages/geometry-central__cat_head": "iterations of the later steps double",
+}
+ON_TWO_LEVELS = [*GROWS, "cages/geometry-central__sphere_small"]  # not direct, and small enough
 
 
 def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> list:
@@ -106,6 +113,16 @@ def test_converges_in_few_steps(path, creased):
 def test_linear_solves_are_short(path, creased):
     for level in run(path, creased)["levels"]:
         assert max((step["iterations"] for step in level["steps"]), default=0) <= ITERATIONS
+
+
+@pytest.mark.parametrize(
+    ("path", "creased"), [case for case in cases(GROWS, creased=False) if case.id in ON_TWO_LEVELS]
+)
+def test_solves_are_no_longer_on_a_finer_level(path, creased):
+    vertices, faces, _ = mesh_of(path)
+    entries = df.fair(vertices, faces, LEVELS, "total_curvature", measure=False).report["curvature"]
+    coarse, fine = (max(step["iterations"] for step in entry["steps"]) for entry in entries[-2:])
+    assert coarse > 0 and fine <= 1.25 * coarse + 2
 
 
 @pytest.mark.parametrize(("path", "creased"), cases(creased=False))
