@@ -22,41 +22,47 @@ class Workers {
   int count() const { return int(threads_.size()) + 1; }
 
   // Calls body(begin, end) on disjoint contiguous parts of [0, size), and returns when all are done. `grain` is the
-  // least part worth a thread of its own. An exception of any part is rethrown here.
+  // least part worth handing out. Whoever is free takes the next part: a thread that sleeps, or has lost its core to
+  // somebody else, is not waited for. An exception of any part is rethrown here.
   template <class Body>
   void for_parts(std::size_t size, std::size_t grain, Body&& body) {
-    const std::size_t most = grain ? (size + grain - 1) / grain : size;
-    const int parts = int(most < std::size_t(count()) ? most : std::size_t(count()));
-    if (parts <= 1) {
+    const std::size_t most = grain ? size / grain : size, limit = parts_a_thread * std::size_t(count());
+    const std::size_t parts = most < limit ? most : limit;
+    if (threads_.empty() || parts <= 1) {
       if (size) body(std::size_t(0), size);
       return;
     }
     struct Call {
       Body* body;
-      std::size_t size;
-      int parts;
+      std::size_t size, parts;
     } call{&body, size, parts};
-    dispatch(parts, &call, [](void* data, int part) {
+    dispatch(int(parts), &call, [](void* data, int part) {
       auto& c = *static_cast<Call*>(data);
-      const std::size_t begin = c.size * std::size_t(part) / std::size_t(c.parts);
-      const std::size_t end = c.size * std::size_t(part + 1) / std::size_t(c.parts);
+      const std::size_t begin = c.size * std::size_t(part) / c.parts;
+      const std::size_t end = c.size * std::size_t(part + 1) / c.parts;
       (*c.body)(begin, end);
     });
   }
 
  private:
   using Task = void (*)(void*, int);
+  using State = std::uint64_t;
+  static constexpr std::size_t parts_a_thread = 4;
+
   void dispatch(int parts, void* data, Task task);
-  void serve(int id);
-  void run_part(int part);
+  void serve();
+  void work(State state, bool from_end);
+  void run_part(Task task, void* data, int part);
 
   std::vector<std::thread> threads_;
-  std::atomic<std::uint32_t> generation_{0};
-  std::atomic<int> pending_{0};
+  // The parts that nobody has taken yet, [first, end), below the number of the call: first in 16 bits, end in the next 16.
+  // What the call is about is read before a part is taken, and holds if `state_` has not changed by then.
+  std::atomic<State> state_{0};
+  std::atomic<Task> task_{nullptr};
+  std::atomic<void*> data_{nullptr};
+  std::atomic<std::uint32_t> calls_{0};  // what idle threads wait for
+  std::atomic<std::uint32_t> unfinished_{0};
   std::atomic<bool> stop_{false};
-  Task task_ = nullptr;
-  void* data_ = nullptr;
-  int parts_ = 0;
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
 };
