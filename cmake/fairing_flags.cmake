@@ -5,10 +5,10 @@ target_compile_features(fairing_flags INTERFACE cxx_std_20)
 
 # Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count.
 if(MSVC) # its Clang, which takes the options in Microsoft's spelling
-  target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /W4 /utf-8 /bigobj)
+  target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8 /bigobj)
   target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
 else()
-  target_compile_options(fairing_flags INTERFACE -ffp-contract=off -Wall -Wextra)
+  target_compile_options(fairing_flags INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra)
   # a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
   target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
 endif()

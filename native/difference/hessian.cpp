@@ -8,9 +8,6 @@
 namespace fairing {
 namespace {
 
-// fit()'s threshold on singular values, on their squares.
-constexpr double undetermined = 3e-3 * 3e-3;
-
 Vec3 orthonormal(double uu, double uv, double vv) {
   constexpr double root_half = std::numbers::sqrt2 / 2;
   return {root_half * (uu + vv), root_half * (uu - vv), std::numbers::sqrt2 * uv};
@@ -47,12 +44,12 @@ class RoundFit {
     const double s01 = without_linear(ab, xa, ya, xb, yb), s11 = without_linear(bb, xb, yb, xb, yb),
                  s12 = without_linear(bc, xb, yb, xc, yc), s22 = without_linear(cc, xc, yc, xc, yc);
     s02 = without_linear(ac, xa, ya, xc, yc);
-    if (!(s00 > undetermined * aa)) return false;
+    if (!(s00 > undetermined_square * aa)) return false;
     l10 = s01 / s00, l20 = s02 / s00, d1 = s11 - l10 * s01;
     const double t12 = s12 - l10 * s02;
-    if (!(d1 > undetermined * bb)) return false;
+    if (!(d1 > undetermined_square * bb)) return false;
     l21 = t12 / d1, d2 = s22 - l20 * s02 - l21 * t12;
-    return d2 > undetermined * cc;
+    return d2 > undetermined_square * cc;
   }
 
   Vec3 hessian(std::span<const Vec2> ring, std::span<const double> weight, std::span<const double> f) const {
@@ -102,7 +99,7 @@ template <int Size>
 Eigen::Matrix<double, Size, Size> pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> eigen(gram);
   Eigen::Matrix<double, Size, 1> inverse = eigen.eigenvalues();
-  const double least = std::max(undetermined * inverse(Size - 1), 1e-300);
+  const double least = std::max(undetermined_square * inverse(Size - 1), 1e-300);
   for (int k = 0; k < Size; ++k) inverse(k) = inverse(k) > least ? 1 / inverse(k) : 0.0;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
@@ -124,7 +121,7 @@ Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> f) {
   Eigen::Matrix2d left = gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed;
   const double whole = gram.bottomRightCorner<2, 2>().trace();
   for (int k = 0; k < 2; ++k)
-    if (left(k, k) < undetermined * whole) {
+    if (left(k, k) < undetermined_square * whole) {
       left.row(k).setZero();
       left.col(k).setZero();
     }

@@ -11,6 +11,9 @@
 
 namespace fairing {
 
+// fit()'s threshold on singular values, on their squares.
+constexpr double undetermined_square = 3e-3 * 3e-3;
+
 // The last three of fit()'s coefficients, ((f_uu + f_vv)/sqrt 2, (f_uu - f_vv)/sqrt 2, sqrt 2 f_uv), from the
 // differences f_j - f_0 over a closed ring. The same rules hold where the ring does not determine a
 // quadratic: valence 4 gives the trace and the trace-free part of least norm, valence 3 the trace alone. Zero

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/curvature_level.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "energy/assemble.h"
 #include "energy/joint_weight.h"
 #include "energy/ring_passes.h"
-#include "energy/surface_walk.h"
+#include "energy/run_rings.h"
 #include "execution/vectors.h"
 
 namespace fairing {
@@ -17,6 +16,8 @@ namespace {
 struct Linearizer {
   ShapeRows rows;
   WalkScratch scratch;
+  ShapePack pack;
+  RunScratch runs;
   double root = 0;  // of the area, with what else weighs the energy
 
   // The rows of point i of a run; returns its energy. `give(slot, force)` is called for the point's part of the force.
@@ -44,6 +45,29 @@ struct Linearizer {
     return area * rows.shape.squaredNorm();
   }
 
+  // The rows of points i … i + count - 1 of a run from the pack, as far as it has them; returns their energy.
+  template <class Weight>
+  double store_pack(std::size_t count, Weight&& weight, const RowRun<float>& run, std::size_t i,
+                    const Beside<double>& force) {
+    double area[pack_points], energy = 0;
+    for (std::size_t l = 0; l < count; ++l) {
+      area[l] = weight(i + l) * pack.area[l];
+      pack_root[l] = std::sqrt(area[l]);
+      for (const auto& m : pack.shape) energy += area[l] * m[l] * m[l];
+    }
+    for (int s = 0; s < run.slots; ++s) {
+      const auto& row = pack.row[s];
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t l = 0; l < count; ++l) run.at(c, s, i + l) = float(pack_root[l] * row[c][l]);
+      double* to = force.at[s] + i;
+      for (std::size_t l = 0; l < count; ++l)
+        to[l] -= area[l] *
+                 (row[0][l] * pack.shape[0][l] + row[1][l] * pack.shape[1][l] + row[2][l] * pack.shape[2][l]);
+    }
+    return energy;
+  }
+  double pack_root[pack_points];
+
   // The cotangents of point i's edges, for the connection.
   void store_weights(const RingInSpace& at, const RowRun<float>& run, std::size_t i) const {
     for (int s = 0; s < run.slots; ++s) run.at(0, s, i) = 0;
@@ -52,20 +76,6 @@ struct Linearizer {
       run.at(0, at.slot()[j], i) = float(rows.chart.cotangent[j]);
   }
 };
-
-// The chart's u axis in space. Charts scale their angles to a full turn, so that no neighbour's direction agrees with the
-// chart's but by chance; the axis is where all of them agree best, whichever neighbour the chart started from.
-Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart) {
-  if (ring.empty()) return Vec3::Zero();
-  const Vec3 u = (ring[0] - ring[0].dot(normal) * normal).normalized(), v = normal.cross(u);
-  Vec2 turn = Vec2::Zero();
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Vec2 d = Vec2(ring[j].dot(u), ring[j].dot(v)).normalized(), c = chart.ring[j].normalized();
-    turn += Vec2(d.dot(c), d.y() * c.x() - d.x() * c.y());
-  }
-  turn.normalize();
-  return turn.x() * u + turn.y() * v;
-}
 
 // One a thread.
 Linearizer& linearizer() {
@@ -122,18 +132,27 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
     surface.shape.resize(4 * lattice_.size());
     if (surface.with_axes) surface.axis.resize(3 * lattice_.size());
   }
-  const auto put_point = [&](std::size_t p, const Linearizer& l) {
+  const auto put_point = [&](std::size_t p, const Vec3& normal, const Vec3& shape, double root,
+                             const Vec3& axis) {
     if (!wants_points) return;
     for (std::size_t a = 0; a < 3; ++a) {
-      surface.normal[3 * p + a] = l.rows.point.normal[Eigen::Index(a)];
-      surface.shape[4 * p + a] = float(l.rows.shape[Eigen::Index(a)]);
+      surface.normal[3 * p + a] = normal[Eigen::Index(a)];
+      surface.shape[4 * p + a] = float(shape[Eigen::Index(a)]);
+      if (surface.with_axes) surface.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
     }
-    surface.shape[4 * p + 3] = float(l.root);
-    if (!surface.with_axes && !varies()) return;
-    const Vec3 axis = chart_axis(l.rows.point.normal, l.scratch.ring.view(true).offset, l.rows.chart);
-    for (std::size_t a = 0; a < 3 && surface.with_axes; ++a)
-      surface.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
-    if (varies()) tensors.put(p, l.rows.shape, axis, l.root);
+    surface.shape[4 * p + 3] = float(root);
+    if (varies()) tensors.put(p, shape, axis, root);
+  };
+  const bool wants_axis = surface.with_axes || varies();
+  const auto put_single = [&](std::size_t p, const Linearizer& l, const RingInSpace& ring) {
+    const PointCurvature& point = l.rows.point;
+    put_point(p, point.normal, l.rows.shape, l.root,
+              wants_axis ? chart_axis(point.normal, ring.view(true).offset, l.rows.chart) : Vec3::Zero());
+  };
+  const auto put_lane = [&](std::size_t p, const Linearizer& l, std::size_t lane) {
+    const auto at = [&](const auto& v) { return Vec3(v[0][lane], v[1][lane], v[2][lane]); };
+    put_point(p, at(l.pack.normal), at(l.pack.shape), l.pack_root[lane],
+              wants_axis ? at(l.pack.axis) : Vec3::Zero());
   };
   const auto clear_points = [&](std::size_t p, std::size_t count) {
     if (!wants_points) return;
@@ -154,9 +173,36 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
       vertex_energy[std::size_t(v)] = l.store(
           ring, closed, kind, joint.vertex(v), rows_.vertex(v), 0,
           [&](int slot, double f) { (slot == 0 ? *centre : spokes[place[std::size_t(slot - 1)]]) += f; });
-      put_point(std::size_t(v), l);
+      put_single(std::size_t(v), l, ring);
       if (varies()) l.store_weights(ring, connection_->weights().vertex(v), 0);
     });
+  };
+  // All points of a run from point p of the lattice on; returns their energy.
+  const PackWants wants{true, wants_axis};
+  const auto store_run = [&](Linearizer& l, const RunRings& rings, std::size_t p, auto&& weight,
+                             const RowRun<float>& rows, const RowRun<float>& cotangents,
+                             const Beside<double>& force) {
+    double energy = 0;
+    for (std::size_t i = 0; i < rows.count; i += pack_points) {
+      const std::size_t count = std::min<std::size_t>(pack_points, rows.count - i);
+      fairing::linearize(rings, i, kind, wants, l.pack);
+      energy += l.store_pack(count, weight, rows, i, force);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        if (l.pack.done[lane]) {
+          put_lane(p + i + lane, l, lane);
+          for (int s = 0; s < cotangents.slots; ++s)
+            cotangents.at(0, s, i + lane) = float(l.pack.cotangent[s][lane]);
+          continue;
+        }
+        RingInSpace& ring = l.scratch.ring;
+        ring_at(rings, i + lane, ring);
+        energy += l.store(ring, true, kind, weight(i + lane), rows, i + lane,
+                          [&](int slot, double f) { force.at[slot][i + lane] += f; });
+        put_single(p + i + lane, l, ring);
+        if (varies()) l.store_weights(ring, cotangents, i + lane);
+      }
+    }
+    return energy;
   };
   const auto edge_body = [&](Index e, double* run, double* left, double* right, std::vector<double>&) {
     clear_lanes<1>(n, run, left, right);
@@ -166,12 +212,20 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
     double* const lanes[3] = {run, left, right};
     const Beside<double> target = beside_edge(EdgeRingLanes(mesh, e), lanes);
     const RowRun<float> rows = rows_.edge(e);
+    const RowRun<float> cotangents = varies() ? connection_->weights().edge(e) : RowRun<float>{};
     Linearizer& l = linearizer();
+    const auto weight = [&](std::size_t i) { return joint.edge_point(e, int(i) + 1); };
+    double& energy = edge_energy[std::size_t(e)];
+    if (!mesh.edges[std::size_t(e)].boundary()) {
+      energy =
+          store_run(l, edge_rings(lattice_, e, x, lift, l.runs), first, weight, rows, cotangents, target);
+      return;
+    }
     walk_edge(lattice_, e, x, lift, l.scratch, [&](std::size_t i, const RingInSpace& ring, bool closed) {
-      edge_energy[std::size_t(e)] += l.store(ring, closed, kind, joint.edge_point(e, int(i) + 1), rows, i,
-                                             [&](int slot, double f) { target.at[slot][i] += f; });
-      put_point(first + i, l);
-      if (varies()) l.store_weights(ring, connection_->weights().edge(e), i);
+      energy += l.store(ring, closed, kind, weight(i), rows, i,
+                        [&](int slot, double f) { target.at[slot][i] += f; });
+      put_single(first + i, l, ring);
+      if (varies()) l.store_weights(ring, cotangents, i);
     });
   };
   const auto face_body = [&](Index f, double* closed, std::vector<double>&) {
@@ -179,15 +233,13 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
     std::fill_n(closed, closed_size(quad, std::size_t(n)), 0.0);
     std::size_t p = std::size_t(lattice_.face_base(f));
     Linearizer& l = linearizer();
-    walk_face(lattice_, f, x, lift, l.scratch,
-              [&](int j, std::size_t i, const RingInSpace& ring, bool whole) {
-                const Beside<double> target = beside_row(quad, n, j, closed);
-                face_energy[std::size_t(f)] +=
-                    l.store(ring, whole, kind, joint.face_point(f, int(i) + 1, j), rows_.face(f, j), i,
-                            [&](int slot, double g) { target.at[slot][i] += g; });
-                put_point(p++, l);
-                if (varies()) l.store_weights(ring, connection_->weights().face(f, j), i);
-              });
+    visit_face_runs(lattice_, f, x, lift, l.runs, [&](int j, const RunRings& rings) {
+      const RowRun<float> rows = rows_.face(f, j);
+      face_energy[std::size_t(f)] += store_run(
+          l, rings, p, [&](std::size_t i) { return joint.face_point(f, int(i) + 1, j); }, rows,
+          varies() ? connection_->weights().face(f, j) : RowRun<float>{}, beside_row(quad, n, j, closed));
+      p += rows.count;
+    });
   };
   accumulate(lattice_, shared_.workers, shared_.fine_exchange, &shared_.unknowns, surface.force.data(),
              vertex_body, edge_body, face_body);

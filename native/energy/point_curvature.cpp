@@ -13,10 +13,6 @@ namespace fairing {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double least_share = 0.1;  // of the barycentric area
-constexpr double thinnest = 1e-24;   // squared sine below which a triangle has no cotangents
-constexpr double far_weight = 0.3;   // in the fit, beside what its distance makes of a quad's far corner
-constexpr double nearest = 1e-200;   // squared distance below which a neighbour is the point itself
 
 // A neighbour with the reciprocal of its squared distance.
 struct Neighbour {
@@ -44,7 +40,7 @@ struct Fan {
 
   void add(const Neighbour& a, std::size_t a_place, const Neighbour& b, std::size_t b_place,
            const Wedge& wedge, double weight) {
-    if (!(wedge.sine * wedge.sine > thinnest * a.square * b.square)) return;
+    if (!(wedge.sine * wedge.sine > ring_thinnest * a.square * b.square)) return;
     normal += (weight * a.inverse * b.inverse) * wedge.cross;
     const double scale = 0.5 * weight / wedge.sine;
     const double at_a = scale * (a.square - wedge.cosine), at_b = scale * (b.square - wedge.cosine);
@@ -98,18 +94,18 @@ bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan, double& tota
   chart.cotangent.assign(size, 0.0);
   const Neighbour first(ring.offset[0]);
   Neighbour a = first;
-  if (!(a.square > nearest)) return false;
+  if (!(a.square > ring_nearest)) return false;
   const std::size_t end = ring.closed ? size : size - 1;
   for (std::size_t j = 1; j <= end; ++j) {
     const std::size_t here = j < size ? j : 0;
     const Neighbour b = here ? Neighbour(ring.offset[j]) : first;
-    if (!(b.square > nearest)) return false;
+    if (!(b.square > ring_nearest)) return false;
     const Wedge wedge(a, b);
     fan.add(a, j - 1, b, here, wedge, ring.far[j - 1] || ring.far[here] ? 0.5 : 1.0);
     if (ring.far[here]) {
       const std::size_t next = here + 1 < size ? here + 1 : 0;
       const Neighbour c(ring.offset[next]);
-      if (!(c.square > nearest)) return false;
+      if (!(c.square > ring_nearest)) return false;
       fan.add(a, j - 1, c, next, Wedge(a, c), 0.5);
     }
     if constexpr (angles) {
@@ -139,7 +135,7 @@ float area_lift(const SurfaceRing& ring, SurfaceChart& chart) {
   Fan fan(chart.cotangent);
   double total = 0;
   if (!ring.closed || !sum_up<false>(ring, chart, fan, total)) return 0;
-  const double missing = least_share * fan.barycentric - fan.circumcentric;
+  const double missing = least_area_share * fan.barycentric - fan.circumcentric;
   if (!(missing > 0)) return 0;
   double negative = 0;
   for (std::size_t j = 0; j < ring.offset.size(); ++j)
@@ -170,8 +166,8 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
     return out;
   }
   for (std::size_t j = 0; j < size; ++j)
-    chart.weight[j] = (ring.far[j] ? far_weight : 1.0) / chart.ring[j].squaredNorm();
-  out.area = std::max(fan.circumcentric, least_share * fan.barycentric);
+    chart.weight[j] = (ring.far[j] ? far_corner_weight : 1.0) / chart.ring[j].squaredNorm();
+  out.area = std::max(fan.circumcentric, least_area_share * fan.barycentric);
   out.trace = out.normal.dot(fan.laplacian) / out.area;
   if (out.area != fan.circumcentric)
     out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *

@@ -26,6 +26,12 @@
 
 namespace fairing {
 
+constexpr double least_area_share = 0.1;  // of the barycentric area
+constexpr double ring_thinnest = 1e-24;   // squared sine below which a triangle has no cotangents
+constexpr double far_corner_weight =
+    0.3;                                 // in the fit, beside what its distance makes of a quad's far corner
+constexpr double ring_nearest = 1e-200;  // squared distance below which a neighbour is the point itself
+
 // The ring of a point p_i, counter-clockwise; a closed one has three neighbours or more.
 struct SurfaceRing {
   std::span<const Vec3> offset;       // p_j - p_i

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/shape_rows.h"
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "difference/hessian.h"
@@ -42,6 +43,18 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
   }
   out.own = own_term(out.point, energy);
   for (const Vec3& row : out.row) out.own -= row;
+}
+
+Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart) {
+  if (ring.empty()) return Vec3::Zero();
+  const Vec3 u = (ring[0] - ring[0].dot(normal) * normal).normalized(), v = normal.cross(u);
+  Vec2 turn = Vec2::Zero();
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Vec2 d = Vec2(ring[j].dot(u), ring[j].dot(v)).normalized(), c = chart.ring[j].normalized();
+    turn += Vec2(d.dot(c), d.y() * c.x() - d.x() * c.y());
+  }
+  turn.normalize();
+  return turn.x() * u + turn.y() * v;
 }
 
 }  // namespace fairing

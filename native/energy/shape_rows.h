@@ -27,4 +27,8 @@ struct ShapeRows {
 // areas; the trace-free rows are those of the least-squares fit. No area: nothing else is set.
 void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out);
 
+// The chart's u axis in space. Charts scale their angles to a full turn, so that no neighbour's direction agrees with the
+// chart's but by chance; the axis is where all of them agree best, whichever neighbour the chart started from.
+Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart);
+
 }  // namespace fairing

@@ -12,18 +12,24 @@ namespace fairing {
 // One ring. `slot[j]` is where neighbour j stands in the order of the lattice (RingRows).
 class RingInSpace {
  public:
-  void start(const double* centre, float lift = 0) {
-    centre_ = centre;
+  void start(float lift) {
     own_lift_ = lift;
     lift_.clear();
     offset_.clear();
     far_.clear();
     slot_.clear();
   }
-  void add(const double* p, bool far, int slot) {
-    offset_.emplace_back(p[0] - centre_[0], p[1] - centre_[1], p[2] - centre_[2]);
+  void start(const double* centre, float lift = 0) {
+    centre_ = centre;
+    start(lift);
+  }
+  void add(const Vec3& offset, bool far, int slot) {
+    offset_.push_back(offset);
     far_.push_back(far);
     slot_.push_back(slot);
+  }
+  void add(const double* p, bool far, int slot) {
+    add(Vec3(p[0] - centre_[0], p[1] - centre_[1], p[2] - centre_[2]), far, slot);
   }
   void add_lift(float lift) { lift_.push_back(lift); }
   SurfaceRing view(bool closed) const { return {offset_, far_, closed, lift_, own_lift_}; }

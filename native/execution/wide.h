@@ -4,16 +4,13 @@
 // multiply-add, no sums across a pack), so the bits are the same.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
-#if defined(__GNUC__)
 #define DF_INLINE __attribute__((always_inline)) inline
-#else
-#define DF_INLINE inline
-#endif
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(__x86_64__)
 #define DF_HAS_WIDE 1
 #else
 #define DF_HAS_WIDE 0
@@ -21,45 +18,22 @@
 
 namespace fairing {
 
-#if defined(__GNUC__)
 template <class T, int Bytes>
 struct PackOf {
   typedef T Type __attribute__((vector_size(Bytes)));
 };
-#else
-template <class T, int Bytes>
-struct PackOf {
-  struct Type {
-    T number[Bytes / sizeof(T)];
-    friend Type operator+(Type a, const Type& b) {
-      return a.each(b, [](T x, T y) { return x + y; });
-    }
-    friend Type operator-(Type a, const Type& b) {
-      return a.each(b, [](T x, T y) { return x - y; });
-    }
-    friend Type operator*(T s, Type a) {
-      return a.each(a, [s](T x, T) { return s * x; });
-    }
-    Type& operator+=(const Type& b) { return *this = *this + b; }
-    Type& operator-=(const Type& b) { return *this = *this - b; }
-
-   private:
-    template <class Operation>
-    Type& each(const Type& b, Operation operation) {
-      for (std::size_t i = 0; i < Bytes / sizeof(T); ++i) number[i] = operation(number[i], b.number[i]);
-      return *this;
-    }
-  };
-};
-#endif
 
 // Consecutive numbers, wherever they are. (No function takes or gives packs by value: that would be another ABI.)
 template <class T, int Bytes>
 struct Packs {
   using Pack = typename PackOf<T, Bytes>::Type;
+  using Mask = decltype(Pack{} < Pack{});
   static constexpr int size = Bytes / int(sizeof(T));
   DF_INLINE static void load(const T* from, Pack& pack) { std::memcpy(&pack, from, sizeof pack); }
   DF_INLINE static void store(const Pack& pack, T* to) { std::memcpy(to, &pack, sizeof pack); }
+  DF_INLINE static void root(const Pack& of, Pack& out) {
+    for (int l = 0; l < size; ++l) out[l] = std::sqrt(of[l]);
+  }
 };
 
 #if DF_HAS_WIDE
