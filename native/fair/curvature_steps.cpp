@@ -148,6 +148,7 @@ bool CurvatureSystem::advance(int level, StepReport& step, LocalDamping* damping
 double CurvatureSystem::try_step(int level, double length) {
   for_each_index(workers_, surface_.size(),
                  [&](std::size_t i) { trial_[i] = surface_[i] + length * step_[i / 3] * here_.normal[i]; });
+  symmetrize(level, trial_);
   return op(level).linearize(trial_.data(), &there_);
 }
 
