@@ -124,7 +124,7 @@ def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
     }[option]
     settled = {"step_tolerance": 1e-9, "max_steps": 60} | options
     off = vertices.copy()
-    off[at[0, 1], 2] += 1e-9
+    off[at[1, 1], 2] += 1e-9
     one, other = (df.fair(v, faces, 2, "total_curvature", **settled).vertices for v in (vertices, off))
     assert np.abs(one - other).max() <= 1e-7
     with pytest.raises(AssertionError):
