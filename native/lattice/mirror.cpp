@@ -14,10 +14,11 @@ LatticePoint corner(bool quad, int n, int c) {
 }
 
 // Every pair of points is written once, with the element of the smaller number.
-class Mean {
+template <class Write>
+class Pairs {
  public:
-  Mean(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns, double* x)
-      : lattice_(lattice), mirror_(mirror), unknowns_(unknowns), x_(x) {}
+  Pairs(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns, const Write& write)
+      : lattice_(lattice), mirror_(mirror), unknowns_(unknowns), write_(write) {}
 
   void vertex(Index v) const {
     if (unknowns_.vertex[std::size_t(v)]) pair(v, mirror_.vertex[std::size_t(v)]);
@@ -49,18 +50,29 @@ class Mean {
 
  private:
   void pair(Index p, Index q) const {
-    if (q < p) return;
-    Eigen::Map<Vec3> a(x_ + 3 * std::ptrdiff_t(p)), b(x_ + 3 * std::ptrdiff_t(q));
-    const Vec3 mean = 0.5 * (a + mirror_.plane.image(b));
-    b = mirror_.plane.image(mean);
-    a = mean;
+    if (p <= q) write_(std::ptrdiff_t(p), std::ptrdiff_t(q));
   }
 
   const Lattice& lattice_;
   const Mirror& mirror_;
   const Unknowns& unknowns_;
-  double* x_;
+  const Write& write_;
 };
+
+template <class Write>
+void for_pairs(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns, Workers& workers,
+               const Write& write) {
+  const ControlMesh& mesh = lattice.mesh();
+  const Pairs pairs(lattice, mirror, unknowns, write);
+  if (unknowns.any_vertex)
+    for (Index v = 0; v < mesh.vertex_count(); ++v) pairs.vertex(v);
+  workers.for_parts(mesh.edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) pairs.edge(Index(e));
+  });
+  workers.for_parts(mesh.faces.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) pairs.face(Index(f));
+  });
+}
 
 }  // namespace
 
@@ -75,16 +87,18 @@ FaceImage face_image(bool quad, int n, int turn) {
 
 void mean_with_image(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns, Workers& workers,
                      double* x) {
-  const ControlMesh& mesh = lattice.mesh();
-  const Mean mean(lattice, mirror, unknowns, x);
-  if (unknowns.any_vertex)
-    for (Index v = 0; v < mesh.vertex_count(); ++v) mean.vertex(v);
-  workers.for_parts(mesh.edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) mean.edge(Index(e));
+  for_pairs(lattice, mirror, unknowns, workers, [&](std::ptrdiff_t p, std::ptrdiff_t q) {
+    Eigen::Map<Vec3> a(x + 3 * p), b(x + 3 * q);
+    const Vec3 mean = 0.5 * (a + mirror.plane.image(b));
+    b = mirror.plane.image(mean);
+    a = mean;
   });
-  workers.for_parts(mesh.faces.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) mean.face(Index(f));
-  });
+}
+
+void mean_of_displacements(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns,
+                           Workers& workers, double* h) {
+  for_pairs(lattice, mirror, unknowns, workers,
+            [&](std::ptrdiff_t p, std::ptrdiff_t q) { h[p] = h[q] = 0.5 * (h[p] + h[q]); });
 }
 
 }  // namespace fairing

@@ -23,4 +23,8 @@ FaceImage face_image(bool quad, int n, int turn);
 void mean_with_image(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns, Workers& workers,
                      double* x);
 
+// The same for displacements along normals, one number a point.
+void mean_of_displacements(const Lattice& lattice, const Mirror& mirror, const Unknowns& unknowns,
+                           Workers& workers, double* h);
+
 }  // namespace fairing

@@ -216,6 +216,25 @@ TEST(LatticeMirror, MakesSurfacesSymmetric) {
   }
 }
 
+// What is even in the distance from the plane stays, what is odd goes.
+TEST(LatticeMirror, MeansOfDisplacements) {
+  Workers workers(2);
+  for (const ControlMesh& mesh : samples()) {
+    const Lattice lattice(mesh, 3);
+    Array<double> x(3 * lattice.size()), h(lattice.size());
+    refine_linearly(lattice, mesh.positions, x.data());
+    for (const Mirror& mirror : mirrors(mesh)) {
+      const auto distance = [&](std::size_t p) {
+        return mirror.plane.normal.dot(Eigen::Map<const Vec3>(&x[3 * p])) - mirror.plane.offset;
+      };
+      for (std::size_t p = 0; p < h.size(); ++p) h[p] = distance(p) * (1 + distance(p));
+      mean_of_displacements(lattice, mirror, unknowns(mesh, true), workers, h.data());
+      for (auto p = std::size_t(lattice.face_base(0)); p < h.size(); ++p)  // edges may be curves
+        EXPECT_NEAR(h[p], distance(p) * distance(p), 1e-13);
+    }
+  }
+}
+
 TEST(LatticeMirror, LeavesWhatIsNoUnknown) {
   Workers workers(2);
   const ControlMesh mesh = working(control(grid(4, 3)));
