@@ -49,7 +49,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
 CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
                                  const Stencils& stencils, const Unknowns& unknowns,
                                  const FairOptions& options, ControlHold hold, double epsilon,
-                                 Workers& workers, Monitor& monitor)
+                                 Mirrors mirrors, Workers& workers, Monitor& monitor)
     : mesh_(mesh),
       lattices_(std::move(lattices)),
       base_(base),
@@ -59,6 +59,7 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
       monitor_(monitor),
       hold_(std::move(hold)),
       epsilon_(epsilon),
+      mirrors_(std::move(mirrors)),
       shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
       hierarchy_(workers, monitor, hierarchy_options(unknowns, options)) {
   for (int l = base; l < int(lattices_.size()); ++l) {
@@ -76,19 +77,31 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
 
 CurvatureSystem::~CurvatureSystem() = default;
 
+// Rounding is not alike on both sides of a mirror, and steps over crumpled places amplify it.
+void CurvatureSystem::symmetrize(int level, Array<double>& x) {
+  for (const Mirror* mirror : mirrors_)
+    mean_with_image(lattice(level), *mirror, shared_.unknowns, workers_, x.data());
+}
+
+void CurvatureSystem::take_plate(int level, const Array<double>& plate) {
+  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(3 * lattice(level).size()));
+  symmetrize(level, surface_);
+}
+
 // The thin plate's surface, or the one that the level below has found: as its change of the plate, or bulged along its
 // normals.
 void CurvatureSystem::choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report) {
   const std::size_t size = 3 * lattice(level).size();
   const Array<double> below = std::move(surface_);
   const double energy_below = energy_;
-  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(size));
+  take_plate(level, plate);
   energy_ = op(level).linearize(surface_.data(), &there_);
   report.plate_energy = report.start_energy = op(level).bending();
   is_linearized_ = true;
   if (!below.empty()) {
     trial_.resize(size);
     const auto take_if_lower = [&] {
+      symmetrize(level, trial_);
       const double energy = op(level).linearize(trial_.data(), &there_), bending = op(level).bending();
       is_linearized_ = bending < real_gain * report.start_energy;
       if (!is_linearized_) return;
@@ -155,7 +168,7 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
 
 // Steps may end in a fold; then the thin plate's surface is the better one.
 void CurvatureSystem::fall_back(int level, const Array<double>& plate, CurvatureLevelReport& report) {
-  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(3 * lattice(level).size()));
+  take_plate(level, plate);
   energy_ = op(level).linearize(surface_.data(), &here_);
   report.energy = op(level).bending();
   report.converged = report.accurate = false;

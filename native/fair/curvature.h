@@ -11,6 +11,7 @@
 #include "fair/local_damping.h"
 #include "fair/options.h"
 #include "fair/report.h"
+#include "fair/symmetry.h"
 #include "solver/anderson.h"
 #include "solver/hierarchy.h"
 
@@ -19,10 +20,10 @@ namespace fairing {
 class CurvatureSystem {
  public:
   // `lattices` are all levels from 0 on; levels below `base` have no unknowns. `epsilon` in working units: how far
-  // interpolated control vertices are let go at the end.
+  // interpolated control vertices are let go at the end. `mirrors`: what symmetries the surface is to keep.
   CurvatureSystem(const ControlMesh& mesh, std::vector<const Lattice*> lattices, int base,
                   const Stencils& stencils, const Unknowns& unknowns, const FairOptions& options,
-                  ControlHold hold, double epsilon, Workers& workers, Monitor& monitor);
+                  ControlHold hold, double epsilon, Mirrors mirrors, Workers& workers, Monitor& monitor);
   ~CurvatureSystem();
 
   // The surface of a level, from `plate`, the thin plate's. Levels have to come in order; on each but the first the
@@ -35,6 +36,8 @@ class CurvatureSystem {
  private:
   const Lattice& lattice(int level) const { return *lattices_[std::size_t(level)]; }
   CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
+  void symmetrize(int level, Array<double>& x);
+  void take_plate(int level, const Array<double>& plate);
   void choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report);
   // How steps are gone. Plain ones, full and unchecked, pass through humps of the discrete energy where checked and damped
   // ones are trapped; damped ones hold where a surface is crumpled and plain ones run wild.
@@ -87,6 +90,7 @@ class CurvatureSystem {
   Monitor& monitor_;
   ControlHold hold_;
   double epsilon_;
+  Mirrors mirrors_;
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<LevelTransfer>> transfers_;

@@ -73,6 +73,7 @@ void CurvatureSystem::release(int level, CurvatureLevelReport& report) {
       if (length > release_aim * epsilon_) offset *= release_aim * epsilon_ / length;
       p = places[v] + offset;
     }
+    symmetrize(level, surface_);
     shared_.unknowns = fixed;
     shared_.weights.clear();
     follow(level, report);

@@ -117,6 +117,8 @@ double CurvatureSystem::solve_step(int level, StepReport& report) {
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.direct = solved.direct;
+  for (const Mirror* mirror : mirrors_)
+    mean_of_displacements(lattice(level), *mirror, shared_.unknowns, workers_, step_.data());
   const double square = sum(workers_, points, [&](std::size_t i) { return here_.force[i] * step_[i]; });
   return std::max(0.0, square);
 }
@@ -148,6 +150,7 @@ bool CurvatureSystem::advance(int level, StepReport& step, LocalDamping* damping
 double CurvatureSystem::try_step(int level, double length) {
   for_each_index(workers_, surface_.size(),
                  [&](std::size_t i) { trial_[i] = surface_[i] + length * step_[i / 3] * here_.normal[i]; });
+  symmetrize(level, trial_);
   return op(level).linearize(trial_.data(), &there_);
 }
 

@@ -98,6 +98,7 @@ struct Solver {
   SurfaceSystem& system;
   Stopwatch& watch;
   const Stencils& stencils;
+  const std::vector<Mirror>& mirrors;
 
   std::vector<CurvatureLevelReport> curvature{};
 
@@ -134,7 +135,8 @@ struct Solver {
     return std::make_unique<CurvatureSystem>(
         mesh, lattices, system.base(), stencils, unknowns, options,
         ControlHold(mesh, place.working, unknowns, options, options.tolerance / frame.scale),
-        options.epsilon / frame.scale, system.shared().workers, system.monitor());
+        options.epsilon / frame.scale, kept_by(place, mesh, frame, mirrors), system.shared().workers,
+        system.monitor());
   }
 
   // Returns the solves taken.
@@ -197,6 +199,9 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
   watch.enter(Phase::hierarchy, 0);
   mesh.positions = basis.working;
   const Stencils stencils = make_stencils(mesh, options.chart, workers);
+  const std::vector<Mirror> mirrors = options.energy == Energy::thin_plate
+                                          ? std::vector<Mirror>{}
+                                          : find_symmetry(mesh, basis, frame, options);
   const double energy_unit = std::pow(frame.scale, 2 - 2 * exponent);
 
   Array<double> x;
@@ -212,7 +217,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
     require_anchored(mesh, unknowns, start_weights);
     SurfaceSystem system(mesh, basis.working_curves, stencils, unknowns, start_weights, options, workers,
                          monitor);
-    Solver solver{mesh, options, frame, system, watch, stencils};
+    Solver solver{mesh, options, frame, system, watch, stencils, mirrors};
     const Lattice& finest = system.lattice(options.levels);
     const auto energies = [&](const double* points) {
       SurfaceEnergies e;

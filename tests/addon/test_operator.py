@@ -59,9 +59,10 @@ def test_pentagon():
     assert len(result.data.polygons) and np.allclose(positions(result.data)[:, 2], 0.0)
 
 
-def test_suzanne_stays_symmetric():
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_suzanne_stays_symmetric(energy):
     source = add_suzanne()
-    coarse, fine = positions(source.data), positions(fair(levels=2, energy="THIN_PLATE").data)
+    coarse, fine = positions(source.data), positions(fair(levels=2, energy=energy).data)
     assert _asymmetry(fine) <= max(1e-5, 2 * _asymmetry(coarse))
 
 

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mirror symmetries of control meshes, and where they take the points of a lattice.
+#include "control_mesh/mirror.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "lattice/linear.h"
+#include "lattice/mirror.h"
+#include "meshes.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr double tolerance = 1e-12;
+
+const auto any = [](const Mirror&) { return true; };
+
+ControlMesh control(const OwnedPolygonMesh& mesh, const FeatureOptions& features = {}) {
+  return make_control_mesh(mesh.view(), features);
+}
+
+// Centred, at size one, as the driver has it.
+ControlMesh working(ControlMesh mesh) {
+  Vec3 low = mesh.positions[0], high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (Vec3& p : mesh.positions) p = (p - 0.5 * (low + high)) / (high - low).maxCoeff();
+  return mesh;
+}
+
+ControlMesh turned(ControlMesh mesh) {
+  const Eigen::AngleAxisd turn(0.7, Vec3(1, -2, 0.5).normalized());
+  for (Vec3& p : mesh.positions) p = turn * p;
+  return working(std::move(mesh));
+}
+
+std::vector<Mirror> mirrors(const ControlMesh& mesh) { return find_mirrors(mesh, tolerance, any); }
+
+// All elements' images agree with each other.
+void expect_a_mirror(const ControlMesh& mesh, const Mirror& mirror) {
+  const auto at = [](const auto& values, Index i) { return values[std::size_t(i)]; };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_EQ(at(mirror.vertex, at(mirror.vertex, v)), v);
+    const Vec3 image = mirror.plane.image(at(mesh.positions, v));
+    EXPECT_LE((image - at(mesh.positions, at(mirror.vertex, v))).norm(), tolerance);
+  }
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
+    const Edge &edge = at(mesh.edges, e), &image = at(mesh.edges, at(mirror.edge, e));
+    const std::size_t first = mirror.reverses(mesh, e) ? 1 : 0;
+    EXPECT_EQ(image.vertex[first], at(mirror.vertex, edge.vertex[0]));
+    EXPECT_EQ(image.vertex[1 - first], at(mirror.vertex, edge.vertex[1]));
+  }
+  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
+    const Face &face = at(mesh.faces, f), &image = at(mesh.faces, at(mirror.face, f));
+    ASSERT_EQ(face.size, image.size);
+    for (int c = 0; c < face.size; ++c)
+      EXPECT_EQ(image.vertex[std::size_t((at(mirror.turn, f) - c + face.size) % face.size)],
+                at(mirror.vertex, face.vertex[std::size_t(c)]));
+  }
+}
+
+TEST(Mirror, OfSymmetricMeshes) {
+  const std::pair<OwnedPolygonMesh, std::size_t> cases[] = {
+      {cube(), 3},        {octahedron(), 3},  {icosahedron(), 3},    {dodecahedron(), 3},
+      {torus(8, 6), 3},   {tetrahedron(), 2}, {square_pyramid(), 2}, {single_triangle(), 1},
+      {single_quad(), 2}, {grid(4, 3), 2},    {open_cone(5), 1},     {u_shape(), 1}};
+  for (const auto& [mesh, count] : cases)
+    for (const ControlMesh& placed : {working(control(mesh)), turned(control(mesh))}) {
+      const std::vector<Mirror> found = mirrors(placed);
+      EXPECT_EQ(found.size(), count) << placed.faces.size() << " faces";
+      for (const Mirror& mirror : found) expect_a_mirror(placed, mirror);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+          EXPECT_NEAR(found[i].plane.normal.dot(found[k].plane.normal), 0, 1e-12);
+    }
+}
+
+TEST(Mirror, CoordinatePlanesAreExact) {
+  for (const Mirror& mirror : mirrors(working(control(torus(8, 6))))) {
+    EXPECT_EQ(mirror.plane.offset, 0);
+    EXPECT_EQ(mirror.plane.normal.cwiseAbs().sum(), 1);
+    const Vec3 p(0.1, 0.7, -0.3);
+    EXPECT_EQ(mirror.plane.image(p).cwiseAbs(), p.cwiseAbs());
+  }
+}
+
+TEST(Mirror, NoneWhereAVertexIsOff) {
+  ControlMesh mesh = working(control(cube()));
+  mesh.positions[6] *= 1 - 1e-9;
+  for (const Mirror& mirror : mirrors(mesh)) EXPECT_EQ(mirror.vertex[6], 6);
+  mesh.positions[6] += Vec3(1e-9, 2e-9, 3e-9);
+  EXPECT_TRUE(mirrors(mesh).empty());
+}
+
+TEST(Mirror, NoneAcrossWhichFacesDiffer) {
+  EXPECT_EQ(mirrors(working(control(grid(4, 4)))).size(), 2u);
+  const std::vector<Mirror> found = mirrors(working(control(triangulated(grid(4, 4)))));
+  ASSERT_EQ(found.size(), 2u);  // along the cuts and across them
+  for (const Mirror& mirror : found) EXPECT_NEAR(std::abs(mirror.plane.normal.x()), std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(mirrors(working(control(triangulated(grid(4, 3))))).empty());
+}
+
+TEST(Mirror, NoneAcrossWhichFeaturesDiffer) {
+  FeatureOptions creases;
+  creases.crease_edges = {{0, 1}};  // along x
+  const std::vector<Mirror> found = mirrors(working(control(cube(), creases)));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(std::abs(found[0].plane.normal.x()), 1);  // the other takes y to z
+  FeatureOptions region;
+  region.region = {true, {0, 1, 2}, Joint::tangent};
+  EXPECT_EQ(mirrors(working(control(grid(3, 3)))).size(), 2u);
+  const std::vector<Mirror> kept = mirrors(working(control(grid(3, 3), region)));
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(std::abs(kept[0].plane.normal.x()), 1);
+}
+
+TEST(Mirror, NoneThatDoesNotHold) {
+  const ControlMesh mesh = working(control(cube()));
+  int asked = 0;
+  const auto found = find_mirrors(mesh, tolerance, [&](const Mirror& mirror) {
+    ++asked;
+    return mirror.vertex[0] == 0;
+  });
+  EXPECT_GT(asked, 3);
+  ASSERT_EQ(found.size(), 1u);  // one diagonal plane; its likes are not at right angles to it
+  EXPECT_EQ(found[0].vertex[0], 0);
+}
+
+TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
+  // Two quads whose near sides coincide, without being joined.
+  const OwnedPolygonMesh slit =
+      make_mesh({{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  const ControlMesh mesh = working(control(slit));
+  const std::vector<Mirror> found = mirrors(mesh);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].plane.normal, Vec3::UnitX());
+  EXPECT_EQ(found[0].vertex, (std::vector<Index>{5, 4, 7, 6, 1, 0, 3, 2}));
+}
+
+TEST(Mirror, OtherPositions) {
+  const ControlMesh mesh = working(control(cube()));
+  const std::vector<Mirror> found = mirrors(mesh);
+  std::vector<Vec3> taller = mesh.positions, sheared = mesh.positions;
+  for (Vec3& p : taller) p.z() *= 2;
+  for (Vec3& p : sheared) p.x() += p.z();
+  for (const Mirror& mirror : found) {
+    EXPECT_TRUE(mirrors_positions(mesh, mirror, taller, tolerance));
+    EXPECT_EQ(mirrors_positions(mesh, mirror, sheared, tolerance), mirror.plane.normal.y() == 1);
+  }
+}
+
+// Everything but control vertices and curves.
+Unknowns unknowns(const ControlMesh& mesh, bool vertices) {
+  Unknowns u;
+  u.vertex.assign(std::size_t(mesh.vertex_count()), vertices);
+  u.any_vertex = vertices;
+  for (const std::uint8_t feature : mesh.feature_edge) u.edge.push_back(!feature);
+  return u;
+}
+
+std::vector<ControlMesh> samples() {
+  std::vector<ControlMesh> out;
+  for (const OwnedPolygonMesh& mesh :
+       {cube(), octahedron(), icosahedron(), square_pyramid(), torus(8, 6), triangulated(grid(4, 4))}) {
+    out.push_back(working(control(mesh)));
+    out.push_back(turned(control(mesh)));
+  }
+  return out;
+}
+
+// On the linearly refined mesh, which is symmetric, nothing moves if every point's image is the right one.
+TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
+  Workers workers(2);
+  for (const ControlMesh& mesh : samples())
+    for (int level = 0; level <= 3; ++level) {
+      const Lattice lattice(mesh, level);
+      Array<double> x(3 * lattice.size());
+      refine_linearly(lattice, mesh.positions, x.data());
+      for (const Mirror& mirror : mirrors(mesh)) {
+        Array<double> mean = x;
+        mean_with_image(lattice, mirror, unknowns(mesh, true), workers, mean.data());
+        for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
+      }
+    }
+}
+
+TEST(LatticeMirror, MakesSurfacesSymmetric) {
+  Workers one(1), two(2);
+  for (const ControlMesh& mesh : samples()) {
+    const Lattice lattice(mesh, 3);
+    const std::vector<Mirror> found = mirrors(mesh);
+    Array<double> x(3 * lattice.size());
+    refine_linearly(lattice, mesh.positions, x.data());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.01 * std::sin(12.9898 * double(i + 1));
+    const Array<double> rough = x;
+    Array<double> alone = x;
+    for (const Mirror& mirror : found) {
+      mean_with_image(lattice, mirror, unknowns(mesh, true), two, x.data());
+      mean_with_image(lattice, mirror, unknowns(mesh, true), one, alone.data());
+    }
+    EXPECT_EQ(x, alone);
+    double moved = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) moved = std::max(moved, std::abs(x[i] - rough[i]));
+    EXPECT_GT(moved, 1e-3);
+    for (const Mirror& mirror : found) {  // earlier ones are not lost
+      Array<double> again = x;
+      mean_with_image(lattice, mirror, unknowns(mesh, true), one, again.data());
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(again[i], x[i], 1e-14);
+    }
+  }
+}
+
+// What is even in the distance from the plane stays, what is odd goes.
+TEST(LatticeMirror, MeansOfDisplacements) {
+  Workers workers(2);
+  for (const ControlMesh& mesh : samples()) {
+    const Lattice lattice(mesh, 3);
+    Array<double> x(3 * lattice.size()), h(lattice.size());
+    refine_linearly(lattice, mesh.positions, x.data());
+    for (const Mirror& mirror : mirrors(mesh)) {
+      const auto distance = [&](std::size_t p) {
+        return mirror.plane.normal.dot(Eigen::Map<const Vec3>(&x[3 * p])) - mirror.plane.offset;
+      };
+      for (std::size_t p = 0; p < h.size(); ++p) h[p] = distance(p) * (1 + distance(p));
+      mean_of_displacements(lattice, mirror, unknowns(mesh, true), workers, h.data());
+      for (auto p = std::size_t(lattice.face_base(0)); p < h.size(); ++p)  // edges may be curves
+        EXPECT_NEAR(h[p], distance(p) * distance(p), 1e-13);
+    }
+  }
+}
+
+TEST(LatticeMirror, LeavesWhatIsNoUnknown) {
+  Workers workers(2);
+  const ControlMesh mesh = working(control(grid(4, 3)));
+  const Lattice lattice(mesh, 2);
+  Array<double> x(3 * lattice.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(12.9898 * double(i + 1));
+  Array<double> mean = x;
+  mean_with_image(lattice, mirrors(mesh).at(0), unknowns(mesh, false), workers, mean.data());
+  const auto same = [&](Index p) {
+    return std::equal(&x[3 * std::size_t(p)], &x[3 * std::size_t(p)] + 3, &mean[3 * std::size_t(p)]);
+  };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_TRUE(same(v));
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e)
+    EXPECT_EQ(same(lattice.edge_point(e, 1)), bool(mesh.feature_edge[std::size_t(e)]));
+  EXPECT_FALSE(same(lattice.face_base(0)));
+}
+
+}  // namespace
+}  // namespace fairing::test
