@@ -109,7 +109,7 @@ struct CurvatureLevel::Tensors {
 };
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const Lattice& lattice)
-    : shared_(shared), lattice_(lattice), rows_(lattice) {}
+    : shared_(shared), lattice_(lattice), rows_(lattice), suits_square_(SparseSquare::suits(rows_)) {}
 
 double CurvatureLevel::linearize(const double* x, Surface* out) {
   const ControlMesh& mesh = shared_.mesh;
@@ -241,6 +241,7 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
       p += rows.count;
     });
   };
+  square_is_old_ = true;
   accumulate(lattice_, shared_.workers, shared_.fine_exchange, &shared_.unknowns, surface.force.data(),
              vertex_body, edge_body, face_body);
 
@@ -275,6 +276,24 @@ double CurvatureLevel::connect(const double* x, const Tensors& tensors, const do
   return energy;
 }
 
+void CurvatureLevel::apply_rows(const double* x, double* y) {
+  apply_square(rows_, shared_.unknowns, shared_.workers, shared_.fine_exchange, x, y);
+}
+
+void CurvatureLevel::apply_rows(const float* x, float* y) {
+  if (!suits_square_) {
+    apply_square(rows_, shared_.unknowns, shared_.workers, shared_.fast_exchange, x, y);
+    return;
+  }
+  if (std::exchange(square_is_old_, false)) {
+    if (square_vertices_ != shared_.unknowns.vertex) square_.reset();  // some have been held, or let go
+    if (!square_) square_ = std::make_unique<SparseSquare>(rows_, shared_.unknowns);
+    square_vertices_ = shared_.unknowns.vertex;
+    square_->update(rows_, shared_.workers);
+  }
+  square_->apply(x, shared_.workers, y);
+}
+
 template <class T>
 void CurvatureLevel::apply_any(const T* x, T* y, Exchange<T, 1>& exchange) {
   if (varies()) {
@@ -290,7 +309,7 @@ void CurvatureLevel::apply_any(const T* x, T* y, Exchange<T, 1>& exchange) {
     connection_->apply(shared_.damping, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, exchange, turned.data(), y);
   } else {
-    apply_square(rows_, shared_.unknowns, shared_.workers, exchange, x, y);
+    apply_rows(x, y);
   }
   for (std::size_t v = 0; v < vertex_weight_.size(); ++v) y[v] += T(vertex_weight_[v]) * x[v];
   if (!damping_.empty())

@@ -16,6 +16,7 @@
 #include "energy/connection.h"
 #include "energy/ring_rows.h"
 #include "energy/shape_rows.h"
+#include "energy/sparse_square.h"
 #include "energy/thin_plate.h"
 #include "solver/level_operator.h"
 
@@ -85,12 +86,17 @@ class CurvatureLevel final : public LevelOperator {
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
   template <class T>
   void apply_any(const T* x, T* y, Exchange<T, 1>& exchange);
+  void apply_rows(const double* x, double* y);
+  void apply_rows(const float* x, float* y);
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
 
   CurvatureShared& shared_;
   const Lattice& lattice_;
   double bending_ = 0;
-  RingRows rows_;                           // sqrt(w) J
+  RingRows rows_;                              // sqrt(w) J
+  std::unique_ptr<SparseSquare> square_;       // of the rows, once it has been wanted
+  std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
+  bool suits_square_, square_is_old_ = true;
   std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
   std::unique_ptr<Connection> connection_;  // minimum variation only
   Array<float> diagonal_, inverse_diagonal_, damping_;

@@ -38,14 +38,14 @@ void transpose(const RingRows& rows, const Unknowns& unknowns, Workers& workers,
     const EdgeRingLanes ring(mesh, e);
     const RowRun<const float> own = rows.edge(e);
     const T* moments = edge_moments(e, ring, own, scratch);
-    backward<T>(own, moments, beside_edge(ring, target).at);
+    backward(own, moments, beside_edge(ring, target).at);
   };
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
     std::fill_n(closed, closed_size(quad, std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
     face_moments(f, quad, scratch, [&](int j, const RowRun<const float>& run, const T* moments) {
-      backward<T>(run, moments, beside_row(quad, n, j, closed).at);
+      backward(run, moments, beside_row(quad, n, j, closed).at);
     });
   };
   accumulate(lattice, workers, exchange, &unknowns, out, vertex_body, edge_body, face_body);
@@ -100,7 +100,7 @@ void apply_square(const RingRows& rows, const Unknowns& unknowns, Workers& worke
     if (scratch.size() < 6 * stride) scratch.resize(6 * stride);
     const EdgeLanes<T, 1> lanes(lattice, x, e, scratch);
     T* moments = scratch.data() + 3 * stride;
-    forward<T>(run, beside_edge<T>(ring, lanes.lane).at, moments);
+    forward(run, beside_edge<T>(ring, lanes.lane).at, moments);
     return moments;
   };
   const auto face_moments = [&](Index f, bool quad, std::vector<T>& scratch, auto&& put) {
@@ -111,7 +111,7 @@ void apply_square(const RingRows& rows, const Unknowns& unknowns, Workers& worke
     for (int j = 1; j < n; ++j) {
       const RowRun<const float> run = rows.face(f, j);
       if (run.count == 0) break;
-      forward<T>(run, beside_row(quad, n, j, scratch.data()).at, moments);
+      forward(run, beside_row(quad, n, j, scratch.data()).at, moments);
       put(j, run, moments);
     }
   };

@@ -32,7 +32,7 @@ void visit_moments(const RingRows& rows, Workers& workers, const T* x, Put&& put
                       for (Index e = Index(begin); e < Index(end); ++e) {
                         const RowRun<const float> run = rows.edge(e);
                         const EdgeLanes<T, 1> lanes(lattice, x, e, scratch);
-                        forward<T>(run, beside_edge<T>(EdgeRingLanes(mesh, e), lanes.lane).at, moment.data());
+                        forward(run, beside_edge<T>(EdgeRingLanes(mesh, e), lanes.lane).at, moment.data());
                         put(std::size_t(lattice.edge_base(e)), run.count, moment.data());
                       }
                     });
@@ -45,7 +45,7 @@ void visit_moments(const RingRows& rows, Workers& workers, const T* x, Put&& put
       for (int j = 1; j < n; ++j) {
         const RowRun<const float> run = rows.face(f, j);
         if (run.count == 0) break;
-        forward<T>(run, beside_row(quad, n, j, closed.data()).at, moment.data());
+        forward(run, beside_row(quad, n, j, closed.data()).at, moment.data());
         put(p, run.count, moment.data());
         p += run.count;
       }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include "execution/wide.h"
 #include "lattice/accumulate.h"
 #include "lattice/ring.h"
 
@@ -62,31 +63,96 @@ class RingRows {
 // Number of points in row j inside a face.
 constexpr std::size_t row_count(bool quad, int n, int j) { return std::size_t(quad ? n - 1 : n - 1 - j); }
 
-// y_c[i] = sum_s coefficient(c, s, i) x_s[i]; y holds three lanes of `count`.
+// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i from `begin` on; y holds three lanes of `count`.
 template <class T>
-inline void forward(const RowRun<const float>& run, const T* const* x, T* y) {
+inline void forward(const RowRun<const float>& run, const T* const* x, T* y, std::size_t begin = 0) {
   const std::size_t count = run.count;
   for (int c = 0; c < 3; ++c) {
     T* to = y + std::size_t(c) * count;
-    for (std::size_t i = 0; i < count; ++i) to[i] = T(run.at(c, 0, i)) * x[0][i];
+    for (std::size_t i = begin; i < count; ++i) to[i] = T(run.at(c, 0, i)) * x[0][i];
     for (int s = 1; s < run.slots; ++s) {
       const float* a = &run.at(c, s, 0);
       const T* from = x[s];
-      for (std::size_t i = 0; i < count; ++i) to[i] += T(a[i]) * from[i];
+      for (std::size_t i = begin; i < count; ++i) to[i] += T(a[i]) * from[i];
     }
   }
 }
 
-// out_s[i] += sum_c coefficient(c, s, i) y_c[i]
+// out_s[i] += sum_c coefficient(c, s, i) y_c[i] for i from `begin` on
 template <class T>
-inline void backward(const RowRun<const float>& run, const T* y, T* const* out) {
+inline void backward(const RowRun<const float>& run, const T* y, T* const* out, std::size_t begin = 0) {
   const std::size_t count = run.count;
   for (int s = 0; s < run.slots; ++s) {
     const float *a = &run.at(0, s, 0), *b = &run.at(1, s, 0), *c = &run.at(2, s, 0);
     T* to = out[s];
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = begin; i < count; ++i)
       to[i] += T(a[i]) * y[i] + T(b[i]) * y[count + i] + T(c[i]) * y[2 * count + i];
   }
+}
+
+// The same in packs, as far as a run has whole ones.
+template <class T, int Bytes>
+struct ForwardLoop {
+  using P = Packs<T, Bytes>;
+  using Pack = typename P::Pack;
+
+  DF_INLINE static void run(const RowRun<const float>* rows, const T* const* x, T* y, std::size_t end) {
+    const std::size_t count = rows->count, row = std::size_t(rows->slots) * count;
+    for (std::size_t i = 0; i < end; i += P::size) {
+      const float* a = rows->coefficient + i;
+      Pack sum[3] = {}, from, own;
+      for (int s = 0; s < rows->slots; ++s, a += count) {
+        P::load(x[s] + i, from);
+        P::load(a, own);
+        sum[0] += own * from;
+        P::load(a + row, own);
+        sum[1] += own * from;
+        P::load(a + 2 * row, own);
+        sum[2] += own * from;
+      }
+      for (std::size_t c = 0; c < 3; ++c) P::store(sum[c], y + c * count + i);
+    }
+  }
+};
+
+template <class T, int Bytes>
+struct BackwardLoop {
+  using P = Packs<T, Bytes>;
+  using Pack = typename P::Pack;
+
+  DF_INLINE static void run(const RowRun<const float>* rows, const T* y, T* const* out, std::size_t end) {
+    const std::size_t count = rows->count, row = std::size_t(rows->slots) * count;
+    const float* a = rows->coefficient;
+    for (int s = 0; s < rows->slots; ++s, a += count) {
+      T* to = out[s];
+      for (std::size_t i = 0; i < end; i += P::size) {
+        Pack sum, own, moment;
+        P::load(a + i, own);
+        P::load(y + i, moment);
+        sum = own * moment;
+        P::load(a + row + i, own);
+        P::load(y + count + i, moment);
+        sum += own * moment;
+        P::load(a + 2 * row + i, own);
+        P::load(y + 2 * count + i, moment);
+        sum += own * moment;
+        P::load(to + i, own);
+        P::store(own + sum, to + i);
+      }
+    }
+  }
+};
+
+inline void forward(const RowRun<const float>& run, const float* const* x, float* y) {
+  const std::size_t whole = run.count / lane_block * lane_block;
+  if (whole > 0) run_loop<ForwardLoop, float>(&run, x, y, whole);
+  forward<float>(run, x, y, whole);
+}
+
+inline void backward(const RowRun<const float>& run, const float* y, float* const* out) {
+  const std::size_t whole = run.count / lane_block * lane_block;
+  if (whole > 0) run_loop<BackwardLoop, float>(&run, y, out, whole);
+  backward<float>(run, y, out, whole);
 }
 
 // The runs of x beside a run, by slot: pointers to the point i = 0's neighbours.

@@ -41,6 +41,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
+  out.factored_if_hard = direct_limit_of_steps;
   return out;
 }
 

@@ -62,6 +62,12 @@ class CurvatureSystem {
   static constexpr int most_rejections = 4;
   static constexpr double flat = 1e-16;  // an energy that is rounding
 
+  // Near the end the surface hardly changes: what only preconditions stays as it is.
+  static constexpr double nearly_there = 0.1;  // decrement
+  static bool is_fresh(double last_decrement) {
+    return !(last_decrement > 0 && last_decrement < nearly_there);
+  }
+
   struct Enough {
     double decrement = 0;  // zero: what is left to move counts
     double movement = 0;
@@ -77,7 +83,7 @@ class CurvatureSystem {
   void report_progress(int level, const CurvatureLevelReport& report);
   void linearize_below(int level);
   void damp(int level, const Array<float>& mu);
-  double solve_step(int level, StepReport& report);
+  double solve_step(int level, StepReport& report, bool fresh);
   double try_step(int level, double length);
   bool advance(int level, StepReport& step, LocalDamping* damping, int rejections, int steps);
 

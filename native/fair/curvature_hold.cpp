@@ -63,7 +63,7 @@ void CurvatureSystem::release(int level, CurvatureLevelReport& report) {
     linearize_below(level);
     damp(level, {});
     StepReport ignored;
-    solve_step(level, ignored);
+    solve_step(level, ignored, true);
     for (std::size_t v = 0; v < places.size(); ++v) {
       if (!freed.vertex[v] || fixed.vertex[v]) continue;
       const Eigen::Map<const Vec3> normal(here_.normal.data() + 3 * v);

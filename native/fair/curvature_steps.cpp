@@ -18,6 +18,7 @@ constexpr double late = 1e-2;  // decrement
 
 constexpr double accelerated = 0.1;  // decrement below which steps are accelerated
 constexpr double first_ratio = 10;   // times the first ratio of decrements, which flatters
+constexpr double least_ratio = 0.1;  // that is believed: accelerated steps, of inexact solves, flatter too
 constexpr double regular = 0.5;      // ratio of decrements below which they tell what is left
 
 constexpr double steps_begin = 0.3, steps_end = 0.85;  // of the run
@@ -63,11 +64,12 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
   for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
     if ((report.converged = energy_ < flat)) break;
     report_progress(level, report);
-    linearize_below(level);
+    const bool fresh = mode == Mode::damped || is_fresh(last);
+    if (fresh) linearize_below(level);
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
     step.energy = energy_;
-    step.decrement = std::sqrt(solve_step(level, step) / energy_);
+    step.decrement = std::sqrt(solve_step(level, step, fresh) / energy_);
     if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps - rejections)) {
       if (mode == Mode::plain) break;
       ++rejections;
@@ -76,7 +78,7 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
     }
     // Steps gain by a ratio that the last two tell, and with it what is left.
     const double ratio = last > 0 ? step.decrement / last : 1;
-    const double trusted = ratio * (last_but_one ? 1 : first_ratio);
+    const double trusted = std::max(least_ratio, ratio * (last_but_one ? 1 : first_ratio));
     const double ahead = trusted < regular ? trusted / (1 - trusted) : 1;
     last_but_one = last > 0;
     last = step.decrement;
@@ -102,11 +104,11 @@ void CurvatureSystem::report_progress(int level, const CurvatureLevelReport& rep
   monitor_.report(Phase::solve, steps_begin + (steps_end - steps_begin) * steps / (steps + 4));
 }
 
-// The step h of K h = force, in step_; returns h . K h, by which it would lower the energy.
-double CurvatureSystem::solve_step(int level, StepReport& report) {
+// The step h of K h = force, in step_; `fresh`: coarse levels, or the surface by much, have changed. Returns h . K h, by which it would lower the energy.
+double CurvatureSystem::solve_step(int level, StepReport& report, bool fresh) {
   const std::size_t points = lattice(level).size(), index = std::size_t(level - base_);
   step_.assign(points, 0.0);
-  hierarchy_.refresh(index, true);
+  if (fresh) hierarchy_.refresh(index, true);
   PcgState& state = hierarchy_.state();
   std::copy(here_.force.begin(), here_.force.end(), state.residual.begin());
   PcgLimits limits;

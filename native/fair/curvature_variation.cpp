@@ -39,18 +39,20 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
   double damping_share = first_share;
   int rejections = 0;
+  double last = 0;  // decrement
   for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
     report_progress(level, report);
     // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
     const double scale = energy_ + still * square / area;
     shared_.damping = damping_share * scale / square;
-    op(level).update_diagonal();
-    linearize_below(level);
+    const bool fresh = is_fresh(last);
+    if (fresh) linearize_below(level);
+    for (int l = fresh ? level : base_; l <= level; ++l) op(l).update_diagonal();
     damp(level, damping.mu());
     StepReport& step = report.steps.emplace_back();
     step.variation = true;
     step.energy = energy_;
-    const double reduction = solve_step(level, step);
+    const double reduction = solve_step(level, step, fresh);
     step.decrement = std::sqrt(reduction / scale);
     op(level).predict(here_.shape, step_.data(), predicted_);
     bool accepted = false;
@@ -74,9 +76,11 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
       step.length = 0;
       damping_share = std::max(4 * damping_share, first_share);
       ++rejections;
+      last = 0;
       op(level).linearize(surface_.data(), &here_);
       continue;
     }
+    last = step.decrement;
     measure(here_.shape);
     step.movement = step.length * largest(workers_, points, [&](std::size_t i) { return step_[i]; });
     report.converged = step.decrement <= (steps < patience ? enough : late_enough) ||

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "check/error.h"
+#include "energy/sparse_square.h"
 #include "execution/memory.h"
 #include "lattice/lattice.h"
 #include "solver/coarse.h"
@@ -28,15 +29,16 @@ std::int64_t factor_bytes(std::int64_t unknowns) {
 // What Gauss-Newton steps hold beside the thin plate's system: rows of all levels, and the factor of the finest one that may
 // prove hard; on the finest level surfaces, steps, and what steps are accelerated by.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_levels, Energy energy) {
-  constexpr std::int64_t row = 112, moments = 112, surfaces = 560;  // a point
+  constexpr std::int64_t row = 112, moments = 112, surfaces = 560, square = 640;  // a point
   const bool varies = energy == Energy::minimum_variation;
-  std::int64_t hard = 0;
+  std::int64_t hard = 0, squares = 0;
   for (int l = 0; l <= levels; ++l) {
     const std::int64_t size = lattice_size(c.vertices, c.edges, c.triangles, c.quads, l);
-    if (size <= std::int64_t(direct_limit_of_hard)) hard = size;
+    if (size <= std::int64_t(direct_limit_of_steps)) hard = size;
+    if (1 << l <= most_points_of_square) squares += square * size;
   }
   const std::int64_t points = lattice_size(c.vertices, c.edges, c.triangles, c.quads, levels);
-  return (varies ? 2 * row + moments : row) * all_levels + surfaces * points +
+  return (varies ? 2 * row + moments : row) * all_levels + surfaces * points + squares +
          (varies ? 5 : 2) * factor_bytes(hard);
 }
 

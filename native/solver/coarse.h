@@ -35,5 +35,7 @@ class CoarseSolver {
 
 // Largest coarsest level, in unknowns, that is factored; and where smoothing has proved hard, since its faces are thin.
 constexpr std::size_t direct_limit = 6000, direct_limit_of_hard = 80000;
+// The latter where a factor serves one right-hand side only.
+constexpr std::size_t direct_limit_of_steps = 16000;
 
 }  // namespace fairing

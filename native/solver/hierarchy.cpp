@@ -70,7 +70,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
   }
   estimate_eigenvalues(index);
   const bool adapt = adapts(out.direct);
-  const bool may_factor = adapt && unknowns_[index] <= direct_limit_of_hard;
+  const bool may_factor = adapt && unknowns_[index] <= options_.factored_if_hard;
   const auto too_hard = [&] { return may_factor && cycle_.degree >= degree_of_hard(unknowns_[index]); };
   PcgResult result =
       conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
