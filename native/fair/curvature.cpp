@@ -151,6 +151,7 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
     if (epsilon_ > 0) release(level, report);
     if (!(report.energy <= report.plate_energy)) fall_back(level, plate, report);
     if (options_.energy == Energy::minimum_variation) vary(level, report);
+    report.folds = find_folds_of(level).count();
   }
   return report;
 }
