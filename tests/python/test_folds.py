@@ -9,7 +9,7 @@ from mesh_files import SUFFIXES, read_mesh
 from shared_data import shared_files
 
 MOST_FACES = 700
-# What is left at level 2: two of letters' outlines without their creases.
+# What is left at level 2 (docs/total-curvature.md).
 LEFT = {"catmark_lefthanded": 2, "catmark_righthanded": 15}
 
 
