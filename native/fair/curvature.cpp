@@ -121,7 +121,6 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   report.level = level;
   if (level < base_) return report;
   const bool finest = level + 1 == int(lattices_.size());
-  damping_.reset();
   choose_start(level, plate, report);
   const Enough accurate{0, options_.step_tolerance}, near{plain_decrement, 0},
       damped_enough{damped_decrement, 0};

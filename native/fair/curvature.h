@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "energy/curvature_level.h"
@@ -105,7 +104,6 @@ class CurvatureSystem {
   Hierarchy hierarchy_;
   Exchange<double, 3> exchange_;
   Mode mode_ = Mode::undecided;
-  std::optional<LocalDamping> damping_;     // of the level's last damped steps
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
   Array<double> surface_, trial_, step_;
   double energy_ = 0;  // of surface_, as the next two

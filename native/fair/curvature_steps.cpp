@@ -51,8 +51,8 @@ void CurvatureSystem::damp(int level, const Array<float>& mu) {
 
 void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int patience,
                                CurvatureLevelReport& report) {
-  if (mode == Mode::damped) damping_.emplace(lattice(level), shared_.unknowns, workers_);
-  go_steps(level, mode == Mode::damped ? &*damping_ : nullptr, enough, options_.max_steps, patience, report);
+  LocalDamping damping(lattice(level), shared_.unknowns, workers_);
+  go_steps(level, mode == Mode::damped ? &damping : nullptr, enough, options_.max_steps, patience, report);
 }
 
 void CurvatureSystem::go_steps(int level, LocalDamping* damping, const Enough& enough, int most, int patience,

@@ -55,13 +55,15 @@ void CurvatureSystem::unfold(int level, const Array<double>& start, const Curvat
     surface_ = start;
     refill(level, marks);
     CurvatureLevelReport again = fresh;
-    damping_.emplace(lattice(level), shared_.unknowns, workers_);
-    damping_->hold(marks, held_damping);
-    go_steps(level, &*damping_, {damped_decrement, 0}, options_.max_steps, 0, again);
+    LocalDamping damping(lattice(level), shared_.unknowns, workers_);
+    damping.hold(marks, held_damping);
+    go_steps(level, &damping, {damped_decrement, 0}, options_.max_steps, 0, again);
+    if (report.accurate) polish(level, again);
     folds = find_folds_of(level);
     again.folds_before = report.folds_before;
     again.folds = folds.count();
-    if (again.folds < report.folds && again.energy <= bound && again.converged >= report.converged) {
+    if (again.folds < report.folds && again.energy <= bound && again.converged >= report.converged &&
+        again.accurate >= report.accurate) {
       report = again;
       best = found();
     } else if (!leave_bursts_out(level, best.here, burst * report.energy, left_out)) {
