@@ -91,6 +91,8 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["energy"] = l.energy;
   d["start_variation"] = l.start_variation;
   d["variation"] = l.variation;
+  d["folds_before"] = l.folds_before;
+  d["folds"] = l.folds;
   d["converged"] = l.converged;
   d["accurate"] = l.accurate;
   py::list steps;

@@ -82,27 +82,18 @@ void visit_rows(const RingRows& rows, Visit&& visit) {
   }
   for (Index e = 0; e < Index(mesh.edges.size()) && n > 1; ++e) {
     const EdgeRingLanes ring(mesh, e);
-    const auto lane_point = [&](int lane, int k) {
-      if (lane == 0) return lattice.edge_point(e, k);
-      const Side& side = mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[std::size_t(lane - 1)])];
-      const bool quad = mesh.faces[std::size_t(side.face)].quad();
-      const int along = side.reversed ? row_size(quad, n) - 1 - k : k;
-      return lattice.face_point(side.face, closed_point(quad, n, side.local, along, 1));
-    };
     for (int k = 1; k < n; ++k) {
       points.assign(1, lattice.edge_point(e, k));
-      for (int j = 0; j < ring.size; ++j) points.push_back(lane_point(ring.lane[j], ring.at[j] + k));
+      append_ring(lattice, e, ring, k, points);
       visit(points[0], rows.edge(e), std::size_t(k - 1), points);
     }
   }
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
-    const bool quad = mesh.faces[std::size_t(f)].quad();
     for (int j = 1; j < n; ++j) {
       const RowRun<const float> run = rows.face(f, j);
       for (std::size_t i = 0; i < run.count; ++i) {
         points.assign(1, lattice.face_point(f, int(i) + 1, j));
-        for (const LatticePoint d : face_ring(quad))
-          points.push_back(lattice.face_point(f, int(i) + 1 + d.i, j + d.j));
+        append_ring(lattice, f, {int(i) + 1, j}, points);
         visit(points[0], run, i, points);
       }
     }

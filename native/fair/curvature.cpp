@@ -15,7 +15,6 @@ constexpr double hopeful = 1.5;  // a start's energy, to the level below's, that
 constexpr double as_low = 1.01;  // as the energy by damped steps
 
 constexpr int long_patience = 14, polishing_patience = 3;
-constexpr double damped_decrement = 3e-2;  // where damped steps end
 
 class DisplacementTransfer final : public LevelTransfer {
  public:
@@ -72,6 +71,7 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, std::vector<const Latt
                    count_unknowns(lattice(l), unknowns));
   }
   hierarchy_.complete();
+  folded_faces_ = folded_control_faces(mesh, hold_.places(), workers);
   shared_.weights = hold_.weights();
   if (hold_.any()) shared_.targets.assign(hold_.places().begin(), hold_.places().end());
 }
@@ -159,10 +159,12 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
   }
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(surface_.size()));
   if (finest) {
+    unfold(level, start, fresh, report);
     if (hold_.any()) finish_hold(level, report);
     if (epsilon_ > 0) release(level, report);
     if (!(report.energy <= report.plate_energy)) fall_back(level, plate, report);
     if (options_.energy == Energy::minimum_variation) vary(level, report);
+    report.folds = find_folds_of(level).count();
   }
   return report;
 }

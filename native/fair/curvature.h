@@ -8,6 +8,7 @@
 
 #include "energy/curvature_level.h"
 #include "fair/control_hold.h"
+#include "fair/folds.h"
 #include "fair/local_damping.h"
 #include "fair/options.h"
 #include "fair/report.h"
@@ -59,6 +60,7 @@ class CurvatureSystem {
   static constexpr double plain_decrement = 1e-3;
   static constexpr int short_patience = 6;
   static constexpr double least_length = 1.0 / 8;
+  static constexpr double damped_decrement = 3e-2;  // where damped steps end
   static constexpr int most_rejections = 4;
   static constexpr double flat = 1e-16;  // an energy that is rounding
 
@@ -73,7 +75,16 @@ class CurvatureSystem {
     double movement = 0;
   };
   void minimize(int level, Mode mode, const Enough& enough, int patience, CurvatureLevelReport& report);
+  void go_steps(int level, LocalDamping* damping, const Enough& enough, int most, int patience,
+                CurvatureLevelReport& report);
   void fall_back(int level, const Array<double>& plate, CurvatureLevelReport& report);
+  Folds find_folds_of(int level);
+  void grow_marks(int level, int by, Array<float>& marks);
+  void unfold(int level, const Array<double>& start, const CurvatureLevelReport& fresh,
+              CurvatureLevelReport& report);
+  void refill(int level, const Array<float>& marks);
+  bool leave_bursts_out(int level, const CurvatureLevel::Surface& before, double most,
+                        Array<float>& left_out);
   void adapt_hold(int level);
   void finish_hold(int level, CurvatureLevelReport& report);
   void release(int level, CurvatureLevelReport& report);
@@ -103,6 +114,7 @@ class CurvatureSystem {
   Hierarchy hierarchy_;
   Exchange<double, 3> exchange_;
   Mode mode_ = Mode::undecided;
+  std::vector<std::uint8_t> folded_faces_;  // of the control mesh
   Array<double> surface_, trial_, step_;
   double energy_ = 0;  // of surface_, as the next two
   CurvatureLevel::Surface here_, there_;

@@ -53,25 +53,31 @@ void CurvatureSystem::damp(int level, const Array<float>& mu) {
 void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int patience,
                                CurvatureLevelReport& report) {
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
+  go_steps(level, mode == Mode::damped ? &damping : nullptr, enough, options_.max_steps, patience, report);
+}
+
+void CurvatureSystem::go_steps(int level, LocalDamping* damping, const Enough& enough, int most, int patience,
+                               CurvatureLevelReport& report) {
+  const Array<float> undamped;
   anderson_.reset();
   trial_.resize(3 * lattice(level).size());
-  here_.with_axes = there_.with_axes = mode == Mode::damped;  // what local damping compares in
+  here_.with_axes = there_.with_axes = damping != nullptr;  // what local damping compares in
   if (!is_linearized_) energy_ = op(level).linearize(surface_.data(), &here_);
   is_linearized_ = false;
   int rejections = 0;
   double last = 0;
   bool last_but_one = false;
-  for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
+  for (int steps = 0; steps < most && rejections < most_rejections; ++steps) {
     if ((report.converged = energy_ < flat)) break;
     report_progress(level, report);
-    const bool fresh = mode == Mode::damped || is_fresh(last);
+    const bool fresh = damping || is_fresh(last);
     if (fresh) linearize_below(level);
-    damp(level, damping.mu());
+    damp(level, damping ? damping->mu() : undamped);
     StepReport& step = report.steps.emplace_back();
     step.energy = energy_;
     step.decrement = std::sqrt(solve_step(level, step, fresh) / energy_);
-    if (!advance(level, step, mode == Mode::damped ? &damping : nullptr, rejections, steps - rejections)) {
-      if (mode == Mode::plain) break;
+    if (!advance(level, step, damping, rejections, steps - rejections)) {
+      if (!damping) break;
       ++rejections;
       last = 0;
       continue;
@@ -91,7 +97,7 @@ void CurvatureSystem::minimize(int level, Mode mode, const Enough& enough, int p
     report.accurate = ahead * step.movement <= options_.step_tolerance;
     report.converged &= shared_.weights.empty() || !hold_.adapts() || hold_.holds(surface_);
     if (report.converged) break;
-    if (mode == Mode::plain && steps + 1 >= patience && step.decrement > plain_decrement) break;
+    if (!damping && steps + 1 >= patience && step.decrement > plain_decrement) break;
   }
   report.energy = op(level).bending();
 }

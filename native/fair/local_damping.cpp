@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "execution/vectors.h"
+#include "fair/grow.h"
 
 namespace fairing {
 namespace {
@@ -31,6 +32,23 @@ Eigen::Matrix3d tensor(const float* m, const CurvatureLevel::Surface& surface, s
 LocalDamping::LocalDamping(const Lattice& lattice, const Unknowns& unknowns, Workers& workers)
     : lattice_(lattice), unknowns_(unknowns), workers_(workers) {}
 
+void LocalDamping::start() {
+  if (!mu_.empty()) return;
+  mu_.assign(lattice_.size(), 0.0f);
+  failures_.assign(lattice_.size(), 0);
+}
+
+void LocalDamping::hold(const Array<float>& marks, float least) {
+  start();
+  if (least_.empty()) least_.assign(lattice_.size(), 0.0f);
+  for_each_index(workers_, marks.size(), [&](std::size_t i) {
+    if (!(marks[i] > 0)) return;
+    least_[i] = least;
+    mu_[i] = std::max(mu_[i], least);
+  });
+  any_ = true;
+}
+
 bool LocalDamping::judge(const Array<float>& predicted, const CurvatureLevel::Surface& before,
                          const CurvatureLevel::Surface& after, int rejections, int steps, double decrement) {
   const std::size_t points = lattice_.size();
@@ -54,11 +72,8 @@ bool LocalDamping::judge(const Array<float>& predicted, const CurvatureLevel::Su
         m[3] > 0 && now[3] > 0 && scale > 0 ? float(change.squaredNorm() / scale) : (m[3] > 0 ? 1.0f : 0.0f);
     marks[i] = double(miss[i]) > bound ? 1.0f : 0.0f;
   });
-  grow(marks);
-  if (mu_.empty()) {
-    mu_.assign(points, 0.0f);
-    failures_.assign(points, 0);
-  }
+  grow(lattice_, workers_, exchange_, &unknowns_, marks);
+  start();
   for_each_index(workers_, points, [&](std::size_t i) {
     float& mu = mu_[i];
     if (marks[i] > 0) {
@@ -72,46 +87,11 @@ bool LocalDamping::judge(const Array<float>& predicted, const CurvatureLevel::Su
     else if (steps >= patience && failures_[i] >= 2)
       mu *= insistence;
   });
+  if (!least_.empty())
+    for_each_index(workers_, points, [&](std::size_t i) { mu_[i] = std::max(mu_[i], least_[i]); });
   const bool before_any = any_;
   any_ = sum(workers_, points, [&](std::size_t i) { return mu_[i] > 0 ? 1.0 : 0.0; }) > 0;
   return any_ || before_any;
-}
-
-// Marks the neighbours of marked points as well.
-void LocalDamping::grow(Array<float>& marks) {
-  const ControlMesh& mesh = lattice_.mesh();
-  const int n = lattice_.n();
-  Array<float> out(marks.size());
-  const auto vertex_body = [&](Index v, float* centre, float* spokes, std::vector<float>&) {
-    if (!(marks[std::size_t(v)] > 0)) return;
-    *centre += 1;
-    visit_ring(lattice_, v, [&](Index, std::size_t slot) { spokes[slot] += 1; });
-  };
-  const auto edge_body = [&](Index e, float* run, float* left, float* right, std::vector<float>&) {
-    clear_lanes<1>(n, run, left, right);
-    if (n == 1) return;
-    float* const lanes[3] = {run, left, right};
-    const EdgeRingLanes ring(mesh, e);
-    const Beside<float> target = beside_edge(ring, lanes);
-    const float* mark = marks.data() + lattice_.edge_base(e);
-    for (int i = 0; i < n - 1; ++i)
-      for (int s = 0; s <= ring.size; ++s) target.at[s][i] += mark[i];
-  };
-  const auto face_body = [&](Index f, float* closed, std::vector<float>&) {
-    const bool quad = mesh.faces[std::size_t(f)].quad();
-    std::fill_n(closed, closed_size(quad, std::size_t(n)), 0.0f);
-    const float* mark = marks.data() + lattice_.face_base(f);
-    const int slots = 1 + int(face_ring(quad).size());
-    for (int j = 1; j < n; ++j) {
-      const std::size_t count = row_count(quad, n, j);
-      const Beside<float> target = beside_row(quad, n, j, closed);
-      for (int s = 0; s < slots; ++s)
-        for (std::size_t i = 0; i < count; ++i) target.at[s][i] += mark[i];
-      mark += count;
-    }
-  };
-  accumulate(lattice_, workers_, exchange_, &unknowns_, out.data(), vertex_body, edge_body, face_body);
-  marks.swap(out);
 }
 
 }  // namespace fairing

@@ -20,15 +20,18 @@ class LocalDamping {
   bool judge(const Array<float>& predicted, const CurvatureLevel::Surface& before,
              const CurvatureLevel::Surface& after, int rejections, int steps, double decrement);
 
+  // Marked points (above zero) have at least that factor from here on.
+  void hold(const Array<float>& marks, float least);
+
  private:
-  void grow(Array<float>& marks);
+  void start();
 
   const Lattice& lattice_;
   const Unknowns& unknowns_;
   Workers& workers_;
   Exchange<float, 1> exchange_;
   bool any_ = false;
-  Array<float> mu_, none_;
+  Array<float> mu_, least_, none_;
   std::vector<std::uint8_t> failures_;
 };
 

@@ -39,6 +39,7 @@ struct CurvatureLevelReport {
   int level = 0;
   double plate_energy = 0, start_energy = 0, energy = 0;  // in working coordinates
   double start_variation = 0, variation = 0;              // minimum variation, on the finest level
+  std::size_t folds_before = 0, folds = 0;                // that the control mesh does not have (folds.h)
   std::vector<StepReport> steps;
   bool converged = false;  // to a decrement of 3e-2 at the least, with which its square is below 1e-3
   bool accurate = false;   // to options.step_tolerance

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "lattice/closed_face.h"
 
@@ -64,6 +65,28 @@ struct EdgeRingLanes {
     ++size;
   }
 };
+
+// The points of the ring of an edge's point k, or of the point (i, j) inside a face, appended to `ids`.
+inline void append_ring(const Lattice& lattice, Index e, const EdgeRingLanes& ring, int k,
+                        std::vector<Index>& ids) {
+  const ControlMesh& mesh = lattice.mesh();
+  const int n = lattice.n();
+  for (int j = 0; j < ring.size; ++j) {
+    const int lane = ring.lane[j], at = ring.at[j] + k;
+    if (lane == 0) {
+      ids.push_back(lattice.edge_point(e, at));
+      continue;
+    }
+    const Side& side = mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[std::size_t(lane - 1)])];
+    const bool quad = mesh.faces[std::size_t(side.face)].quad();
+    const int along = side.reversed ? row_size(quad, n) - 1 - at : at;
+    ids.push_back(lattice.face_point(side.face, closed_point(quad, n, side.local, along, 1)));
+  }
+}
+inline void append_ring(const Lattice& lattice, Index f, LatticePoint p, std::vector<Index>& ids) {
+  for (const LatticePoint d : face_ring(lattice.mesh().faces[std::size_t(f)].quad()))
+    ids.push_back(lattice.face_point(f, p.i + d.i, p.j + d.j));
+}
 
 // The edge and the rows beside it, gathered into scratch; all run with the edge. Each lane has room for a
 // block more.

@@ -248,6 +248,29 @@ def creature(seed: int = 5):
     return points, faces
 
 
+def rough_ball(seed: int = 3, roughness: float = 0.5):
+    """A sphere of 128 triangles whose vertices are off it at random: crumpled, with edges folded by over 90 degrees."""
+    points, faces = octahedron()
+    for _ in range(2):
+        points, faces = refine_triangles(points, faces)
+    points = points / np.linalg.norm(points, axis=1)[:, None]
+    random = np.random.default_rng(seed)
+    points = points * (1 + roughness * random.uniform(-1, 1, len(points)))[:, None]
+    return points + 0.3 * roughness * random.uniform(-1, 1, points.shape), faces
+
+
+def refine_triangles(points, triangles):
+    """One linear refinement."""
+    edges, inverse = np.unique(
+        np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), 1),
+        axis=0,
+        return_inverse=True,
+    )
+    side = inverse.reshape(3, -1).T + len(points)
+    parts = [np.stack([triangles[:, k], side[:, k], side[:, k - 1]], -1) for k in range(3)]
+    return np.concatenate([points, points[edges].mean(1)]), np.concatenate([*parts, side])
+
+
 def three_handles():
     """Quads of genus 3: the surface of a thick lattice of 7 x 3 x 1 blocks with three holes."""
     solid = {(i, j) for i in range(7) for j in range(3)} - {(1, 1), (3, 1), (5, 1)}
