@@ -11,8 +11,9 @@ namespace fairing {
 namespace {
 
 constexpr double real_gain = 1 - 1e-9;  // what rounding may not decide
-constexpr double hopeful = 1.5;  // a start's energy, to the level below's, that needs no other beside it
-constexpr double as_low = 1.01;  // as the energy by damped steps
+constexpr double hopeful = 1.5;   // a start's energy, to the level below's, that needs no other beside it
+constexpr double desperate = 10;  // one from which no other is worse
+constexpr double as_low = 1.01;   // as the energy by damped steps
 
 constexpr int long_patience = 14, polishing_patience = 3;
 
@@ -40,7 +41,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.factored_if_hard = direct_limit_of_steps;
+  out.cheap_factor = direct_limit_of_steps;
   return out;
 }
 
@@ -89,8 +90,8 @@ void CurvatureSystem::take_plate(int level, const Array<double>& plate) {
   symmetrize(level, surface_);
 }
 
-// The thin plate's surface, or the one that the level below has found: as its change of the plate, or bulged along its
-// normals.
+// The thin plate's surface, or the one that the level below has found: as its change of the plate, bulged along its
+// normals, or, where these are crumpled, as a polyhedron.
 void CurvatureSystem::choose_start(int level, const Array<double>& plate, CurvatureLevelReport& report) {
   const std::size_t size = 3 * lattice(level).size();
   const Array<double> below = std::move(surface_);
@@ -118,14 +119,17 @@ void CurvatureSystem::choose_start(int level, const Array<double>& plate, Curvat
     for_each_index(workers_, size,
                    [&](std::size_t i) { trial_[i] = plate[i] + (diagonal[i / 3] > 0 ? trial_[i] : 0.0); });
     take_if_lower();
-    if (report.start_energy > hopeful * energy_below) {
-      prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), here_.normal.data(),
+    const auto try_refined = [&](double enough, const Array<double>& normal) {
+      if (!(report.start_energy > enough * energy_below)) return;
+      prolong_with_normals(lattice(level - 1), lattice(level), workers_, below.data(), normal.data(),
                            trial_.data());
       for_each_index(workers_, size, [&](std::size_t i) {
         if (!(diagonal[i / 3] > 0)) trial_[i] = plate[i];
       });
       take_if_lower();
-    }
+    };
+    try_refined(hopeful, here_.normal);
+    try_refined(desperate, Array<double>(below.size(), 0.0));
   }
   std::swap(here_, there_);
 }

@@ -21,7 +21,9 @@ constexpr std::size_t tiny_level = 1200;
 constexpr double settled_margin = 1.03;  // of a largest eigenvalue that is taken from the level below
 
 // The smoother's degree from which on factoring a level is cheaper than smoothing it.
-int degree_of_hard(std::size_t unknowns) { return 8 + int(unknowns / 5000); }
+int degree_of_hard(std::size_t unknowns, std::size_t cheap) {
+  return 8 + int(unknowns / (unknowns <= cheap ? 5000 : 1000));
+}
 
 }  // namespace
 
@@ -70,8 +72,10 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
   }
   estimate_eigenvalues(index);
   const bool adapt = adapts(out.direct);
-  const bool may_factor = adapt && unknowns_[index] <= options_.factored_if_hard;
-  const auto too_hard = [&] { return may_factor && cycle_.degree >= degree_of_hard(unknowns_[index]); };
+  const bool may_factor = adapt && unknowns_[index] <= direct_limit_of_hard;
+  const auto too_hard = [&] {
+    return may_factor && cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor);
+  };
   PcgResult result =
       conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
         each(so_far);

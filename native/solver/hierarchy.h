@@ -16,7 +16,7 @@ namespace fairing {
 struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen from how the solves go
   bool always_factor = false;  // the coarsest level is ill-conditioned, however large
-  std::size_t factored_if_hard = direct_limit_of_hard;  // unknowns of a level that may be, however fine
+  std::size_t cheap_factor = direct_limit_of_hard;  // unknowns of a level up to which a factor costs little
   std::size_t settled = 4;  // from this level on the largest eigenvalue is that of the level below
 };
 
