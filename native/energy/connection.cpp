@@ -185,13 +185,13 @@ void Connection::apply(double damping, Workers& workers, const T* y, T* z) const
                       }
                     });
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<T> closed(3 * closed_size(true, std::size_t(n)));
+    T* const closed = room_in(thread_scratch<T>().gathered, 3 * closed_size(true, std::size_t(n)));
     for (std::size_t f = begin; f < end; ++f) {
       const bool quad = mesh.faces[f].quad();
-      gather_face(lattice, y, Index(f), closed.data());
+      gather_face(lattice, y, Index(f), closed);
       T* to = z + 3 * std::size_t(lattice.face_base(Index(f)));
       const auto at = [&](int i, int j) {
-        return closed.data() + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+        return closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
       };
       for (int j = 1; j < n; ++j) {
         const RowRun<const float> run = rows_.face(Index(f), j);

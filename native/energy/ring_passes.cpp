@@ -105,13 +105,13 @@ void apply_square(const RingRows& rows, const Unknowns& unknowns, Workers& worke
   };
   const auto face_moments = [&](Index f, bool quad, std::vector<T>& scratch, auto&& put) {
     const std::size_t size = closed_size(quad, std::size_t(n));
-    if (scratch.size() < size + 3 * std::size_t(n)) scratch.resize(size + 3 * std::size_t(n));
-    gather_face<1>(lattice, x, f, scratch.data());
-    T* moments = scratch.data() + size;
+    T* const gathered = room_in(thread_scratch<T>().gathered, size);
+    T* const moments = room_in(scratch, 3 * std::size_t(n));
+    gather_face<1>(lattice, x, f, gathered);
     for (int j = 1; j < n; ++j) {
       const RowRun<const float> run = rows.face(f, j);
       if (run.count == 0) break;
-      forward(run, beside_row(quad, n, j, scratch.data()).at, moments);
+      forward(run, beside_row(quad, n, j, gathered).at, moments);
       put(j, run, moments);
     }
   };

@@ -37,15 +37,16 @@ void visit_moments(const RingRows& rows, Workers& workers, const T* x, Put&& put
                       }
                     });
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<T> closed(closed_size(true, std::size_t(n))), moment(3 * std::size_t(n));
+    T* const closed = room_in(thread_scratch<T>().gathered, closed_size(true, std::size_t(n)));
+    std::vector<T> moment(3 * std::size_t(n));
     for (Index f = Index(begin); f < Index(end); ++f) {
       const bool quad = mesh.faces[std::size_t(f)].quad();
-      gather_face<1>(lattice, x, f, closed.data());
+      gather_face<1>(lattice, x, f, closed);
       std::size_t p = std::size_t(lattice.face_base(f));
       for (int j = 1; j < n; ++j) {
         const RowRun<const float> run = rows.face(f, j);
         if (run.count == 0) break;
-        forward(run, beside_row(quad, n, j, closed.data()).at, moment.data());
+        forward(run, beside_row(quad, n, j, closed).at, moment.data());
         put(p, run.count, moment.data());
         p += run.count;
       }

@@ -143,9 +143,8 @@ void apply_thin_plate(const Lattice& lattice, const ThinPlateRows<T>& rows, cons
       return;
     }
     const bool weighted = joint.weighs_face(f);
-    const std::size_t room = moments + (weighted ? 2 : 1) * size;
-    if (scratch.size() < room) scratch.resize(room);
-    T* gathered = scratch.data() + moments;
+    if (scratch.size() < moments) scratch.resize(moments);
+    T* gathered = room_in(thread_scratch<T>().gathered, (weighted ? 2 : 1) * size);
     gather_face(lattice, x, f, gathered);
     T* weight = weighted ? gathered + size : nullptr;
     if (weight) face_weights(joint, quad, n, f, weight);
@@ -269,15 +268,16 @@ double thin_plate_energy(const Lattice& lattice, const ThinPlateRows<double>& ro
                       }
                     });
   workers.for_parts(face.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<double> gathered(3 * closed_size(true, std::size_t(n)));
+    double* const gathered =
+        room_in(thread_scratch<double>().gathered, 3 * closed_size(true, std::size_t(n)));
     for (std::size_t f = begin; f < end; ++f) {
       if (!rows.stencils.face_fit[f]) continue;
       const bool quad = mesh.faces[f].quad(), weighted = joint.weighs_face(Index(f));
-      gather_face(lattice, x, Index(f), gathered.data());
+      gather_face(lattice, x, Index(f), gathered);
       const double* g = rows.stencils.face_energy.data() + 12 * f;
       const LatticePoint step[2][4] = {{{1, 0}, {0, 1}, {-1, 1}, {0, 0}}, {{1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
       const auto at = [&](int i, int j) {
-        return gathered.data() + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+        return gathered + 3 * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
       };
       for (int j = 1; j < n; ++j)
         for (int i = 1; i < (quad ? n : n - j); ++i) {

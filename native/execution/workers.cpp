@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "execution/scratch.h"
+
 namespace fairing {
 namespace {
 
@@ -46,6 +48,7 @@ Workers::~Workers() {
   calls_.fetch_add(1, std::memory_order_release);
   calls_.notify_all();
   for (auto& thread : threads_) thread.join();
+  release_thread_scratch();
 }
 
 void Workers::run_part(Task task, void* data, int part) {

@@ -8,6 +8,8 @@
 namespace fairing {
 namespace {
 
+constexpr std::size_t wide_rows = 4;  // 37 numbers in place of 19: a factor costs so many times as much
+
 constexpr double enough = 1e-3, late_enough = 3e-2;      // decrements
 constexpr int patience = 10;                             // steps, after which the second will do
 constexpr double slack = 0.1, late = 1e-3;               // as those of curvature_steps.cpp
@@ -32,6 +34,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   if (!(square > flat)) return;
   shared_.energy = CurvatureEnergy::minimum_variation;
   shared_.damping = 0;
+  hierarchy_.set_factor_price(wide_rows);
   here_.with_axes = there_.with_axes = true;
   energy_ = op(level).linearize(surface_.data(), &here_);
   report.start_variation = energy_;
@@ -91,6 +94,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   report.variation = energy_;
   shared_.energy = CurvatureEnergy::total_curvature;
   shared_.damping = 0;
+  hierarchy_.set_factor_price(1);
 }
 
 }  // namespace fairing

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "execution/memory.h"
+#include "execution/scratch.h"
 #include "execution/workers.h"
 #include "lattice/closed_face.h"
 
@@ -55,7 +56,7 @@ inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 2048 / 
 //                                             it, in its direction (null without a face); lane_stride<C>(n) numbers each
 //   face_body(f, closed, scratch)             sets all. closed: the closed face, row by row, and a block more; not
 //                                             called for faces that are not unknowns, around which nothing is
-// `scratch` is a vector of the calling thread's to work in.
+// `scratch` is a vector of the calling thread's to work in, empty at first.
 template <class T, int C, class VertexBody, class EdgeBody, class FaceBody>
 void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchange, const Unknowns* unknowns,
                 T* out, VertexBody&& vertex_body, EdgeBody&& edge_body, FaceBody&& face_body) {
@@ -65,7 +66,8 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
   exchange.fit(lattice);
 
   workers.for_parts(std::size_t(mesh.vertex_count()), 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<T> scratch;
+    std::vector<T>& scratch = thread_scratch<T>().work;
+    scratch.clear();
     for (std::size_t v = begin; v < end; ++v) {
       T* spokes = exchange.spoke.data() + 2 * C * std::size_t(mesh.ring_offset[v]);
       std::fill(spokes, exchange.spoke.data() + 2 * C * std::size_t(mesh.ring_offset[v + 1]), T(0));
@@ -75,23 +77,27 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
   });
 
   workers.for_parts(mesh.edges.size(), element_grain(n) * un, [&](std::size_t begin, std::size_t end) {
-    std::vector<T> run(row_stride), scratch;
+    T* const run = room_in(thread_scratch<T>().run, row_stride);
+    std::vector<T>& scratch = thread_scratch<T>().work;
+    scratch.clear();
     for (std::size_t e = begin; e < end; ++e) {
       const Edge& edge = mesh.edges[e];
       T* rows[2];
       for (std::size_t h = 0; h < 2; ++h) {
         rows[h] = edge.side[h] < 0 ? nullptr : exchange.row.data() + row_stride * std::size_t(edge.side[h]);
       }
-      edge_body(Index(e), run.data(), rows[0], rows[1], scratch);
+      edge_body(Index(e), run, rows[0], rows[1], scratch);
       T* end_slot = exchange.end.data() + 2 * C * e;
-      copy_point<C>(end_slot, run.data());
-      copy_point<C>(end_slot + C, run.data() + C * n);
-      std::copy(run.begin() + C, run.begin() + C * n, out + C * std::size_t(lattice.edge_base(Index(e))));
+      copy_point<C>(end_slot, run);
+      copy_point<C>(end_slot + C, run + C * n);
+      std::copy(run + C, run + C * n, out + C * std::size_t(lattice.edge_base(Index(e))));
     }
   });
 
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    std::vector<T> closed(C * closed_size(true, un) + lane_block), scratch;
+    T* const closed = room_in(thread_scratch<T>().closed, C * closed_size(true, un) + lane_block);
+    std::vector<T>& scratch = thread_scratch<T>().work;
+    scratch.clear();
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];
       const bool quad = face.quad();
@@ -102,7 +108,7 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
         std::fill(side, side + side_stride * std::size_t(face.size), T(0));
         continue;
       }
-      face_body(Index(f), closed.data(), scratch);
+      face_body(Index(f), closed, scratch);
       const Side* sides = mesh.sides.data() + face.first_side;
       const T* rows = exchange.row.data() + row_stride * std::size_t(face.first_side);
       with_shape(quad, n, [&]<bool four, int fixed>() {
@@ -113,7 +119,7 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
           if (step < 0) row += C * (row_size(four, m) - 1);
           SideWalk walk = side_walk(four, m, s, 0, 1);
           for (int k = 0; k < row_size(four, m); ++k, walk.next(), row += step)
-            add_point<C>(closed.data() + C * walk.offset, row);
+            add_point<C>(closed + C * walk.offset, row);
         }
       });
       for (int c = 0; c < 4 && quad; ++c) {
@@ -121,14 +127,13 @@ void accumulate(const Lattice& lattice, Workers& workers, Exchange<T, C>& exchan
         add_point<C>(&closed[C * side_offset(true, n, c, 1, 1)],
                      exchange.spoke.data() + 2 * C * std::size_t(spoke) + C);
       }
-      scatter_interior<C>(lattice, closed.data(), Index(f), out);
+      scatter_interior<C>(lattice, closed, Index(f), out);
       with_shape(quad, n, [&]<bool four, int fixed>() {
         const int m = fixed ? fixed : n;
         T* to = side;
         for (int s = 0; s < (four ? 4 : 3); ++s) {
           SideWalk walk = side_walk(four, m, s, 0, 0);
-          for (int k = 0; k < m; ++k, walk.next(), to += C)
-            copy_point<C>(to, closed.data() + C * walk.offset);
+          for (int k = 0; k < m; ++k, walk.next(), to += C) copy_point<C>(to, closed + C * walk.offset);
         }
       });
     }

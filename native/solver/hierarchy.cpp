@@ -21,8 +21,8 @@ constexpr std::size_t tiny_level = 1200;
 constexpr double settled_margin = 1.03;  // of a largest eigenvalue that is taken from the level below
 
 // The smoother's degree from which on factoring a level is cheaper than smoothing it.
-int degree_of_hard(std::size_t unknowns, std::size_t cheap) {
-  return 8 + int(unknowns / (unknowns <= cheap ? 5000 : 1000));
+int degree_of_hard(std::size_t unknowns, std::size_t cheap, std::size_t price) {
+  return 8 + int(unknowns <= cheap ? unknowns / 5000 : price * unknowns / 1000);
 }
 
 }  // namespace
@@ -74,7 +74,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
   const bool adapt = adapts(out.direct);
   const bool may_factor = adapt && unknowns_[index] <= direct_limit_of_hard;
   const auto too_hard = [&] {
-    return may_factor && cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor);
+    return may_factor &&
+           cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
   };
   PcgResult result =
       conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {

@@ -14,8 +14,8 @@
 namespace fairing {
 
 struct HierarchyOptions {
-  int smoother_degree = 0;     // 0: chosen from how the solves go
-  bool always_factor = false;  // the coarsest level is ill-conditioned, however large
+  int smoother_degree = 0;                          // 0: chosen from how the solves go
+  bool always_factor = false;                       // the coarsest level is ill-conditioned, however large
   std::size_t cheap_factor = direct_limit_of_hard;  // unknowns of a level up to which a factor costs little
   std::size_t settled = 4;  // from this level on the largest eigenvalue is that of the level below
 };
@@ -45,6 +45,9 @@ class Hierarchy {
   // Whether the smoother adapts.
   void set_adapting(bool adapts) { adapts_ = adapts; }
 
+  // How many times as much as usual a large factor costs.
+  void set_factor_price(std::size_t times) { factor_price_ = times; }
+
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the largest eigenvalues have.
   void refresh(std::size_t top, bool spectrum);
 
@@ -66,6 +69,7 @@ class Hierarchy {
   Workers& workers_;
   HierarchyOptions options_;
   bool adapts_ = true;
+  std::size_t factor_price_ = 1;
   std::vector<std::size_t> unknowns_;
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;

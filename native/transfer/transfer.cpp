@@ -123,15 +123,15 @@ void prolong(const Lattice& coarse, const Lattice& fine, const Stencils& st, con
     }
   };
 
-  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
+  const auto face_body = [&](Index f, T* closed, std::vector<T>&) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
     std::fill(closed, closed + C * closed_size(quad, 2 * std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
-    scratch.resize(C * closed_size(true, std::size_t(n)));
-    gather_face<C>(coarse, x, f, scratch.data());
+    T* const gathered = room_in(thread_scratch<T>().gathered, C * closed_size(true, std::size_t(n)));
+    gather_face<C>(coarse, x, f, gathered);
     const Directions& directions = quad ? quad_directions : triangle_directions;
     const auto from = [&](int i, int j) {
-      return scratch.data() + C * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
+      return gathered + C * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
     };
     const auto to = [&](int i, int j) {
       return closed + C * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
@@ -238,15 +238,15 @@ void restrict_to(const Lattice& coarse, const Lattice& fine, const Stencils& st,
     }
   };
 
-  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
+  const auto face_body = [&](Index f, T* closed, std::vector<T>&) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
     std::fill(closed, closed + C * closed_size(quad, std::size_t(n)), T(0));
     if (n < (quad ? 2 : 3)) return;
-    scratch.resize(C * closed_size(true, std::size_t(2 * n)));
-    gather_face<C>(fine, x, f, scratch.data());
+    T* const gathered = room_in(thread_scratch<T>().gathered, C * closed_size(true, std::size_t(2 * n)));
+    gather_face<C>(fine, x, f, gathered);
     const Directions& directions = quad ? quad_directions : triangle_directions;
     const auto from = [&](int i, int j) {
-      return scratch.data() + C * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
+      return gathered + C * (closed_row(quad, std::size_t(2 * n), std::size_t(j)) + std::size_t(i));
     };
     const auto to = [&](int i, int j) {
       return closed + C * (closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i));
