@@ -15,7 +15,7 @@ from .modal import ModalRun, running
 from .progress import ConsoleProgress
 
 IMMEDIATE = 200_000  # triangles; fewer are done before a progress bar could be read, by the fastest energy
-TIMES_AS_LONG = {"THIN_PLATE": 1, "TOTAL_CURVATURE": 3, "MINIMUM_VARIATION": 8}
+TIMES_AS_LONG = {"THIN_PLATE": 1, "TOTAL_CURVATURE": 5, "MINIMUM_VARIATION": 15}
 
 
 def why_not(context):

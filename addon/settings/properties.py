@@ -21,7 +21,7 @@ ENERGIES = (
     (
         "TOTAL_CURVATURE",
         "Total Curvature",
-        "The roundest surface: a sphere from vertices on a sphere. Takes some five times as long, on rough meshes more",
+        "The roundest surface: a sphere from vertices on a sphere. Takes some four times as long, on rough meshes more",
         1,
     ),
     (
