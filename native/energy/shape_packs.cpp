@@ -119,12 +119,8 @@ struct ShapeLoop {
     const Pack n = turn.sine, d = T(1) + turn.cosine;
     const Mask steep = n > d;
     const Pack low = steep ? d : n, high = steep ? n : d;
-    const Pack x = (low - HalfAngle::k * high) / (high + HalfAngle::k * low), y = x * x, y2 = y * y,
-               y4 = y2 * y2;
-    const auto& c = HalfAngle::c;
-    const Pack p01 = c[0] + c[1] * y, p23 = c[2] + c[3] * y, p45 = c[4] + c[5] * y, p67 = c[6] + c[7] * y,
-               p89 = c[8] + c[9] * y;
-    const Pack half = HalfAngle::eighth + x * ((p01 + y2 * p23) + y4 * ((p45 + y2 * p67) + y4 * p89));
+    Pack half;
+    half_angle_series((low - tangent_of_eighth * high) / (high + tangent_of_eighth * low), half);
     out = steep ? T(std::numbers::pi) - T(2) * half : T(2) * half;
   }
 
@@ -133,11 +129,10 @@ struct ShapeLoop {
     const Pack excess = T(2 * std::numbers::pi) / total - T(1);
     ring.turn[0] = {Pack{} + T(1), Pack{}};
     for (int j = 1; j < size; ++j) {
-      const Pack angle = excess * ring.angle[j], y = angle * angle;
-      done &= y <= T(small_turn_limit * small_turn_limit);
-      const Turn correction = {
-          T(1) - y * (T(1.0 / 2) - y * (T(1.0 / 24) - y * (T(1.0 / 720) - y * T(1.0 / 40320)))),
-          angle * (T(1) - y * (T(1.0 / 6) - y * (T(1.0 / 120) - y * (T(1.0 / 5040) - y * T(1.0 / 362880)))))};
+      const Pack angle = excess * ring.angle[j];
+      done &= angle * angle <= T(small_turn_limit * small_turn_limit);
+      Turn correction;
+      small_turn_series(angle, correction.cosine, correction.sine);
       Turn step;
       turned(ring.turn[j], correction, step);
       turned(ring.turn[j - 1], step, ring.turn[j]);
