@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, and soon there.
+"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, soon there, and without folds.
 
 What is not met is listed by name, and expected to fail: whatever mends it has to take it off the list.
 """
@@ -19,16 +19,22 @@ CONVERGED = 1e-3**0.5  # the decrement: its square, a share of the energy, is be
 STEPS, ITERATIONS = 10, 40
 
 SLOW = {  # damped steps, short ones: how many to convergence
-    "cages/odedstein-meshes__penguin_penguin_control_mesh": "11 steps",
-    "cages/opensubdiv-shapes__catmark_lefthanded": "18 steps",
-    "cages/opensubdiv-shapes__catmark_righthanded": "more than the 20 that it may take",
-    "creases/opensubdiv-shapes__catmark_bishop": "11 steps",
-    "creases/opensubdiv-shapes__catmark_car": "12 steps",
-    "creases/opensubdiv-shapes__catmark_car, creases": "13 steps",
-    "mechanical/trimesh__plate_holes": "11 steps",
+    "cages/opensubdiv-shapes__catmark_lefthanded": "12 steps",
+    "cages/opensubdiv-shapes__catmark_righthanded": "13 steps",
+    "creases/opensubdiv-shapes__catmark_bishop": "more than the 20 that it may take",
+    "creases/opensubdiv-shapes__catmark_car": "11 steps",
+    "creases/opensubdiv-shapes__catmark_car, creases": "12 steps",
 }
-ABOVE = {  # the thin plate
-    "cages/odedstein-meshes__penguin_penguin_control_mesh": "1522 to 1299; as the steps weigh it, 607 to 1140",
+FOLDED = {  # edges, before the cure and after it
+    "cages/odedstein-meshes__spot_spot_control_mesh": "50, 2 left",
+    "cages/opensubdiv-shapes__catmark_lefthanded": "125, 29 left",
+    "cages/opensubdiv-shapes__catmark_righthanded": "80, 25 left",
+    "cages/trimesh__mirror": "10, and every filling has several times the energy",
+    "creases/opensubdiv-shapes__catmark_bishop": "10, none of them cured, as the steps do not converge",
+    "creases/opensubdiv-shapes__catmark_car": "260, 28 left",
+    "creases/opensubdiv-shapes__catmark_car, creases": "226, 26 left",
+    "mechanical/trimesh__fandisk": "3, none of them cured",
+    "mechanical/trimesh__plate_holes": "24, 2 left",
 }
 GROWS = {  # from level 2 to 3
     "cages/geometry-central__bob_small": "iterations of the later steps double",
@@ -94,13 +100,13 @@ def test_finite_and_below_the_thin_plate(path, creased):
     found = run(path, creased)
     assert found["finite"] and found["kept"]
     finest = found["levels"][-1]
-    assert 0 <= finest["energy"] <= finest["plate_energy"]
-
-
-@pytest.mark.parametrize(("path", "creased"), cases(ABOVE))
-def test_measures_below_the_thin_plate(path, creased):
-    found = run(path, creased)
+    assert 0 <= finest["energy"] <= finest["plate_energy"]  # as the steps weigh it
     assert found["energy"] <= found["plate_energy"]
+
+
+@pytest.mark.parametrize(("path", "creased"), cases(FOLDED))
+def test_folds_only_where_the_control_mesh_does(path, creased):
+    assert run(path, creased)["levels"][-1]["folds"] == 0
 
 
 @pytest.mark.parametrize(("path", "creased"), cases(SLOW))
