@@ -126,6 +126,6 @@ SHAPES = {
     "bob": Shape(from_file("bob_small.ply"), 3, View(turn=150, elevation=25, stripes=5)),
     "cat_head": Shape(from_file("cat_head.obj"), 3, View(turn=20, stripes=5)),
     "hand": Shape(from_file("hand_lowres.obj"), 2, View(turn=0, stripes=5)),
-    "spot": Shape(from_file("spot_control_mesh.obj"), 4, View(turn=135, stripes=3)),
+    "spot": Shape(from_file("spot_control_mesh.obj"), 3, View(turn=135, stripes=3)),
     "fish": Shape(from_file("fish_control_mesh.obj"), 4, View(turn=-60, stripes=5)),
 }
