@@ -112,6 +112,8 @@ def entry(rival: rivals.Rival, points: np.ndarray, polygons: Any, levels: int, i
         return {"absent": str(why)}
     if not np.isfinite(surface[0]).all():
         return {"absent": "gives positions that are not finite"}
+    if surface[1].min() < 0 or surface[1].max() >= len(surface[0]):
+        return {"absent": "gives triangles of vertices that there are not"}
     return measured(points, surface, inscribed) | {"wall": times[0], "seconds": times[1]}
 
 
