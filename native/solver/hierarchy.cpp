@@ -20,9 +20,12 @@ constexpr std::size_t tiny_level = 1200;
 
 constexpr double settled_margin = 1.03;  // of a largest eigenvalue that is taken from the level below
 
+constexpr std::size_t hopeless_degree = 60;  // then a factor is cheaper, whatever it costs
+
 // The smoother's degree from which on factoring a level is cheaper than smoothing it.
 int degree_of_hard(std::size_t unknowns, std::size_t cheap, std::size_t price) {
-  return 8 + int(unknowns <= cheap ? unknowns / 5000 : price * unknowns / 1000);
+  const std::size_t dear = unknowns <= cheap ? unknowns / 5000 : price * unknowns / 1000;
+  return int(std::min<std::size_t>(8 + dear, hopeless_degree));
 }
 
 }  // namespace
