@@ -178,14 +178,13 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
     });
   };
   // All points of a run from point p of the lattice on; returns their energy.
-  const PackWants wants{true, wants_axis};
   const auto store_run = [&](Linearizer& l, const RunRings& rings, std::size_t p, auto&& weight,
                              const RowRun<float>& rows, const RowRun<float>& cotangents,
                              const Beside<double>& force) {
     double energy = 0;
     for (std::size_t i = 0; i < rows.count; i += pack_points) {
       const std::size_t count = std::min<std::size_t>(pack_points, rows.count - i);
-      fairing::linearize(rings, i, kind, wants, l.pack);
+      fairing::linearize(rings, i, kind, wants_axis, l.pack);
       energy += l.store_pack(count, weight, rows, i, force);
       for (std::size_t lane = 0; lane < count; ++lane) {
         if (l.pack.done[lane]) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "energy/shape_packs.h"
+#include "execution/scratch.h"
 
 namespace fairing {
 
@@ -22,11 +23,10 @@ inline void take_apart(std::size_t size, const double* interleaved, double* cons
     for (std::size_t a = 0; a < 3; ++a) to[a][i] = interleaved[3 * i + a];
 }
 
-// Room for so many points and for a pack that reads beyond the last one.
+// Room for so many numbers and for a pack that reads beyond the last one.
 template <class T>
-T* room(std::vector<T>& scratch, std::size_t size) {
-  if (scratch.size() < size + pack_points) scratch.resize(size + pack_points);
-  return scratch.data();
+T* room(std::vector<T>& buffer, std::size_t size) {
+  return room_in(buffer, size + pack_points);
 }
 
 }  // namespace runs

@@ -309,8 +309,8 @@ struct ShapeLoop {
     put(done, Pack{}, out.cotangent[0] + lane);
   }
 
-  DF_INLINE static void run(const RunRings* rings, std::size_t begin, CurvatureEnergy energy,
-                            const PackWants* wants, ShapePack* out) {
+  DF_INLINE static void run(const RunRings* rings, std::size_t begin, CurvatureEnergy energy, bool wants_axis,
+                            ShapePack* out) {
     for (int lane = 0; lane < pack_points; lane += P::size) {
       const std::size_t first = begin + std::size_t(lane);
       const int size = rings->size;
@@ -358,17 +358,17 @@ struct ShapeLoop {
       put(done, b, out->shape[2] + lane);
       put(done, area, out->area + lane);
       for (int l = 0; l < P::size; ++l) out->done[lane + l] = done[l] != 0;
-      if (wants->axis) find_axis(size, ring, normal, done, *out, lane);
-      if (wants->rows) put_rows(size, ring, fit, energy, trace, area, a, b, done, *out, lane);
+      if (wants_axis) find_axis(size, ring, normal, done, *out, lane);
+      put_rows(size, ring, fit, energy, trace, area, a, b, done, *out, lane);
     }
   }
 };
 
 }  // namespace
 
-void linearize(const RunRings& run, std::size_t first, CurvatureEnergy energy, const PackWants& wants,
+void linearize(const RunRings& run, std::size_t first, CurvatureEnergy energy, bool wants_axis,
                ShapePack& out) {
-  run_loop<ShapeLoop, double>(&run, first, energy, &wants, &out);
+  run_loop<ShapeLoop, double>(&run, first, energy, wants_axis, &out);
 }
 
 }  // namespace fairing

@@ -23,12 +23,6 @@ struct RunRings {
   const float* lift[most_slots] = {};  // null: none
 };
 
-// What is wanted besides M, normal and area.
-struct PackWants {
-  bool rows = false;  // and cotangents
-  bool axis = false;
-};
-
 // Lane l is the run's point first + l. Where `done` is zero, everything else is zero as well.
 struct ShapePack {
   double normal[3][pack_points], shape[3][pack_points], area[pack_points];
@@ -38,7 +32,8 @@ struct ShapePack {
   bool done[pack_points];
 };
 
-void linearize(const RunRings& run, std::size_t first, CurvatureEnergy energy, const PackWants& wants,
+// The axis only if it is wanted.
+void linearize(const RunRings& run, std::size_t first, CurvatureEnergy energy, bool wants_axis,
                ShapePack& out);
 
 }  // namespace fairing

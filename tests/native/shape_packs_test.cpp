@@ -54,7 +54,7 @@ std::size_t compare(const RunRings& rings, std::size_t count, CurvatureEnergy en
   RingInSpace ring;
   std::size_t compared = 0;
   for (std::size_t i = 0; i < count; i += pack_points) {
-    linearize(rings, i, energy, {true, true}, pack);
+    linearize(rings, i, energy, true, pack);
     for (std::size_t lane = 0; lane < pack_points && i + lane < count; ++lane) {
       if (!pack.done[lane]) continue;
       ring_at(rings, i + lane, ring);
@@ -105,7 +105,7 @@ TEST(ShapePacks, LeavePointsThatCoincideWithANeighbour) {
   visit_face_runs(lattice, 0, x.data(), nullptr, scratch, [&](int j, const RunRings& rings) {
     if (j != 2) return;
     ShapePack pack;
-    linearize(rings, 0, CurvatureEnergy::total_curvature, {true, true}, pack);
+    linearize(rings, 0, CurvatureEnergy::total_curvature, true, pack);
     EXPECT_FALSE(pack.done[1]);
     EXPECT_FALSE(pack.done[2]);
     EXPECT_TRUE(pack.done[0]);
