@@ -170,20 +170,23 @@ def box_with_creases():
     """A box of 24 quads whose twelve sides are creases (each of two edges)."""
     points, quads = cube()
     points, quads = refine_quads(points, quads)
-    edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
-    edges = np.unique(np.sort(edges, 1), axis=0)
+    edges, _ = edges_of(quads)
     middle = points[edges].mean(1)
     return (points, quads), edges[(np.abs(np.abs(middle) - 1) < 1e-12).sum(1) == 2]
 
 
+def edges_of(polygons):
+    """Polygons of one size: their edges, the lower vertex first, and for each of their sides the number of its edge."""
+    size = polygons.shape[1]
+    sides = np.concatenate([polygons[:, [k, (k + 1) % size]] for k in range(size)])
+    edges, number = np.unique(np.sort(sides, 1), axis=0, return_inverse=True)
+    return edges, number.reshape(size, -1).T
+
+
 def refine_quads(points, quads):
     """One linear refinement."""
-    edges, inverse = np.unique(
-        np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), 1),
-        axis=0,
-        return_inverse=True,
-    )
-    side = inverse.reshape(4, -1).T + len(points)
+    edges, side = edges_of(quads)
+    side = side + len(points)
     centre = len(points) + len(edges) + np.arange(len(quads))
     parts = [np.stack([quads[:, k], side[:, k], centre, side[:, k - 1]], -1) for k in range(4)]
     return np.concatenate([points, points[edges].mean(1), points[quads].mean(1)]), np.concatenate(parts)
@@ -261,12 +264,8 @@ def rough_ball(seed: int = 3, roughness: float = 0.5):
 
 def refine_triangles(points, triangles):
     """One linear refinement."""
-    edges, inverse = np.unique(
-        np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), 1),
-        axis=0,
-        return_inverse=True,
-    )
-    side = inverse.reshape(3, -1).T + len(points)
+    edges, side = edges_of(triangles)
+    side = side + len(points)
     parts = [np.stack([triangles[:, k], side[:, k], side[:, k - 1]], -1) for k in range(3)]
     return np.concatenate([points, points[edges].mean(1)]), np.concatenate([*parts, side])
 
