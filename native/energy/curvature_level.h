@@ -78,6 +78,7 @@ class CurvatureLevel final : public LevelOperator {
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override { apply_any(x, y, shared_.fine_exchange); }
   void apply(const float* x, float* y) override { apply_any(x, y, shared_.fast_exchange); }
+  bool does_with_single() const override { return lattice_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
 

@@ -2,7 +2,10 @@
 // The thin plate as the solver sees it: its operator on one level, and the transfer to the next coarser one.
 #pragma once
 
+#include <memory>
+
 #include "energy/assemble.h"
+#include "energy/plate_matrix.h"
 #include "energy/thin_plate.h"
 #include "solver/level_operator.h"
 #include "transfer/transfer.h"
@@ -34,11 +37,18 @@ struct ThinPlateShared {
 class ThinPlateLevel final : public LevelOperator {
  public:
   ThinPlateLevel(ThinPlateShared& shared, const Lattice& lattice) : shared_(shared), lattice_(lattice) {
+    if (PlateMatrix::suits(lattice, shared.stencils))
+      matrix_ = std::make_unique<PlateMatrix>(lattice, shared.fast_rows, shared.unknowns, shared.workers);
     update();
   }
 
   // Call after the weights have changed.
   void update() {
+    if (matrix_) {
+      matrix_->set_weights(shared_.weights);
+      inverse_diagonal_ = matrix_->inverse_diagonal();
+      return;
+    }
     inverse_diagonal_ = thin_plate_diagonal(lattice_, shared_.fine_rows, shared_.unknowns, shared_.weights,
                                             shared_.workers, shared_.fine_exchange);
     for (float& d : inverse_diagonal_) d = 1 / d;
@@ -51,9 +61,19 @@ class ThinPlateLevel final : public LevelOperator {
                      shared_.fine_exchange, x, y);
   }
   void apply(const float* x, float* y) override {
+    if (matrix_) return matrix_->apply(x, shared_.workers, y);
     apply_thin_plate(lattice_, shared_.fast_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.fast_exchange, x, y);
   }
+  void relax(const SmoothingStep& step, Workers& workers) override {
+    if (!matrix_) return LevelOperator::relax(step, workers);
+    matrix_->relax(step, inverse_diagonal_.data(), workers);
+  }
+  void subtract_image(const float* x, float* room, float* y, Workers& workers) override {
+    if (!matrix_) return LevelOperator::subtract_image(x, room, y, workers);
+    matrix_->subtract_image(x, workers, y);
+  }
+  bool does_with_single() const override { return lattice_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
     return assemble_thin_plate(lattice_, shared_.stencils, shared_.unknowns, shared_.weights);
@@ -62,6 +82,7 @@ class ThinPlateLevel final : public LevelOperator {
  private:
   ThinPlateShared& shared_;
   const Lattice& lattice_;
+  std::unique_ptr<PlateMatrix> matrix_;  // null: the passes serve
   Array<float> inverse_diagonal_;
 };
 

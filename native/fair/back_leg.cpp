@@ -32,7 +32,7 @@ void solve_back_leg(SurfaceSystem& system, std::span<const Vec3> targets, int sw
                     std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction) {
   for (int level = system.base(); level <= system.top(); ++level) {
-    system.start_level(level, targets, x);
+    system.start_level(level, targets, system.surface_below(level, x), x);
     if (level == system.top() && on_prediction) on_prediction(x.data());
     const ThinPlateShared& shared = system.shared();
     const AssembledSystem assembled =

@@ -121,7 +121,12 @@ double CurvatureSystem::solve_step(int level, StepReport& report, bool fresh) {
   limits.tolerance = inner_accuracy;
   limits.from_start = true;
   limits.max_iterations = options_.max_iterations;
-  const LevelSolve solved = hierarchy_.solve(index, limits, step_.data(), [](const PcgResult&) {});
+  const Residual residual = [&](const double* h, double* r) {
+    op(level).apply(h, r);
+    for_each_index(workers_, points, [&](std::size_t i) { r[i] = here_.force[i] - r[i]; });
+  };
+  const LevelSolve solved =
+      hierarchy_.solve(index, limits, residual, step_.data(), [](const PcgResult&) {});
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.direct = solved.direct;

@@ -109,12 +109,12 @@ double SurfaceSystem::energy(int level, const double* x) {
   return thin_plate_energy(lattice(level), shared_.fine_rows, workers_, x);
 }
 
-SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> targets) {
+SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> targets, double* x) {
   const std::size_t size = 3 * lattice(level).size();
-  Array<double>&x = hierarchy_.state().direction, &r = hierarchy_.state().image;
-  refine_linearly(lattice(level), targets, x.data());
-  set_fixed(level, targets, x.data());
-  residual(level, targets, x.data(), r.data());
+  Array<double>& r = hierarchy_.state().residual;
+  refine_linearly(lattice(level), targets, x);
+  set_fixed(level, targets, x);
+  residual(level, targets, x, r.data());
   const Array<float>& inverse = operators_[std::size_t(level - base_)]->inverse_diagonal();
   const double terms = std::sqrt(sum(workers_, size, [&](std::size_t i) {
     const double t = x[i] / double(inverse[i / 3]);
@@ -126,21 +126,21 @@ SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> tar
 }
 
 LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets, double tolerance,
-                                       const Scales& scale, double* x) {
+                                       const Scales& scale, double energy_scale, double* x) {
   residual(level, targets, x, hierarchy_.state().residual.data());
   PcgLimits limits;
   limits.tolerance = tolerance;
   limits.residual_scale = scale.residual;
   limits.noise = scale.noise;
-  limits.energy_scale = std::sqrt(energy(level, x));
+  limits.energy_scale = std::sqrt(energy_scale);
   limits.max_iterations = options_.max_iterations;
   LevelReport report;
   report.level = level;
   report.points = lattice(level).size();
   report.unknowns = count_unknowns(lattice(level), shared_.unknowns);
-  static_cast<LevelSolve&>(report) =
-      hierarchy_.solve(std::size_t(level - base_), limits, x,
-                       [&](const PcgResult& so_far) { report_progress(level, so_far, tolerance); });
+  static_cast<LevelSolve&>(report) = hierarchy_.solve(
+      std::size_t(level - base_), limits, [&](const double* y, double* r) { residual(level, targets, y, r); },
+      x, [&](const PcgResult& so_far) { report_progress(level, so_far, tolerance); });
   return report;
 }
 
@@ -155,15 +155,18 @@ void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double t
   monitor_.report(Phase::solve, solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
 }
 
-void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, Array<double>& x) {
-  if (level == base_) {
-    x.resize(3 * lattice(top()).size());
+Array<double> SurfaceSystem::surface_below(int level, Array<double>& x) const {
+  x.resize(3 * lattice(top()).size());
+  return {x.begin(), x.begin() + std::ptrdiff_t(level > base_ ? 3 * lattice(level - 1).size() : 0)};
+}
+
+void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, const Array<double>& below,
+                                Array<double>& x) {
+  if (level == base_)
     refine_linearly(lattice(level), targets, x.data());
-  } else {
-    const Array<double> coarse(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(level - 1).size()));
+  else
     prolong(lattice(level - 1), lattice(level), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
-            coarse.data(), x.data());
-  }
+            below.data(), x.data());
   set_fixed(level, targets, x.data());
 }
 
@@ -171,18 +174,21 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
                                  std::vector<LevelReport>& reports,
                                  const std::function<void(const double*)>& on_prediction,
                                  const std::function<void(int, Array<double>&)>& on_level) {
+  double energy_below = 0;  // energies hardly change from level to level
   for (int l = base_; l <= top(); ++l) {
     monitor_.report(Phase::solve, solve_begin * std::pow(0.25, top() - l));
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
-    // Scales first: they borrow the vectors of the iteration.
-    const Scales scale = scales(l, targets);
-    start_level(l, targets, x);
+    const Array<double> below = surface_below(l, x);
+    const Scales scale = scales(l, targets, x.data());
+    start_level(l, targets, below, x);
     if (l == top() && on_prediction) on_prediction(x.data());
     const auto tolerance = [&](int level) {
       return level >= top() ? options_.relative_residual
                             : std::max(coarse_tolerance, options_.relative_residual);
     };
-    reports.push_back(solve_level(l, targets, tolerance(l), scale, x.data()));
+    if (l == base_) energy_below = energy(l, x.data());
+    reports.push_back(solve_level(l, targets, tolerance(l), scale, energy_below, x.data()));
+    if (l < top()) energy_below = energy(l, x.data());
     if (l < top()) hierarchy_.choose_degree(reports.back(), tolerance(l), tolerance(l + 1));
     on_level(l, x);
   }
@@ -190,9 +196,10 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
 
 LevelReport SurfaceSystem::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,
                                        double tolerance) {
-  const Scales scale = scales(level, targets);
+  Array<double> polyhedron(3 * lattice(level).size());
+  const Scales scale = scales(level, targets, polyhedron.data());
   set_fixed(level, targets, x.data());
-  return solve_level(level, targets, tolerance, scale, x.data());
+  return solve_level(level, targets, tolerance, scale, energy(level, x.data()), x.data());
 }
 
 }  // namespace fairing

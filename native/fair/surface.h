@@ -43,8 +43,10 @@ class SurfaceSystem {
                     const std::function<void(const double*)>& on_prediction,
                     const std::function<void(int, Array<double>&)>& on_level);
 
-  // x <- the start of a level: the control polyhedron on the coarsest, the prolongated x of the level below on others.
-  void start_level(int level, std::span<const Vec3> targets, Array<double>& x);
+  // What x holds of the level below, where there is one; x gets room for the finest level.
+  Array<double> surface_below(int level, Array<double>& x) const;
+  // x <- the start of a level: the control polyhedron on the coarsest, the prolongated surface below on others.
+  void start_level(int level, std::span<const Vec3> targets, const Array<double>& below, Array<double>& x);
 
   // A level again, from x as it is.
   LevelReport solve_again(int level, std::span<const Vec3> targets, Array<double>& x, double tolerance);
@@ -62,16 +64,18 @@ class SurfaceSystem {
 
   // The norm of the control polyhedron's residual on a level: what residuals are relative to.
   double reference_residual(int level, std::span<const Vec3> targets) {
-    return scales(level, targets).residual;
+    Array<double> polyhedron(3 * lattice(level).size());
+    return scales(level, targets, polyhedron.data()).residual;
   }
 
  private:
   struct Scales {
     double residual, noise;
   };
-  Scales scales(int level, std::span<const Vec3> targets);
+  // x: room for a surface.
+  Scales scales(int level, std::span<const Vec3> targets, double* x);
   LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
-                          double* x);
+                          double energy_scale, double* x);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
 
   const ControlMesh& mesh_;

@@ -60,7 +60,7 @@ void CoarseSolver::solve(const double* b, double* x) const {
 void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& state) {
   if (!factor_) {
     // as much as on any other level: more gains no iteration, and small faces are dear
-    smooth(op_, workers_, largest_eigenvalue, degree, true, false, state);
+    smooth(op_, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
     return;
   }
   const std::size_t size = op_.size();

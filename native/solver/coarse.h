@@ -18,6 +18,7 @@ class CoarseSolver {
   // Call after the operator has changed.
   void refactor();
 
+  std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.

@@ -51,8 +51,7 @@ void Hierarchy::complete() {
                                            options_.always_factor);
   cycle_.coarse = coarse_.get();
   cycle_.base = end;
-  for (Array<double>* a : {&pcg_.residual, &pcg_.direction, &pcg_.image})
-    a->resize(cycle_.levels.back().op->size());
+  pcg_.residual.resize(cycle_.levels.back().op->size());
 }
 
 void Hierarchy::refresh(std::size_t top, bool spectrum) {
@@ -61,16 +60,16 @@ void Hierarchy::refresh(std::size_t top, bool spectrum) {
     for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
 }
 
-LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* x,
+LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
                             const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
     const CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
-    solve_direct(solver, index, limits, x, out);
+    solve_direct(solver, limits, residual, x, out);
     return out;
   }
   if (index == cycle_.base && coarse_->direct()) {
-    solve_direct(*coarse_, index, limits, x, out);
+    solve_direct(*coarse_, limits, residual, x, out);
     if (out.converged) return out;
   }
   estimate_eigenvalues(index);
@@ -81,7 +80,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
            cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
   };
   PcgResult result =
-      conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [&](const PcgResult& so_far) {
+      conjugate_gradients(cycle_, index, workers_, limits, residual, pcg_, x, [&](const PcgResult& so_far) {
         each(so_far);
         if (adapt && so_far.iterations % probe_interval == first_probe)
           raise_degree(so_far, limits.tolerance);
@@ -91,10 +90,10 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
   out.residuals = result.history;
   if (!result.converged && too_hard()) {
     promote_to_coarsest(index);
-    solve_direct(*coarse_, index, limits, x, out);
+    solve_direct(*coarse_, limits, residual, x, out);
     if (out.converged) return out;
-    result =
-        conjugate_gradients(cycle_, index, workers_, limits, pcg_, x, [](const PcgResult&) { return true; });
+    result = conjugate_gradients(cycle_, index, workers_, limits, residual, pcg_, x,
+                                 [](const PcgResult&) { return true; });
     out.iterations += result.iterations;
   }
   out.smoother_degree = cycle_.degree;
@@ -105,21 +104,19 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, double* 
   return out;
 }
 
-void Hierarchy::solve_direct(const CoarseSolver& solver, std::size_t index, const PcgLimits& limits,
+void Hierarchy::solve_direct(const CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
                              double* x, LevelSolve& out) {
-  LevelOperator& op = *cycle_.levels[index].op;
+  const std::size_t size = solver.size();
+  Array<double>& r = pcg_.residual;
+  Array<double> step(size);
   out.direct = true;
   out.smoother_degree = 0;
-  const double scale =
-      limits.from_start ? norm(workers_, op.size(), pcg_.residual.data()) : limits.residual_scale;
-  for (int step = 0; step < refinement_steps && !out.converged; ++step) {
-    solver.solve(pcg_.residual.data(), pcg_.direction.data());
-    op.apply(pcg_.direction.data(), pcg_.image.data());
-    for_each_index(workers_, op.size(), [&](std::size_t i) {
-      x[i] += pcg_.direction[i];
-      pcg_.residual[i] -= pcg_.image[i];
-    });
-    const double now = norm(workers_, op.size(), pcg_.residual.data());
+  const double scale = limits.from_start ? norm(workers_, size, r.data()) : limits.residual_scale;
+  for (int k = 0; k < refinement_steps && !out.converged; ++k) {
+    solver.solve(r.data(), step.data());
+    for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
+    residual(x, r.data());
+    const double now = norm(workers_, size, r.data());
     out.residual = scale > 0 ? now / scale : 0;
     out.converged = out.residual <= limits.tolerance || now <= limits.noise;
   }

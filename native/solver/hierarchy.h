@@ -51,8 +51,9 @@ class Hierarchy {
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the largest eigenvalues have.
   void refresh(std::size_t top, bool spectrum);
 
-  // x += K^-1 state().residual on a level, to the limits given. `each` is called after every iteration.
-  LevelSolve solve(std::size_t index, const PcgLimits& limits, double* x,
+  // Solves K x = b on a level, to the limits given; state().residual is b - K x at the start. `each` is called after every
+  // iteration.
+  LevelSolve solve(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
                    const std::function<void(const PcgResult&)>& each);
 
   // Before a level's first solve: from how the last one went, and how far both are to be solved.
@@ -60,7 +61,7 @@ class Hierarchy {
 
  private:
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
-  void solve_direct(const CoarseSolver& solver, std::size_t index, const PcgLimits& limits, double* x,
+  void solve_direct(const CoarseSolver& solver, const PcgLimits& limits, const Residual& residual, double* x,
                     LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
   void promote_to_coarsest(std::size_t index);

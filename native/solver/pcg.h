@@ -28,15 +28,24 @@ struct PcgResult {
   std::vector<double> history;  // relative residual, the start's first
 };
 
+// The linear system of a level: r = b - K x, in double.
+using Residual = std::function<void(const double* x, double* r)>;
+
 // Work vectors of the conjugate gradients, kept between levels.
 struct PcgState {
-  Array<double> residual, direction, image;
+  Array<double> residual;
+  Array<double> direction, image;                             // of iterations in double
+  Array<float> rest, fast_direction, fast_image, correction;  // of those in single precision
 };
 
-// Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates turn with the mesh). The flexible beta allows for a preconditioner of single precision, and for one that changes on the way: `each`
+// Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates turn with the mesh).
+// Where single precision does for the level they run in it, on a residual that is computed anew in double, from x, each
+// time it has become a hundred times smaller [residual replacement: van der Vorst and Ye 2000]; so the limits hold in
+// double. The flexible beta allows for a preconditioner of single precision, and for one that changes on the way: `each`
 // may raise cycle.degree after an iteration; it returns false to stop. On entry state.residual is b - K x; x is updated
 // in place.
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
-                              PcgState& state, double* x, const std::function<bool(const PcgResult&)>& each);
+                              const Residual& residual, PcgState& state, double* x,
+                              const std::function<bool(const PcgResult&)>& each);
 
 }  // namespace fairing

@@ -22,7 +22,7 @@ double largest_eigenvalue(LevelOperator& op, Workers& workers, const float* star
   });
   const auto root = [&](std::size_t i) { return double(roots[i]); };
   // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.
-  Array<float> v(size), before(size), scaled(size), image(size);
+  Array<float> v(size), before(size), scaled(size + vector_room), image(size);
   const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
     const double s = double(start[i]) * root(i);
     return s * s;
