@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lattice/ring.h"
+#include "rows/builder.h"
 #include "solver/chebyshev.h"
 
 namespace fairing {
@@ -40,9 +41,7 @@ PlateMatrix::PlateMatrix(const Lattice& lattice, const ThinPlateRows<float>& row
   cut_into_runs(unknowns);
   write_rows(PlateRings(lattice, rows.stencils, unknowns, deep, workers), workers);
   write_stencils(rows);
-  for (const RowChunk& chunk : chunk_)
-    bytes_ += chunk.runs.capacity() * sizeof(ChunkRun) +
-              (chunk.row_end.capacity() + chunk.column.capacity() + chunk.number.capacity()) * sizeof(float);
+  for (const RowChunk& chunk : chunk_) bytes_ += chunk.bytes();
   MemoryLedger::add(bytes_);
 }
 
@@ -91,65 +90,29 @@ void PlateMatrix::cut_into_runs(const Unknowns& unknowns) {
 
 namespace {
 
-// Sums the rows of K one after another from the rings that hold their points.
-class RowSums {
- public:
-  RowSums(const PlateRings& rings, std::size_t points)
-      : rings_(rings), seen_(static_cast<std::uint32_t*>(std::calloc(points, sizeof(std::uint32_t)))) {
-    if (!seen_) throw std::bad_alloc();
+// Row p of K, from the rings that hold the point: they are those about its own ring's members.
+void write_row(const PlateRings& plate, Index p, RowBuilder& row, RowChunk& chunk) {
+  const WrittenRings& rings = plate.rings();
+  row.add(p, 0);  // the diagonal comes first
+  const WrittenRings::Ring& own = *rings.about(p);
+  for (std::size_t k = 0; k < own.size; ++k) {
+    const WrittenRings::Ring* ring = plate.fit_about(WrittenRings::id_of(rings.members(own)[k]));
+    const std::size_t slot = ring ? rings.slot(*ring, p) : 0;
+    if (!ring || slot == ring->size) continue;
+    const WrittenRings::Member* members = rings.members(*ring);
+    const double* numbers = plate.row(*ring, slot);
+    const double weight = plate.weight(*ring);
+    for (std::size_t m = 0; m < ring->size; ++m)
+      if (members[m] >= 0) row.add(members[m], weight * numbers[m]);
   }
-
-  void append(Index p, RowChunk& chunk) {
-    sum_.clear();
-    place_of(p, chunk);
-    const PlateRings::Ring* own = rings_.about(p);
-    for (std::size_t k = 0; k < own->size; ++k)
-      if (const PlateRings::Ring* ring = rings_.about(PlateRings::id_of(rings_.members(*own)[k])))
-        add(p, *ring, chunk);
-    for (const double sum : sum_) chunk.number.push_back(float(sum));
-    start_ += std::uint32_t(sum_.size());
-    for (; chunk.number.size() % row_block != 0; chunk.number.push_back(0))
-      chunk.column.push_back(3 * std::uint32_t(p));
-    chunk.row_end.push_back(std::uint32_t(chunk.column.size()));
-  }
-
- private:
-  struct Free {
-    void operator()(void* p) const { std::free(p); }
-  };
-
-  void add(Index p, const PlateRings::Ring& ring, RowChunk& chunk) {
-    const PlateRings::Member* members = rings_.members(ring);
-    std::size_t slot = 0;
-    while (slot < ring.size && members[slot] != p) ++slot;
-    if (slot == ring.size) return;
-    const double* row = rings_.row(ring, slot);
-    for (std::size_t m = 0; m < ring.size; ++m)
-      if (members[m] >= 0) sum_[place_of(members[m], chunk)] += double(ring.weight) * row[m];
-  }
-
-  // Of a column in the row; `seen_` is 1 + the place among all columns so far.
-  std::size_t place_of(Index q, RowChunk& chunk) {
-    std::uint32_t& seen = seen_.get()[q];
-    if (seen <= start_) {
-      chunk.column.push_back(3 * std::uint32_t(q));
-      sum_.push_back(0);
-      seen = start_ + std::uint32_t(sum_.size());
-    }
-    return seen - start_ - 1;
-  }
-
-  const PlateRings& rings_;
-  std::unique_ptr<std::uint32_t, Free> seen_;  // pages that no row touches are never made
-  std::uint32_t start_ = 0;
-  std::vector<double> sum_;
-};
+  row.finish(chunk);
+}
 
 }  // namespace
 
 void PlateMatrix::write_rows(const PlateRings& rings, Workers& workers) {
   workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
-    RowSums rows(rings, lattice_.size());
+    RowBuilder row(lattice_.size());
     for (std::size_t c = begin; c < end; ++c) {
       RowChunk& chunk = chunk_[c];
       std::size_t written = 0;
@@ -161,7 +124,7 @@ void PlateMatrix::write_rows(const PlateRings& rings, Workers& workers) {
       auto p = Index(c * chunk_points);
       for (const ChunkRun& run : chunk.runs) {
         if (run.kind == ChunkRun::written)
-          for (Index i = 0; i < run.count; ++i) rows.append(p + i, chunk);
+          for (Index i = 0; i < run.count; ++i) write_row(rings, p + i, row, chunk);
         p += run.count;
       }
     }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "energy/plate_rings.h"
-#include "energy/row_chunk.h"
+#include "rows/chunk.h"
 #include "solver/level_operator.h"
 
 namespace fairing {

@@ -9,6 +9,7 @@
 #include "energy/thin_plate.h"
 #include "solver/level_operator.h"
 #include "transfer/transfer.h"
+#include "transfer/written_transfer.h"
 
 namespace fairing {
 
@@ -89,19 +90,28 @@ class ThinPlateLevel final : public LevelOperator {
 class ThinPlateTransfer final : public LevelTransfer {
  public:
   ThinPlateTransfer(ThinPlateShared& shared, const Lattice& coarse, const Lattice& fine)
-      : shared_(shared), coarse_(coarse), fine_(fine) {}
+      : shared_(shared), coarse_(coarse), fine_(fine) {
+    if (WrittenTransfer::suits(fine))
+      written_ =
+          std::make_unique<WrittenTransfer>(coarse, fine, shared.stencils, shared.unknowns, shared.workers);
+  }
   void prolong(const float* x, float* y) override {
+    if (written_) return written_->prolong<3>(x, shared_.workers, y);
     fairing::prolong(coarse_, fine_, shared_.stencils, &shared_.unknowns, shared_.workers,
                      shared_.fast_exchange, x, y);
   }
   void restrict_to(const float* x, float* y) override {
+    if (written_) return written_->restrict_to<3>(x, shared_.workers, y);
     fairing::restrict_to(coarse_, fine_, shared_.stencils, shared_.unknowns, shared_.workers,
                          shared_.fast_exchange, x, y);
   }
+  // Null where the passes serve.
+  const WrittenTransfer* written() const { return written_.get(); }
 
  private:
   ThinPlateShared& shared_;
   const Lattice &coarse_, &fine_;
+  std::unique_ptr<WrittenTransfer> written_;
 };
 
 }  // namespace fairing

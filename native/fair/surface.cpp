@@ -35,7 +35,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const FairOptions& 
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.settled = unknowns.any_vertex ? 4 : 3;  // edges in eight pieces below
+  out.settled = unknowns.any_vertex ? 3 : 2;  // edges in four pieces below
   return out;
 }
 

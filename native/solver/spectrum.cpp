@@ -8,7 +8,7 @@
 
 namespace fairing {
 namespace {
-constexpr int steps = 16;
+constexpr int steps = 10;
 constexpr double margin = 1.1;  // Lanczos comes from below
 }  // namespace
 

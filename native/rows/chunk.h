@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of points, the rows of K there, and K x on them. Every number sees the same operations in the same order
+// A block of points, the rows of a sparse matrix there, and what they make of a vector. Every number sees the same operations in the same order
 // whatever the width of packs.
 #pragma once
 
@@ -21,8 +21,13 @@ struct ChunkRun {
 struct RowChunk {
   std::vector<ChunkRun> runs;
   std::vector<std::uint32_t> row_end;  // of the written rows, one after another
-  std::vector<std::uint32_t> column;   // 3 times the point; a row's own comes first
+  std::vector<std::uint32_t> column;   // points
   std::vector<float> number;           // rows are filled up with zeros to whole blocks
+
+  std::size_t bytes() const {
+    return runs.capacity() * sizeof(ChunkRun) +
+           (row_end.capacity() + column.capacity() + number.capacity()) * sizeof(float);
+  }
 };
 constexpr std::size_t chunk_points = 256;
 constexpr std::uint32_t row_block = 4;
@@ -42,11 +47,38 @@ constexpr StencilPlaces triangle_places{
 constexpr StencilPlaces quad_places{
     12, {{1, 0}, {2, 0}, {-2, 1}, {-1, 1}, {0, 1}, {1, 1}, {2, 1}, {-2, 2}, {-1, 2}, {0, 2}, {1, 2}, {2, 2}}};
 
+// A written row's sum, with C numbers a point; of three, a fourth is written that is nobody's.
+template <int C>
+struct WrittenRow {
+  DF_INLINE static void run(const std::uint32_t* column, const float* number, std::uint32_t k,
+                            std::uint32_t end, const float* x, float* image) {
+    using Four = Packs<float, 16>;
+    typename Four::Pack sum[row_block] = {}, p;
+    for (; k < end; k += row_block)
+#pragma GCC unroll 4
+      for (std::uint32_t m = 0; m < row_block; ++m) {
+        Four::load(x + 3 * std::size_t(column[k + m]), p);
+        sum[m] += number[k + m] * p;
+      }
+    Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), image);
+  }
+};
+template <>
+struct WrittenRow<1> {
+  DF_INLINE static void run(const std::uint32_t* column, const float* number, std::uint32_t k,
+                            std::uint32_t end, const float* x, float* image) {
+    float sum[row_block] = {};
+    for (; k < end; k += row_block)
+#pragma GCC unroll 4
+      for (std::uint32_t m = 0; m < row_block; ++m) sum[m] += number[k + m] * x[column[k + m]];
+    *image = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+};
+
 // Writes K x on a chunk's points, and up to a pack beyond.
 template <int Bytes>
 struct ChunkImage {
   using P = Packs<float, Bytes>;
-  using Four = Packs<float, 16>;
 
   DF_INLINE static void run(const RowChunk& chunk, const FaceStencil* stencils, int n, std::size_t point,
                             const float* x, float* image) {
@@ -61,7 +93,7 @@ struct ChunkImage {
           break;
         case ChunkRun::written:
           for (Index i = 0; i < run.count; ++i) {
-            written_row(column, number, k, *row_end, x, image + 3 * i);
+            WrittenRow<3>::run(column, number, k, *row_end, x, image + 3 * i);
             k = *row_end++;
           }
           break;
@@ -74,19 +106,6 @@ struct ChunkImage {
   }
 
  private:
-  // Four numbers at a time, of which the last is nobody's.
-  DF_INLINE static void written_row(const std::uint32_t* column, const float* number, std::uint32_t k,
-                                    std::uint32_t end, const float* x, float* image) {
-    typename Four::Pack sum[row_block] = {}, p;
-    for (; k < end; k += row_block)
-#pragma GCC unroll 4
-      for (std::uint32_t m = 0; m < row_block; ++m) {
-        Four::load(x + column[k + m], p);
-        sum[m] += number[k + m] * p;
-      }
-    Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), image);
-  }
-
   template <bool is_quad>
   DF_INLINE static void row(const FaceStencil& stencil, int n, const ChunkRun& run, const float* x,
                             float* image) {

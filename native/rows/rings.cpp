@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rows/rings.h"
+
+#include "lattice/ring.h"
+
+namespace fairing {
+namespace {
+
+std::size_t ring_length(const ControlMesh& mesh, Index v) {
+  std::size_t length = 0;
+  for (const Spoke& spoke : mesh.ring(v))
+    length += spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad() ? 2 : 1;
+  return length;
+}
+
+// So many points inside a face are at most `steps` from a side.
+std::size_t count_near(bool quad, int n, int steps) {
+  const std::int64_t inner = n - (quad ? 2 : 3) * std::int64_t(steps);
+  return std::size_t(interior_size(quad, n) - (inner > 1 ? interior_size(quad, inner) : 0));
+}
+
+}  // namespace
+
+WrittenRings::WrittenRings(const Lattice& lattice, const Unknowns& unknowns,
+                           const std::function<int(Index)>& steps, Workers& workers)
+    : lattice_(lattice),
+      first_in_faces_(std::size_t(lattice.mesh().vertex_count()) +
+                      lattice.mesh().edges.size() * std::size_t(lattice.n() - 1)) {
+  code_points(unknowns);
+  write_vertices();
+  write_edges(workers);
+  write_faces(steps, workers);
+}
+
+std::vector<std::uint8_t> unknown_points(const Lattice& lattice, const Unknowns& unknowns) {
+  const ControlMesh& mesh = lattice.mesh();
+  std::vector<std::uint8_t> out(lattice.size());
+  auto to = out.begin();
+  const auto put = [&](std::int64_t count, bool unknown) {
+    to = std::fill_n(to, count, std::uint8_t(unknown));
+  };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) put(1, unknowns.vertex[std::size_t(v)]);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) put(lattice.n() - 1, unknowns.edge[e]);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    put(interior_size(mesh.faces[f].quad(), lattice.n()), unknowns.has_face(f));
+  return out;
+}
+
+void WrittenRings::code_points(const Unknowns& unknowns) {
+  const std::vector<std::uint8_t> unknown = unknown_points(lattice_, unknowns);
+  coded_.resize(unknown.size());
+  for (std::size_t p = 0; p < unknown.size(); ++p) coded_[p] = unknown[p] ? Index(p) : ~Index(p);
+}
+
+void WrittenRings::write_vertices() {
+  const ControlMesh& mesh = lattice_.mesh();
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    ring_.push_back({member_.size(), std::uint32_t(ring_length(mesh, v) + 1), v});
+    member_.push_back(coded_[std::size_t(v)]);
+    visit_ring(lattice_, v, [&](Index point, std::size_t) { member_.push_back(coded_[std::size_t(point)]); });
+  }
+}
+
+void WrittenRings::write_edges(Workers& workers) {
+  const ControlMesh& mesh = lattice_.mesh();
+  const int n = lattice_.n();
+  if (n == 1) return;
+  const std::size_t first_ring = ring_.size();
+  std::size_t members = member_.size();
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto size = std::uint32_t(EdgeRingLanes(mesh, Index(e)).size + 1);
+    for (int k = 1; k < n; ++k, members += size)
+      ring_.push_back({members, size, mesh.vertex_count() + Index(e)});
+  }
+  member_.resize(members);
+  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
+                    [&](std::size_t begin, std::size_t end) {
+                      std::vector<Member> scratch;
+                      for (std::size_t e = begin; e < end; ++e) {
+                        const EdgeRingLanes ring(mesh, Index(e));
+                        const EdgeLanes<Member, 1> lanes(lattice_, coded_.data(), Index(e), scratch);
+                        Member* to = member_.data() + ring_[first_ring + e * std::size_t(n - 1)].member;
+                        for (int k = 1; k < n; ++k) {
+                          *to++ = lanes.lane[0][k];
+                          for (int j = 0; j < ring.size; ++j)
+                            *to++ = lanes.lane[ring.lane[j]][ring.at[j] + k];
+                        }
+                      }
+                    });
+}
+
+void WrittenRings::write_faces(const std::function<int(Index)>& steps, Workers& workers) {
+  const ControlMesh& mesh = lattice_.mesh();
+  const int n = lattice_.n();
+  struct First {
+    std::size_t ring, member;
+  };
+  std::vector<First> first;
+  First next{ring_.size(), member_.size()};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    first.push_back(next);
+    const bool quad = mesh.faces[f].quad();
+    const std::size_t rings = count_near(quad, n, steps(Index(f)));
+    next.ring += rings;
+    next.member += rings * (face_ring(quad).size() + 1);
+  }
+  ring_.resize(next.ring);
+  member_.resize(next.member);
+  ring_of_.resize(lattice_.size() - first_in_faces_);
+  const Index first_face = mesh.vertex_count() + Index(mesh.edges.size());
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    std::vector<Member> closed(closed_size(true, std::size_t(n)));
+    for (std::size_t f = begin; f < end; ++f) {
+      const bool quad = mesh.faces[f].quad();
+      const int near = steps(Index(f));
+      const std::span<const LatticePoint> neighbours = face_ring(quad);
+      Index* ring_of = ring_of_.data() + (std::size_t(lattice_.face_base(Index(f))) - first_in_faces_);
+      gather_face<1>(lattice_, coded_.data(), Index(f), closed.data());
+      const auto at = [&](int i, int j) {
+        return closed[closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i)];
+      };
+      First put = first[f];
+      for (int j = 1; j < n; ++j)
+        for (int i = 1; i < (quad ? n : n - j); ++i) {
+          const bool written = steps_to_side(quad, n, i, j) <= near;
+          *ring_of++ = written ? Index(put.ring) : Index(-1);
+          if (!written) continue;
+          ring_[put.ring++] = {put.member, std::uint32_t(neighbours.size() + 1), first_face + Index(f)};
+          member_[put.member++] = at(i, j);
+          for (const LatticePoint d : neighbours) member_[put.member++] = at(i + d.i, j + d.j);
+        }
+    }
+  });
+}
+
+}  // namespace fairing

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prolongation by local quadratics and its transpose as rows, for levels of few points, where passes over faces and edges
+// cost more than an index a number.
+#pragma once
+
+#include "difference/stencils.h"
+#include "rows/matrix.h"
+#include "rows/rings.h"
+
+namespace fairing {
+
+class WrittenTransfer {
+ public:
+  static bool suits(const Lattice& fine);
+
+  WrittenTransfer(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
+                  const Unknowns& unknowns, Workers& workers);
+
+  // As prolong() and restrict_to() do on unknowns, with C numbers a point; the vector that is read has `vector_room` more.
+  template <int C>
+  void prolong(const float* coarse, Workers& workers, float* fine) const {
+    prolongation_.apply<C>(coarse, workers, fine);
+  }
+  template <int C>
+  void restrict_to(const float* fine, Workers& workers, float* coarse) const {
+    restriction_.apply<C>(fine, workers, coarse);
+  }
+
+ private:
+  WrittenMatrix prolongation_, restriction_;
+};
+
+}  // namespace fairing
