@@ -23,12 +23,9 @@ void put_gram(std::span<const Column> neighbours, double scale, double* gram) {
 
 }  // namespace
 
-PlateRings::PlateRings(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns, int steps,
+PlateRings::PlateRings(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns,
                        Workers& workers)
-    : lattice_(lattice),
-      joint_(lattice),
-      rings_(
-          lattice, unknowns, [&](Index f) { return joint_.weighs_face(f) ? lattice.n() : steps; }, workers) {
+    : lattice_(lattice), joint_(lattice), rings_(lattice, unknowns, workers) {
   write_grams(stencils);
   if (!lattice.mesh().region.whole()) write_weights();
 }
@@ -72,10 +69,8 @@ void PlateRings::write_grams(const Stencils& s) {
 void PlateRings::write_weights() {
   const ControlMesh& mesh = lattice_.mesh();
   const int n = lattice_.n();
-  weight_.assign(rings_.count(), 1.0);
-  const auto put = [&](Index p, double weight) {
-    if (const WrittenRings::Ring* ring = rings_.about(p)) weight_[rings_.number(*ring)] = weight;
-  };
+  weight_.assign(lattice_.size(), 1.0);
+  const auto put = [&](Index p, double weight) { weight_[std::size_t(p)] = weight; };
   for (Index v = 0; v < mesh.vertex_count(); ++v) put(v, joint_.vertex(v));
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
     for (int k = 1; k < n && joint_.weighs_edge(e); ++k)

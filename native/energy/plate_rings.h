@@ -10,24 +10,19 @@ namespace fairing {
 
 class PlateRings {
  public:
-  // Of the points inside faces those at most so many steps from a side, and all in faces whose points are weighted one
-  // by one.
-  PlateRings(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns, int steps,
-             Workers& workers);
+  PlateRings(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns, Workers& workers);
 
   const WrittenRings& rings() const { return rings_; }
-  // The ring that carries a fit about a point; null: none.
+  // The ring about a point that carries a fit; null: it does not.
   const WrittenRings::Ring* fit_about(Index p) const {
-    const WrittenRings::Ring* ring = rings_.about(p);
-    return ring && gram_begin_[std::size_t(ring->element)] != none ? ring : nullptr;
+    const WrittenRings::Ring& ring = rings_.about(p);
+    return gram_begin_[std::size_t(ring.element)] != none ? &ring : nullptr;
   }
   // Row s of J^T J: what a unit at member s does to half the energy's gradient at all members, but for the weight.
   const double* row(const WrittenRings::Ring& ring, std::size_t s) const {
     return gram_.data() + gram_begin_[std::size_t(ring.element)] + s * ring.size;
   }
-  double weight(const WrittenRings::Ring& ring) const {
-    return weight_.empty() ? 1.0 : weight_[rings_.number(ring)];
-  }
+  double weight(Index p) const { return weight_.empty() ? 1.0 : weight_[std::size_t(p)]; }
 
  private:
   static constexpr std::size_t none = std::size_t(-1);
@@ -39,7 +34,7 @@ class PlateRings {
   WrittenRings rings_;
   std::vector<std::size_t> gram_begin_;  // per element
   Array<double> gram_;
-  Array<double> weight_;  // per ring; empty: all are one
+  Array<double> weight_;  // per point; empty: all are one
 };
 
 }  // namespace fairing

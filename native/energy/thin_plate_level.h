@@ -7,6 +7,7 @@
 #include "energy/assemble.h"
 #include "energy/plate_matrix.h"
 #include "energy/thin_plate.h"
+#include "solver/chebyshev.h"
 #include "solver/level_operator.h"
 #include "transfer/transfer.h"
 #include "transfer/written_transfer.h"
@@ -39,7 +40,7 @@ class ThinPlateLevel final : public LevelOperator {
  public:
   ThinPlateLevel(ThinPlateShared& shared, const Lattice& lattice) : shared_(shared), lattice_(lattice) {
     if (PlateMatrix::suits(lattice, shared.stencils))
-      matrix_ = std::make_unique<PlateMatrix>(lattice, shared.fast_rows, shared.unknowns, shared.workers);
+      matrix_ = std::make_unique<PlateMatrix>(lattice, shared.stencils, shared.unknowns, shared.workers);
     update();
   }
 
@@ -62,17 +63,24 @@ class ThinPlateLevel final : public LevelOperator {
                      shared_.fine_exchange, x, y);
   }
   void apply(const float* x, float* y) override {
-    if (matrix_) return matrix_->apply(x, shared_.workers, y);
+    if (matrix_) return matrix_->rows().apply<3>(x, shared_.workers, y);
     apply_thin_plate(lattice_, shared_.fast_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.fast_exchange, x, y);
   }
   void relax(const SmoothingStep& step, Workers& workers) override {
     if (!matrix_) return LevelOperator::relax(step, workers);
-    matrix_->relax(step, inverse_diagonal_.data(), workers);
+    matrix_->rows().visit_images<3>(step.d, workers,
+                                    [&](std::size_t first, std::size_t count, const float* image) {
+                                      finish_step(step, 3, inverse_diagonal_.data(), first, count, image);
+                                    });
   }
   void subtract_image(const float* x, float* room, float* y, Workers& workers) override {
     if (!matrix_) return LevelOperator::subtract_image(x, room, y, workers);
-    matrix_->subtract_image(x, workers, y);
+    matrix_->rows().visit_images<3>(x, workers,
+                                    [=](std::size_t first, std::size_t count, const float* image) {
+                                      for (std::size_t i = 0; i < 3 * count; ++i)
+                                        y[3 * first + i] -= image[i];
+                                    });
   }
   bool does_with_single() const override { return lattice_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sparse matrix in single precision whose rows are written, or zero.
+// A sparse matrix in single precision, whose rows can be finished by more than the product where they are computed.
 #pragma once
 
 #include <algorithm>
@@ -17,43 +17,64 @@ class WrittenMatrix {
   WrittenMatrix& operator=(const WrittenMatrix&) = delete;
   ~WrittenMatrix() { MemoryLedger::remove(bytes_); }
 
-  // write(row, builder) adds the numbers of a row; rows without has_row(row) are zero.
-  template <class HasRow, class Write>
-  void build(Workers& workers, HasRow&& has_row, Write&& write) {
-    chunk_.resize((rows_ + chunk_points - 1) / chunk_points);
+  // write(row, builder) adds the numbers of a row; none: the row is zero.
+  template <class Write>
+  void build(Workers& workers, Write&& write) {
+    chunk_.resize((rows_ + chunk_rows - 1) / chunk_rows);
     workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
       RowBuilder builder(columns_);
-      for (std::size_t c = begin; c < end; ++c)
-        for (std::size_t r = c * chunk_points; r < std::min(rows_, (c + 1) * chunk_points); ++r) {
-          const bool written = has_row(Index(r));
-          append_to_runs(chunk_[c].runs, written);
-          if (!written) continue;
+      RowChunk chunk;
+      for (std::size_t c = begin; c < end; ++c) {
+        chunk.clear();
+        for (std::size_t r = c * chunk_rows; r < std::min(rows_, (c + 1) * chunk_rows); ++r) {
           write(Index(r), builder);
-          builder.finish(chunk_[c]);
+          builder.finish(chunk);
         }
+        chunk_[c] = chunk;  // no longer than it need be
+      }
     });
     for (const RowChunk& chunk : chunk_) bytes_ += chunk.bytes();
     MemoryLedger::add(bytes_);
   }
 
-  // Its transpose, column by column of this one: first[c] … first[c + 1] of (row, number).
+  // The first number of a row, which is that of the column first named; null: the row is zero.
+  float* first_number(std::size_t row) {
+    RowChunk& chunk = chunk_[row / chunk_rows];
+    const std::size_t r = row % chunk_rows;
+    const std::uint32_t begin = r == 0 ? 0 : chunk.row_end[r - 1];
+    return begin == chunk.row_end[r] ? nullptr : chunk.number.data() + begin;
+  }
+
+  // Its numbers column by column: first[c] … first[c + 1] of (row, number).
   struct Columns {
     std::vector<std::size_t> first;
     std::vector<std::pair<Index, float>> entry;
   };
   Columns by_columns() const;
 
-  // y <- this x, with C numbers a point, 1 or 3; x has `vector_room` more.
-  template <int C>
-  void apply(const float* x, Workers& workers, float* y) const;
-
- private:
-  static void append_to_runs(std::vector<ChunkRun>& runs, bool written) {
-    const ChunkRun::Kind kind = written ? ChunkRun::written : ChunkRun::zero;
-    if (runs.empty() || runs.back().kind != kind) runs.push_back({kind, 0, 0, 0});
-    ++runs.back().count;
+  // Calls finish(row, count, image), with image the matrix times x on so many rows, C numbers a row, 1 or 3; x has
+  // `vector_room` more.
+  template <int C, class Finish>
+  void visit_images(const float* x, Workers& workers, const Finish& finish) const {
+    constexpr std::size_t grain = 8;  // chunks worth a thread
+    workers.for_parts(chunk_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      alignas(64) float image[C * chunk_rows + 4];
+      for (std::size_t c = begin; c < end; ++c) {
+        chunk_image<C>(chunk_[c], x, image);
+        finish(c * chunk_rows, chunk_[c].row_end.size(), static_cast<const float*>(image));
+      }
+    });
   }
 
+  // y <- the matrix times x
+  template <int C>
+  void apply(const float* x, Workers& workers, float* y) const {
+    visit_images<C>(x, workers, [=](std::size_t row, std::size_t count, const float* image) {
+      std::copy_n(image, C * count, y + C * row);
+    });
+  }
+
+ private:
   std::size_t rows_, columns_, bytes_ = 0;
   Array<RowChunk> chunk_;
 };

@@ -13,23 +13,14 @@ std::size_t ring_length(const ControlMesh& mesh, Index v) {
   return length;
 }
 
-// So many points inside a face are at most `steps` from a side.
-std::size_t count_near(bool quad, int n, int steps) {
-  const std::int64_t inner = n - (quad ? 2 : 3) * std::int64_t(steps);
-  return std::size_t(interior_size(quad, n) - (inner > 1 ? interior_size(quad, inner) : 0));
-}
-
 }  // namespace
 
-WrittenRings::WrittenRings(const Lattice& lattice, const Unknowns& unknowns,
-                           const std::function<int(Index)>& steps, Workers& workers)
-    : lattice_(lattice),
-      first_in_faces_(std::size_t(lattice.mesh().vertex_count()) +
-                      lattice.mesh().edges.size() * std::size_t(lattice.n() - 1)) {
+WrittenRings::WrittenRings(const Lattice& lattice, const Unknowns& unknowns, Workers& workers)
+    : lattice_(lattice) {
   code_points(unknowns);
   write_vertices();
   write_edges(workers);
-  write_faces(steps, workers);
+  write_faces(workers);
 }
 
 std::vector<std::uint8_t> unknown_points(const Lattice& lattice, const Unknowns& unknowns) {
@@ -89,45 +80,33 @@ void WrittenRings::write_edges(Workers& workers) {
                     });
 }
 
-void WrittenRings::write_faces(const std::function<int(Index)>& steps, Workers& workers) {
+void WrittenRings::write_faces(Workers& workers) {
   const ControlMesh& mesh = lattice_.mesh();
   const int n = lattice_.n();
-  struct First {
-    std::size_t ring, member;
-  };
-  std::vector<First> first;
-  First next{ring_.size(), member_.size()};
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    first.push_back(next);
-    const bool quad = mesh.faces[f].quad();
-    const std::size_t rings = count_near(quad, n, steps(Index(f)));
-    next.ring += rings;
-    next.member += rings * (face_ring(quad).size() + 1);
-  }
-  ring_.resize(next.ring);
-  member_.resize(next.member);
-  ring_of_.resize(lattice_.size() - first_in_faces_);
   const Index first_face = mesh.vertex_count() + Index(mesh.edges.size());
+  std::size_t members = member_.size();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const bool quad = mesh.faces[f].quad();
+    const auto size = std::uint32_t(face_ring(quad).size() + 1);
+    for (auto k = interior_size(quad, n); k > 0; --k, members += size)
+      ring_.push_back({members, size, first_face + Index(f)});
+  }
+  member_.resize(members);
   workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     std::vector<Member> closed(closed_size(true, std::size_t(n)));
     for (std::size_t f = begin; f < end; ++f) {
       const bool quad = mesh.faces[f].quad();
-      const int near = steps(Index(f));
+      if (interior_size(quad, n) == 0) continue;
       const std::span<const LatticePoint> neighbours = face_ring(quad);
-      Index* ring_of = ring_of_.data() + (std::size_t(lattice_.face_base(Index(f))) - first_in_faces_);
       gather_face<1>(lattice_, coded_.data(), Index(f), closed.data());
       const auto at = [&](int i, int j) {
         return closed[closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i)];
       };
-      First put = first[f];
+      Member* to = member_.data() + ring_[std::size_t(lattice_.face_base(Index(f)))].member;
       for (int j = 1; j < n; ++j)
         for (int i = 1; i < (quad ? n : n - j); ++i) {
-          const bool written = steps_to_side(quad, n, i, j) <= near;
-          *ring_of++ = written ? Index(put.ring) : Index(-1);
-          if (!written) continue;
-          ring_[put.ring++] = {put.member, std::uint32_t(neighbours.size() + 1), first_face + Index(f)};
-          member_[put.member++] = at(i, j);
-          for (const LatticePoint d : neighbours) member_[put.member++] = at(i + d.i, j + d.j);
+          *to++ = at(i, j);
+          for (const LatticePoint d : neighbours) *to++ = at(i + d.i, j + d.j);
         }
     }
   });

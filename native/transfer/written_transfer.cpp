@@ -6,8 +6,8 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t most_points = std::size_t(1) << 18;
-constexpr int finest = 32;  // of a control edge; beyond, most points lie deep inside faces
+constexpr std::size_t most_points = std::size_t(1) << 22;
+constexpr int most_subdivisions = 16;
 
 // What a fit's value half-way to a neighbour counts for: half of an edge's midpoint, a quarter of a quad's centre.
 constexpr double of_midpoint = 0.5, of_centre = 0.25;
@@ -21,13 +21,13 @@ class HalfWay {
         stencils_(stencils),
         vertices_(coarse.mesh().vertex_count()),
         edges_(Index(coarse.mesh().edges.size())),
-        rings_(coarse, unknowns, [&](Index) { return coarse.n(); }, workers) {}
+        rings_(coarse, unknowns, workers) {}
 
   const WrittenRings& rings() const { return rings_; }
 
   // Adds `share` of the fit about p, half-way to its neighbour q.
   void add(Index p, Index q, double share, RowBuilder& row) const {
-    const WrittenRings::Ring& ring = *rings_.about(p);
+    const WrittenRings::Ring& ring = rings_.about(p);
     const std::size_t slot = rings_.slot(ring, q) - 1;  // among the neighbours
     if (ring.element < vertices_)
       about_vertex(ring, slot, share, row);
@@ -159,7 +159,7 @@ class FineRows {
 }  // namespace
 
 bool WrittenTransfer::suits(const Lattice& fine) {
-  return fine.n() > 1 && fine.n() <= finest && fine.size() <= most_points;
+  return fine.n() > 1 && fine.n() <= most_subdivisions && fine.size() <= most_points;
 }
 
 WrittenTransfer::WrittenTransfer(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
@@ -168,16 +168,14 @@ WrittenTransfer::WrittenTransfer(const Lattice& coarse, const Lattice& fine, con
   const HalfWay half(coarse, stencils, unknowns, workers);
   const FineRows rows(coarse, fine, half);
   const std::vector<std::uint8_t> unknown = unknown_points(fine, unknowns);
-  prolongation_.build(
-      workers, [&](Index p) { return unknown[std::size_t(p)] != 0; },
-      [&](Index p, RowBuilder& row) { rows.write(p, row); });
+  prolongation_.build(workers, [&](Index p, RowBuilder& row) {
+    if (unknown[std::size_t(p)]) rows.write(p, row);
+  });
   const WrittenMatrix::Columns columns = prolongation_.by_columns();
-  restriction_.build(
-      workers, [&](Index p) { return half.rings().is_unknown(p); },
-      [&](Index p, RowBuilder& row) {
-        for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1]; ++k)
-          row.add(columns.entry[k].first, double(columns.entry[k].second));
-      });
+  restriction_.build(workers, [&](Index p, RowBuilder& row) {
+    for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1]; ++k)
+      row.add(columns.entry[k].first, double(columns.entry[k].second));
+  });
 }
 
 }  // namespace fairing
