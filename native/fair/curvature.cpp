@@ -15,6 +15,7 @@ namespace {
 constexpr double real_gain = 1 - 1e-9;  // what rounding may not decide
 constexpr double hopeful = 1.5;   // a start's energy, to the level below's, that needs no other beside it
 constexpr double desperate = 10;  // one from which no other is worse
+constexpr double nearby = 0.02;   // of the energy: its change where what preconditions may stay
 constexpr double as_low = 1.01;   // as the energy by damped steps
 
 constexpr int long_patience = 14, polishing_patience = 3;
@@ -198,6 +199,7 @@ bool CurvatureSystem::solve_moved(const Array<double>& plate, Mirrors mirrors, C
   report.plate_energy = NAN;  // nobody has asked
   report.start_energy = report.energy = op(level).bending();
   if (!(report.start_energy <= hopeful * found_energy_ + flat)) return false;
+  is_near_ = std::abs(report.start_energy - found_energy_) <= nearby * found_energy_;
   report.converged = true;
   if (options_.energy == Energy::minimum_variation)
     vary(level, report);

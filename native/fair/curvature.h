@@ -135,6 +135,7 @@ class CurvatureSystem {
   bool sound_ = false;
   double found_energy_ = 0;
   std::size_t found_folds_ = 0;
+  bool is_near_ = false;  // the next step begins near that surface: its coarse levels will do
 };
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The steps from the least total curvature to the least variation of curvature.
 #include <cmath>
+#include <utility>
 
 #include "execution/vectors.h"
 #include "fair/curvature.h"
@@ -47,7 +48,7 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
     // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
     const double scale = energy_ + still * square / area;
     shared_.damping = damping_share_ * scale / square;
-    const bool fresh = is_fresh(last);
+    const bool fresh = !std::exchange(is_near_, false) && is_fresh(last);
     if (fresh) linearize_below(level);
     for (int l = fresh ? level : base_; l <= level; ++l) op(l).update_diagonal();
     damp(level, damping.mu());

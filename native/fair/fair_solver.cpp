@@ -10,7 +10,7 @@ namespace fairing {
 namespace {
 
 // Of the thin plate's surface where it is a start only.
-constexpr double start_tolerance = 1e-4;
+constexpr double start_tolerance = 1e-3;
 
 const FairOptions& without_back_leg(const FairOptions& options) {
   if (options.method == Method::back_leg)
