@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Newton steps on one level.
 #include <cmath>
+#include <utility>
 
 #include "execution/vectors.h"
 #include "fair/curvature.h"
@@ -70,7 +71,7 @@ void CurvatureSystem::go_steps(int level, LocalDamping* damping, const Enough& e
   for (int steps = 0; steps < most && rejections < most_rejections; ++steps) {
     if ((report.converged = energy_ < flat)) break;
     report_progress(level, report);
-    const bool fresh = damping || is_fresh(last);
+    const bool fresh = damping || (!std::exchange(is_near_, false) && is_fresh(last));
     if (fresh) linearize_below(level);
     damp(level, damping ? damping->mu() : undamped);
     StepReport& step = report.steps.emplace_back();
@@ -125,8 +126,7 @@ double CurvatureSystem::solve_step(int level, StepReport& report, bool fresh) {
     op(level).apply(h, r);
     for_each_index(workers_, points, [&](std::size_t i) { r[i] = here_.force[i] - r[i]; });
   };
-  const LevelSolve solved =
-      hierarchy_.solve(index, limits, residual, step_.data(), [](const PcgResult&) {});
+  const LevelSolve solved = hierarchy_.solve(index, limits, residual, step_.data(), [](const PcgResult&) {});
   report.iterations = solved.iterations;
   report.residual = solved.residual;
   report.direct = solved.direct;

@@ -14,6 +14,11 @@ constexpr double coarse_tolerance = 1e-4;
 
 // Share of the run before and after the finest level's iterations.
 constexpr double solve_begin = 0.25, solve_end = 0.8;
+// The differences that other control positions make are starts as well, and small beside the surface.
+constexpr double difference_tolerance = 1e-2;
+constexpr double negligible =
+    1e-6;  // of the mesh's size: a difference that the finest level takes in its stride
+
 // The same where Gauss-Newton steps follow, which take longer.
 constexpr double begin_of_steps = 0.3;
 
@@ -73,9 +78,9 @@ void SurfaceSystem::set_weights(const VertexWeights& weights, int level) {
   hierarchy_.refresh(std::size_t(level - base_), false);
 }
 
-void SurfaceSystem::take_shape(const FeatureCurves& curves, const VertexWeights& weights) {
+void SurfaceSystem::take_shape(const FeatureCurves& curves, const VertexWeights& weights, bool adapts) {
   curves_ = &curves;
-  hierarchy_.set_adapting(false);
+  hierarchy_.set_adapting(adapts);
   if (shared_.weights != weights) set_weights(weights, top());
 }
 
@@ -125,22 +130,26 @@ SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> tar
   return {std::max(norm(workers_, size, r.data()), 1e8 * noise), noise};
 }
 
-LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets, double tolerance,
-                                       const Scales& scale, double energy_scale, double* x) {
-  residual(level, targets, x, hierarchy_.state().residual.data());
+PcgLimits SurfaceSystem::limits_of(double tolerance, const Scales& scale, double energy_scale) const {
   PcgLimits limits;
   limits.tolerance = tolerance;
   limits.residual_scale = scale.residual;
   limits.noise = scale.noise;
   limits.energy_scale = std::sqrt(energy_scale);
   limits.max_iterations = options_.max_iterations;
+  return limits;
+}
+
+LevelReport SurfaceSystem::solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits,
+                                       double* x) {
+  residual(level, targets, x, hierarchy_.state().residual.data());
   LevelReport report;
   report.level = level;
   report.points = lattice(level).size();
   report.unknowns = count_unknowns(lattice(level), shared_.unknowns);
   static_cast<LevelSolve&>(report) = hierarchy_.solve(
       std::size_t(level - base_), limits, [&](const double* y, double* r) { residual(level, targets, y, r); },
-      x, [&](const PcgResult& so_far) { report_progress(level, so_far, tolerance); });
+      x, [&](const PcgResult& so_far) { report_progress(level, so_far, limits.tolerance); });
   return report;
 }
 
@@ -155,9 +164,10 @@ void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double t
   monitor_.report(Phase::solve, solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
 }
 
-Array<double> SurfaceSystem::surface_below(int level, Array<double>& x) const {
+const Array<double>& SurfaceSystem::surface_below(int level, Array<double>& x) {
   x.resize(3 * lattice(top()).size());
-  return {x.begin(), x.begin() + std::ptrdiff_t(level > base_ ? 3 * lattice(level - 1).size() : 0)};
+  below_.assign(x.begin(), x.begin() + std::ptrdiff_t(level > base_ ? 3 * lattice(level - 1).size() : 0));
+  return below_;
 }
 
 void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, const Array<double>& below,
@@ -178,7 +188,7 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
   for (int l = base_; l <= top(); ++l) {
     monitor_.report(Phase::solve, solve_begin * std::pow(0.25, top() - l));
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
-    const Array<double> below = surface_below(l, x);
+    const Array<double>& below = surface_below(l, x);
     const Scales scale = scales(l, targets, x.data());
     start_level(l, targets, below, x);
     if (l == top() && on_prediction) on_prediction(x.data());
@@ -187,11 +197,57 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
                             : std::max(coarse_tolerance, options_.relative_residual);
     };
     if (l == base_) energy_below = energy(l, x.data());
-    reports.push_back(solve_level(l, targets, tolerance(l), scale, energy_below, x.data()));
+    const PcgLimits limits = limits_of(tolerance(l), scale, energy_below);
+    if (l == top()) finest_limits_ = limits;
+    reports.push_back(solve_level(l, targets, limits, x.data()));
     if (l < top()) energy_below = energy(l, x.data());
     if (l < top()) hierarchy_.choose_degree(reports.back(), tolerance(l), tolerance(l + 1));
     on_level(l, x);
   }
+}
+
+void SurfaceSystem::solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets, double tolerance,
+                                Array<double>& x, std::vector<LevelReport>& reports,
+                                const std::function<void(const double*)>& on_prediction) {
+  double farthest = 0;
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    farthest = std::max(farthest, (targets[v] - before[v]).lpNorm<Eigen::Infinity>());
+  if (farthest > negligible && base_ < top()) add_difference(before, targets, x, reports);
+  set_fixed(top(), targets, x.data());
+  if (on_prediction) on_prediction(x.data());
+  PcgLimits limits = finest_limits_;
+  limits.tolerance = tolerance;
+  reports.push_back(solve_level(top(), targets, limits, x.data()));
+}
+
+// The difference solves the same system, for the differences of what is fixed or weighted.
+void SurfaceSystem::add_difference(std::span<const Vec3> before, std::span<const Vec3> targets,
+                                   Array<double>& x, std::vector<LevelReport>& reports) {
+  moved_.resize(targets.size());
+  for (std::size_t v = 0; v < targets.size(); ++v) moved_[v] = targets[v] - before[v];
+  const FeatureCurves& curves = *curves_;
+  moved_curves_ = curves;
+  const Lattice& finest = lattice(top());
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    if (curves.run[e] < 0) continue;
+    Vec3* const moved =
+        moved_curves_.points.data() + std::size_t(curves.run[e]) * std::size_t(curves.points_per_edge);
+    const double* const now = x.data() + 3 * std::size_t(finest.edge_base(Index(e)));
+    for (int k = 0; k < curves.points_per_edge; ++k)
+      moved[k] -= Vec3(now[3 * k], now[3 * k + 1], now[3 * k + 2]);
+  }
+  curves_ = &moved_curves_;
+  PcgLimits rough;
+  rough.tolerance = difference_tolerance;
+  rough.from_start = true;
+  rough.max_iterations = options_.max_iterations;
+  for (int l = base_; l < top(); ++l) {
+    start_level(l, moved_, surface_below(l, difference_), difference_);
+    reports.push_back(solve_level(l, moved_, rough, difference_.data()));
+  }
+  start_level(top(), moved_, surface_below(top(), difference_), difference_);
+  curves_ = &curves;
+  for_each_index(workers_, 3 * finest.size(), [&](std::size_t i) { x[i] += difference_[i]; });
 }
 
 LevelReport SurfaceSystem::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,
@@ -199,7 +255,7 @@ LevelReport SurfaceSystem::solve_again(int level, std::span<const Vec3> targets,
   Array<double> polyhedron(3 * lattice(level).size());
   const Scales scale = scales(level, targets, polyhedron.data());
   set_fixed(level, targets, x.data());
-  return solve_level(level, targets, tolerance, scale, energy(level, x.data()), x.data());
+  return solve_level(level, targets, limits_of(tolerance, scale, energy(level, x.data())), x.data());
 }
 
 }  // namespace fairing

@@ -29,12 +29,16 @@ class SurfaceSystem {
   int base() const { return base_; }  // the coarsest level with unknowns worth a solve
   int top() const { return int(lattices_.size()) - 1; }
   const Lattice& lattice(int level) const { return *lattices_[std::size_t(level)]; }
+  // From a level to the one below, as rows; null where there are none.
+  const WrittenTransfer* written_transfer(int level) const {
+    return level > base_ ? transfers_[std::size_t(level - base_ - 1)]->written() : nullptr;
+  }
   ThinPlateShared& shared() { return shared_; }
   Monitor& monitor() { return monitor_; }
 
-  // From here on for another shape: its curves, and the weights to start from. The smoother stays as it is, so that a
-  // surface depends on its own shape alone.
-  void take_shape(const FeatureCurves& curves, const VertexWeights& weights);
+  // From here on for another shape: its curves, and the weights to start from. Unless it `adapts`, the smoother stays as it
+  // is, so that a surface depends on its own shape alone.
+  void take_shape(const FeatureCurves& curves, const VertexWeights& weights, bool adapts);
 
   // Full multigrid: from the control polyhedron to the solution on the finest level.
   // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
@@ -43,8 +47,14 @@ class SurfaceSystem {
                     const std::function<void(const double*)>& on_prediction,
                     const std::function<void(int, Array<double>&)>& on_level);
 
-  // What x holds of the level below, where there is one; x gets room for the finest level.
-  Array<double> surface_below(int level, Array<double>& x) const;
+  // From x, a surface of the control positions `before`, to that of `targets` on the finest level, to `tolerance`: the
+  // difference first, roughly and level by level.
+  void solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets, double tolerance,
+                   Array<double>& x, std::vector<LevelReport>& reports,
+                   const std::function<void(const double*)>& on_prediction);
+
+  // A copy of what x holds of the level below, where there is one; x gets room for the finest level.
+  const Array<double>& surface_below(int level, Array<double>& x);
   // x <- the start of a level: the control polyhedron on the coarsest, the prolongated surface below on others.
   void start_level(int level, std::span<const Vec3> targets, const Array<double>& below, Array<double>& x);
 
@@ -74,9 +84,11 @@ class SurfaceSystem {
   };
   // x: room for a surface.
   Scales scales(int level, std::span<const Vec3> targets, double* x);
-  LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
-                          double energy_scale, double* x);
+  PcgLimits limits_of(double tolerance, const Scales& scale, double energy_scale) const;
+  LevelReport solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits, double* x);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
+  void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
+                      std::vector<LevelReport>& reports);
 
   const ControlMesh& mesh_;
   const FeatureCurves* curves_;
@@ -90,6 +102,12 @@ class SurfaceSystem {
   ThinPlateShared shared_;
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<ThinPlateTransfer>> transfers_;
+  Array<double> below_;      // the level below a start
+  PcgLimits finest_limits_;  // of the last surface that was solved from nothing
+  // Of solve_moved.
+  std::vector<Vec3> moved_;
+  FeatureCurves moved_curves_;
+  Array<double> difference_;
 };
 
 }  // namespace fairing
