@@ -7,6 +7,7 @@
 
 #include "check/check.h"
 #include "energy/total_curvature.h"
+#include "execution/cancel.h"
 #include "execution/vectors.h"
 #include "fair/anchored.h"
 #include "fair/back_leg.h"
@@ -29,6 +30,7 @@ Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   Unknowns u;
   u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
     const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
     u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_place(v) == Place::inside;
@@ -46,8 +48,10 @@ void to_world(const ControlMesh& mesh, const Placement& place, const Lattice& la
               Workers& workers, Array<double>& x) {
   const std::vector<Vec3>& given = place.world;
   std::vector<std::uint8_t> kept(given.size());
-  for (std::size_t v = 0; v < given.size(); ++v)
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    stop_if_cancelled(v);
     kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == place.working[v];
+  }
   for_each_index(workers, x.size(),
                  [&](std::size_t i) { x[i] = frame.centre[Eigen::Index(i % 3)] + frame.scale * x[i]; });
   for (std::size_t v = 0; v < given.size(); ++v)
@@ -160,6 +164,7 @@ std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> sha
 
 FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   MemoryLedger ledger;
+  const CancelScope scope(&monitor);
   FairResult result;
   Report& report = result.report;
   Stopwatch watch(report, monitor);
@@ -241,7 +246,7 @@ FairResult run(const PolygonMesh& input, const FairOptions& options, Monitor& mo
     report.result = energies(x.data());
     {
       Array<double> polyhedron(x.size());
-      refine_linearly(finest, mesh.positions, polyhedron.data());
+      refine_linearly(finest, mesh.positions, workers, polyhedron.data());
       report.polyhedron = energies(polyhedron.data());
     }
 

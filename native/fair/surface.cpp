@@ -112,7 +112,7 @@ double SurfaceSystem::energy(int level, const double* x) {
 SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> targets) {
   const std::size_t size = 3 * lattice(level).size();
   Array<double>&x = hierarchy_.state().direction, &r = hierarchy_.state().image;
-  refine_linearly(lattice(level), targets, x.data());
+  refine_linearly(lattice(level), targets, workers_, x.data());
   set_fixed(level, targets, x.data());
   residual(level, targets, x.data(), r.data());
   const Array<float>& inverse = operators_[std::size_t(level - base_)]->inverse_diagonal();
@@ -158,9 +158,10 @@ void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double t
 void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, Array<double>& x) {
   if (level == base_) {
     x.resize(3 * lattice(top()).size());
-    refine_linearly(lattice(level), targets, x.data());
+    refine_linearly(lattice(level), targets, workers_, x.data());
   } else {
-    const Array<double> coarse(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(level - 1).size()));
+    Array<double> coarse(3 * lattice(level - 1).size());
+    for_each_index(workers_, coarse.size(), [&](std::size_t i) { coarse[i] = x[i]; });
     prolong(lattice(level - 1), lattice(level), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
             coarse.data(), x.data());
   }

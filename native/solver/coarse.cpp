@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/coarse.h"
 
-#include <Eigen/SparseCholesky>
 #include <utility>
 
 #include "check/error.h"
+#include "solver/sparse_ldlt.h"
 
 namespace fairing {
 
 struct CoarseSolver::Factor {
   std::vector<Index> points;
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  SparseLdlt ldlt;
 };
 
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns, bool always_direct)
@@ -29,14 +29,12 @@ void CoarseSolver::refactor() {
   // the preconditioner as good.
   const Eigen::VectorXd diagonal = system.matrix.diagonal();
   for (Eigen::Index i = 0; i < system.matrix.rows(); ++i) system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
-  factor_->ldlt.compute(system.matrix);
-  if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0))
+  if (!factor_->ldlt.factor(system.matrix))
     throw FairingError(
         ErrorCode::underdetermined,
         "The surface is not determined: a part of the mesh has too few fixed points. Interpolate more "
         "control vertices, or give them weights.");
-  factor_bytes_ =
-      std::size_t(factor_->ldlt.matrixL().nestedExpression().nonZeros()) * (sizeof(double) + sizeof(int));
+  factor_bytes_ = factor_->ldlt.nonzeros() * (sizeof(double) + sizeof(int));
   MemoryLedger::add(factor_bytes_);
 }
 
@@ -51,7 +49,7 @@ void CoarseSolver::solve(const double* b, double* x) const {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
-  right = factor_->ldlt.solve(right).eval();
+  right = factor_->ldlt.solve(right);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
