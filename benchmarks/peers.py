@@ -32,6 +32,7 @@ CASES = {
     "184 K, 2,880 faces": (12, 3),
     "800 K, 12,500 faces": (25, 3),
 }
+THREADS = {1: ", one thread", 2: ", two"}
 LARGEST_FOR_LDLT = 50_000
 TOLERANCE = 1e-6
 CGAL = cholesky.PROGRAM.with_name("fairing_bench_cgal")
@@ -167,18 +168,18 @@ def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
     triangles = 20 * case[0] ** 2 * 4 ** case[1]
     repeats = REPEATS[triangles]
     found: dict[str, Any] = {}
-    for threads in (1, 2):
-        found[f"ours, {threads} threads"] = child("ours", case, repeats, threads)
-        found[f"ours, warm, {threads} threads"] = child("warm", case, repeats, threads)
+    for threads, on in THREADS.items():
+        found[f"ours{on}"] = child("ours", case, repeats, threads)
+        found[f"ours, warm{on}"] = child("warm", case, repeats, threads)
         entry = same_system(case, repeats, threads, threads == 1 and triangles <= LARGEST_FOR_LDLT)
         if "note" in entry:
-            found[f"CHOLMOD, {threads} threads"] = entry
+            found[f"CHOLMOD{on}"] = entry
             continue
         whole, analysis = entry["cholmod"]["wall"], entry["analysis"]["wall"]
-        found[f"CHOLMOD, {threads} threads"] = {"wall": whole}
-        found[f"CHOLMOD without analysis, {threads} threads"] = {
-            "wall": [a - b for a, b in zip(whole, analysis)]
-        }
+        found[f"CHOLMOD{on}"] = {"wall": whole}
+        found[f"CHOLMOD without analysis{on}"] = {"wall": [a - b for a, b in zip(whole, analysis)]}
+        if threads == 1:
+            found["(assembly of its matrix)"] = entry["assembly"]
         if entry["ldlt"]["wall"]:
             found["Eigen SimplicialLDLT"] = entry["ldlt"]
     others = {
@@ -198,7 +199,7 @@ def run() -> dict[str, Any]:
     slow: set[str] = set()
     for name, case in CASES.items():
         found = result[name] = measure(case, slow)
-        base = {t: statistics.median(found[f"ours, {t} threads"]["wall"]) for t in (1, 2)}
+        base = {on: statistics.median(found[f"ours{on}"]["wall"]) for on in THREADS.values()}
         for peer, entry in found.items():
             if "note" in entry:
                 slow |= {peer} if "over" in entry["note"] else set()
@@ -206,7 +207,7 @@ def run() -> dict[str, Any]:
                 continue
             seconds = statistics.median(entry["wall"])
             slow |= {peer} if 4 * seconds > LIMIT else set()
-            ratio = seconds / base[2 if "2 threads" in peer else 1]
+            ratio = seconds / base[THREADS[2] if peer.endswith(THREADS[2]) else THREADS[1]]
             spread = f"{min(entry['wall']):.3g} … {max(entry['wall']):.3g}"
             iterations = " ".join(map(str, entry.get("iterations", [])))
             rows.append([name, peer, seconds, spread, ratio, iterations])
