@@ -25,9 +25,11 @@ CASES = {
 
 def child(kind: str, size: int, levels: int, threads: int) -> dict[str, Any]:
     """The run itself, in a fresh process."""
+    import hashlib
     import resource
 
     import control_meshes
+    import discrete_fairing as df
     import runs
     import timing
 
@@ -35,10 +37,12 @@ def child(kind: str, size: int, levels: int, threads: int) -> dict[str, Any]:
     mesh = getattr(control_meshes, kind)(size)
     runs.fair(control_meshes.sphere(1), levels=1, threads=threads)  # libraries loaded, threads tried
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
-    report, wall, processor = timing.measured(lambda: runs.fair(mesh, levels=levels, threads=threads))
+    result, wall, processor = timing.measured(lambda: df.fair(*mesh, levels=levels, threads=threads))
     after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+    report, (triangles, quads) = result.report, result.faces
     return {
-        "triangles": report["triangles"],
+        "triangles": len(triangles) + 2 * len(quads),
+        "bits": hashlib.sha256(result.vertices.data).hexdigest(),
         "wall": wall,
         "processor": processor,
         "seconds": report["seconds"],

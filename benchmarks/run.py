@@ -8,6 +8,7 @@ import platform
 import time
 from pathlib import Path
 
+import cancel
 import charts
 import cholesky
 import clean_meshes
@@ -15,15 +16,20 @@ import curvature_peaks
 import memory
 import million
 import paper
+import peers
 import scaling
 import shared
 import side_by_side
+import sizes
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
     "scaling": scaling.run,
     "cholesky": cholesky.run,
+    "peers": peers.run,
     "million": million.run,
+    "sizes": sizes.run,
+    "cancel": cancel.run,
     "charts": charts.run,
     "paper": paper.run,
     "memory": memory.run,

@@ -50,6 +50,9 @@ def demo(names: list[str]) -> int:
 def bench(names: list[str]) -> int:
     """The benchmarks; native ones are built first."""
     setup()
+    with alone("tools"):
+        system_packages.install(system_packages.BENCHMARKS)
+        python_environment.install_rivals()
     run("cmake", "--preset", "bench")
     run("cmake", "--build", "--preset", "bench")
     (OUT / "bench").mkdir(parents=True, exist_ok=True)

@@ -12,6 +12,8 @@ from stamp import fingerprint, is_fresh, leave
 
 REQUIREMENTS = ROOT / "build_tools" / "requirements.txt"
 STAMP = VENV / "stamps" / "requirements"
+RIVALS = ROOT / "build_tools" / "requirements_bench.txt"
+RIVALS_STAMP = VENV / "stamps" / "requirements_bench"
 BPY_VERSION = (3, 11)  # Blender 4.2 to 5.0, hence of the bpy wheel
 
 
@@ -41,6 +43,15 @@ def install() -> None:
     leave(STAMP, value)
     if not has_bpy():
         say("bpy exists for Python 3.11 only: here the add-on is tested in the real Blender alone.")
+
+
+def install_rivals() -> None:
+    """What the benchmarks measure us against; without dependencies, since NumPy has to stay as bpy wants it."""
+    value = fingerprint([RIVALS], STAMP.read_text())
+    if is_fresh(RIVALS_STAMP, value):
+        return
+    pip("install", "--no-deps", "--requirement", RIVALS)
+    leave(RIVALS_STAMP, value)
 
 
 def pip(*arguments: str | Path, **extra: str) -> None:

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -51,6 +53,7 @@ std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
   std::vector<FlatFace> flat;
   flat.reserve(mesh.faces.size());
   for (const Face& face : mesh.faces) {
+    stop_if_cancelled(flat.size());
     const auto at = [&](std::size_t c) -> const Vec3& { return mesh.positions[std::size_t(face.vertex[c])]; };
     flat.push_back(face.quad() ? flat_quad({at(0), at(1), at(2), at(3)}, exponent)
                                : flat_triangle({at(0), at(1), at(2)}, exponent));

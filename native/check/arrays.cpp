@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -21,8 +22,10 @@ constexpr std::size_t most_corners = (std::size_t(1) << 31) / 8;
 template <class Predicate>
 Ids faces_where(const PolygonMesh& mesh, Predicate predicate) {
   Ids found;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f)
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     if (predicate(mesh.face(f))) found.push_back(f);
+  }
   return found;
 }
 
@@ -105,6 +108,7 @@ bool check_repetition(const PolygonMesh& mesh, Defects& found) {
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
   Ids bad;
   for (std::size_t v = 0; v < x.size() / 3; ++v) {
+    stop_if_cancelled(v);
     const double size = std::max({std::abs(x[3 * v]), std::abs(x[3 * v + 1]), std::abs(x[3 * v + 2])});
     const bool nan = std::isnan(x[3 * v]) || std::isnan(x[3 * v + 1]) || std::isnan(x[3 * v + 2]);
     if (nan || size > largest_coordinate) bad.push_back(std::int64_t(v));

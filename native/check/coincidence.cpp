@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -23,6 +25,7 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
   const std::size_t mask = std::bit_ceil(2 * vertices + 1) - 1;
   std::vector<std::int32_t> table(mask + 1, -1), first(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
+    stop_if_cancelled(v);
     const double* p = &coordinates[3 * v];
     for (std::size_t slot = hash(p) & mask;; slot = (slot + 1) & mask) {
       if (table[slot] < 0) table[slot] = std::int32_t(v);

@@ -6,6 +6,7 @@
 
 #include "check/coincidence.h"
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -53,6 +54,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   // A group is led by its first *used* vertex, so that an isolated one is not reported twice over.
   std::vector<std::int32_t> leader(first.size(), -1);
   for (std::size_t v = 0; v < first.size(); ++v) {
+    stop_if_cancelled(v);
     if (!used[v]) continue;
     auto& lead = leader[std::size_t(first[v])];
     if (lead >= 0) {
@@ -66,6 +68,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
 
   Ids touching;
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       if (!listed[std::size_t(face[i])]) continue;
@@ -95,8 +98,10 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
 
 void check_areas(const PolygonMesh& mesh, Defects& found) {
   Ids bad;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f)
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
+  }
   if (bad.empty()) return;
   found.emplace_back(ErrorCode::degenerate_face,
                      listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.", bad);

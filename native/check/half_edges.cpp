@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -15,9 +17,11 @@ struct Entry {
 
 HalfEdges::HalfEdges(const PolygonMesh& mesh)
     : mesh_(mesh), face_(mesh.corners.size()), twin_(mesh.corners.size(), -1) {
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f)
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     std::fill(face_.begin() + mesh.offsets[std::size_t(f)], face_.begin() + mesh.offsets[std::size_t(f) + 1],
               std::int32_t(f));
+  }
   find_twins();
 }
 
@@ -35,15 +39,21 @@ std::int32_t HalfEdges::previous(std::int32_t k) const {
 void HalfEdges::find_twins() {
   std::vector<std::int32_t> start(std::size_t(mesh_.vertex_count()) + 1, 0);
   const auto low = [&](std::int32_t k) { return std::size_t(std::min(from(k), from(next(k)))); };
-  for (std::int32_t k = 0; k < count(); ++k) ++start[low(k) + 1];
+  for (std::int32_t k = 0; k < count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
+    ++start[low(k) + 1];
+  }
   for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
 
   std::vector<Entry> entries(face_.size());
   std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
-  for (std::int32_t k = 0; k < count(); ++k)
+  for (std::int32_t k = 0; k < count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
     entries[std::size_t(fill[low(k)]++)] = {std::int32_t(std::max(from(k), from(next(k)))), k};
+  }
 
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    stop_if_cancelled(v);
     const auto begin = entries.begin() + start[v], end = entries.begin() + start[v + 1];
     std::sort(begin, end);
     for (auto first = begin; first != end;) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -11,8 +12,10 @@ namespace {
 using Ids = std::vector<std::int64_t>;
 
 bool all_agree(const HalfEdges& half_edges) {
-  for (std::int32_t k = 0; k < half_edges.count(); ++k)
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
     if (half_edges.twin(k) > k && half_edges.runs_as_twin(k)) return false;
+  }
   return true;
 }
 
@@ -29,6 +32,7 @@ class Parties {
     party_[std::size_t(seed)] = 1;
     bool two_sided = true;
     for (std::size_t i = 0; i < component_.size(); ++i) {
+      stop_if_cancelled(i);
       const auto f = std::size_t(component_[i]);
       for (auto k = std::int32_t(mesh_.offsets[f]); k < mesh_.offsets[f + 1]; ++k) {
         if (half_edges_.twin(k) < 0) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -70,12 +71,16 @@ void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
     return std::size_t(*std::min_element(face.begin(), face.end()));
   };
   std::vector<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
-  for (std::int32_t f = 0; f < faces; ++f) ++start[lowest(f) + 1];
+  for (std::int32_t f = 0; f < faces; ++f) {
+    stop_if_cancelled(std::size_t(f));
+    ++start[lowest(f) + 1];
+  }
   for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
 
   std::vector<Print> prints(std::size_t(faces), Print{});
   std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
   for (std::int32_t f = 0; f < faces; ++f) {
+    stop_if_cancelled(std::size_t(f));
     std::uint64_t hash = 0;
     for (std::int64_t v : mesh.face(f)) hash += scramble(std::uint64_t(v));
     prints[std::size_t(fill[lowest(f)]++)] = {hash, f};
@@ -83,6 +88,7 @@ void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
 
   Ids duplicates;
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    stop_if_cancelled(v);
     const auto begin = prints.begin() + start[v], end = prints.begin() + start[v + 1];
     std::sort(begin, end);
     for (auto first = begin; first != end;) {
@@ -111,14 +117,17 @@ void check_edges(const HalfEdges& half_edges, Defects& found) {
 void check_fans(const PolygonMesh& mesh, const HalfEdges& half_edges, Defects& found) {
   std::vector<std::int32_t> corners(std::size_t(mesh.vertex_count()), 0), some(corners.size(), -1);
   for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
     const auto v = std::size_t(half_edges.from(k));
     ++corners[v];
     some[v] = k;
   }
   for (std::int64_t v : half_edges.overfull()) corners[std::size_t(v)] = 0;
   Ids bad;
-  for (std::size_t v = 0; v < corners.size(); ++v)
+  for (std::size_t v = 0; v < corners.size(); ++v) {
+    stop_if_cancelled(v);
     if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v]) bad.push_back(std::int64_t(v));
+  }
   if (bad.empty()) return;
   found.emplace_back(ErrorCode::nonmanifold_vertex,
                      listing(vertex_s, bad, {"joins", "join"}) +

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "check/error.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -23,7 +24,9 @@ HalfEdgeMesh build(const ControlMesh& control) {
   mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(),
                control.faces.size());
   for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex();
-  for (const Face& face : control.faces) {
+  for (std::size_t f = 0; f < control.faces.size(); ++f) {
+    stop_if_cancelled(f);
+    const Face& face = control.faces[f];
     OpenMesh::VertexHandle corners[4];
     for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);
     // check() leaves nothing that could fail here; but a bug must not become a broken table.
@@ -38,6 +41,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
 void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
   control.edges.resize(mesh.n_edges());
   for (std::size_t e = 0; e < control.edges.size(); ++e) {
+    stop_if_cancelled(e);
     const Half h = mesh.halfedge_handle(OpenMesh::EdgeHandle(int(e)), 0);
     control.edges[e] = {{mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()}, {-1, -1}};
   }
@@ -46,6 +50,7 @@ void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
 // OpenMesh's half-edges 2e and 2e + 1 are the edge's two directions, as Edge::side is.
 void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
   for (std::size_t f = 0; f < control.faces.size(); ++f) {
+    stop_if_cancelled(f);
     const Face& face = control.faces[f];
     Half h = mesh.halfedge_handle(OpenMesh::FaceHandle(int(f)));
     while (mesh.from_vertex_handle(h).idx() != face.vertex[0]) h = mesh.next_halfedge_handle(h);
@@ -91,6 +96,7 @@ void connect_faces(ControlMesh& control) {
   fill_sides(mesh, control);
   control.ring_offset.assign(1, 0);
   for (Index v = 0; v < control.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     fill_ring(mesh, v, control);
     control.ring_offset.push_back(Index(control.spokes.size()));
   }

@@ -7,6 +7,7 @@
 #include "control_mesh/features.h"
 #include "control_mesh/region.h"
 #include "control_mesh/split.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -23,6 +24,7 @@ void take_faces(const SplitMesh& split, ControlMesh& control) {
   Index sides = 0;
   control.faces.reserve(split.faces.size());
   for (const SplitFace& face : split.faces) {
+    stop_if_cancelled(control.faces.size());
     const auto size = std::int8_t(face.vertex[3] < 0 ? 3 : 4);
     control.faces.push_back({face.vertex, sides, face.polygon, size});
     sides += size;
@@ -35,6 +37,7 @@ void index_spokes(ControlMesh& control) {
   control.spoke_of_edge.resize(2 * control.edges.size());
   control.spoke_of_side.resize(control.sides.size());
   for (std::size_t k = 0; k < control.spokes.size(); ++k) {
+    stop_if_cancelled(k);
     const Spoke& spoke = control.spokes[k];
     control.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 1)] = Index(k);
     if (spoke.face < 0) continue;

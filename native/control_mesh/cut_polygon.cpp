@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -27,9 +29,11 @@ class Costs {
   Costs(const PolygonShape& shape, const std::function<bool(std::size_t, std::size_t)>& allowed)
       : n_(shape.size()), cost_(n_ * n_, infinite) {
     for (std::size_t i = 0; i < n_; ++i) at(i, 1) = 0;
-    for (std::size_t length = 2; length < n_; ++length)
+    for (std::size_t length = 2; length < n_; ++length) {
+      stop_if_cancelled();
       for (std::size_t i = 0; i < n_; ++i)
         if (length == n_ - 1 || allowed(i, (i + length) % n_)) at(i, length) = best(shape, i, length);
+    }
   }
 
   double whole() const { return cost_[n_ - 1]; }

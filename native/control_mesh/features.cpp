@@ -7,6 +7,7 @@
 
 #include "check/error.h"
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -18,6 +19,7 @@ Index other_end(const Edge& edge, Index v) { return edge.vertex[0] == v ? edge.v
 std::vector<Vec3> polygon_normals(const PolygonMesh& mesh) {
   std::vector<Vec3> normals(std::size_t(mesh.face_count()), Vec3::Zero());
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     const auto face = mesh.face(f);
     const auto point = [&](std::size_t i) -> Vec3 {
       return Eigen::Map<const Vec3>(&mesh.coordinates[3 * std::size_t(face[i])]);
@@ -106,6 +108,7 @@ class FeatureFinder {
     if (options_.crease_angle < 0) return;
     const std::vector<Vec3> normals = polygon_normals(mesh_);
     for (std::size_t e = 0; e < control_.edges.size(); ++e) {
+      stop_if_cancelled(e);
       const Edge& edge = control_.edges[e];
       if (edge.boundary() || inside_polygon(edge)) continue;
       const Vec3 &left = normals[std::size_t(polygon(edge.side[0]))],
@@ -135,6 +138,7 @@ class FeatureFinder {
 
   void mark_corners() {
     for (Index v = 0; v < control_.vertex_count(); ++v) {
+      stop_if_cancelled(std::size_t(v));
       int count = 0;
       const auto edges = feature_edges_at(v, count);
       control_.feature_vertex[std::size_t(v)] = count > 0;

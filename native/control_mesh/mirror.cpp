@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control_mesh/point_search.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -55,6 +56,7 @@ class Finder {
     image.resize(std::size_t(mesh_.vertex_count()));
     std::vector<Index> unclear;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      stop_if_cancelled(std::size_t(v));
       image[std::size_t(v)] = v;
       if (mesh_.ring(v).empty()) continue;
       if (searches_ == 0) return false;
@@ -149,6 +151,7 @@ class Finder {
     mirror.face.resize(mesh_.faces.size());
     mirror.turn.resize(mesh_.faces.size());
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      stop_if_cancelled(f);
       const Face& face = mesh_.faces[f];
       const FaceImage image = face_image(face, 0, mirror.vertex);
       if (image.face < 0) return false;
@@ -185,6 +188,7 @@ class Finder {
 bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror, std::span<const Vec3> positions,
                        double tolerance) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
+    stop_if_cancelled(v);
     if (mesh.ring(Index(v)).empty()) continue;
     const Vec3& opposite = positions[std::size_t(mirror.vertex[v])];
     if ((mirror.plane.image(positions[v]) - opposite).norm() > tolerance) return false;

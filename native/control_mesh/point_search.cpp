@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -13,7 +15,11 @@ double key_of(const Vec3& p) { return p.dot(Vec3(0.5347, 0.6241, 0.5698)); }  //
 PointSearch::PointSearch(const ControlMesh& mesh) : positions_(mesh.positions) {
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (!mesh.ring(v).empty()) entries_.push_back({key_of(positions_[std::size_t(v)]), v});
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.key < b.key; });
+  std::sort(entries_.begin(), entries_.end(),
+            [comparisons = std::size_t(0)](const Entry& a, const Entry& b) mutable {
+              stop_if_cancelled(++comparisons);
+              return a.key < b.key;
+            });
 }
 
 Index PointSearch::at(const Vec3& p, double tolerance) const {

@@ -5,6 +5,7 @@
 
 #include "check/error.h"
 #include "check/listing.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -62,8 +63,14 @@ void find_region(const RegionOptions& options, ControlMesh& control) {
   region.joint = options.joint;
   for (const Face& face : control.faces)
     region.face.push_back(chosen[std::size_t(face.polygon)] ? Place::inside : Place::outside);
-  for (const Edge& edge : control.edges) region.edge.push_back(edge_place(control, edge));
-  for (Index v = 0; v < control.vertex_count(); ++v) region.vertex.push_back(vertex_place(control, v));
+  for (const Edge& edge : control.edges) {
+    stop_if_cancelled(region.edge.size());
+    region.edge.push_back(edge_place(control, edge));
+  }
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
+    region.vertex.push_back(vertex_place(control, v));
+  }
 }
 
 void mark_clamped_joint(ControlMesh& control) {

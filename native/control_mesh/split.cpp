@@ -9,6 +9,7 @@
 #include "check/listing.h"
 #include "control_mesh/cut_polygon.h"
 #include "control_mesh/polygon_shape.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -35,6 +36,7 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
   std::vector<Corner> first(std::size_t(mesh.vertex_count()));
   std::vector<std::uint8_t> faces(first.size(), 0), pinched(first.size(), 0);
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const auto v = std::size_t(face[i]);
@@ -73,6 +75,7 @@ class Splitter {
     choose_treatments();
     find_free_diagonals();
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
       switch (treatment_[std::size_t(f)]) {
         case Treatment::keep: add_face(f, face); break;
@@ -88,6 +91,7 @@ class Splitter {
     const std::vector<std::uint8_t> pinched = pinched_vertices(mesh_);
     std::vector<std::int64_t> too_long;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
       treatment_.push_back(choose(f, pinched));
       if (treatment_.back() == Treatment::cut && mesh_.face(f).size() > most_corners_to_cut)
         too_long.push_back(f);
@@ -113,6 +117,7 @@ class Splitter {
   void find_free_diagonals() {
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       if (treatment_[std::size_t(f)] != Treatment::cut) continue;
+      stop_if_cancelled();
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i + 2 < face.size(); ++i)
         for (std::size_t j = i + 2; j < face.size() && j - i < face.size() - 1; ++j)
@@ -120,6 +125,7 @@ class Splitter {
     }
     if (diagonals_.empty()) return;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i < face.size(); ++i) diagonals_.take(face[i], face[(i + 1) % face.size()]);
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "curve/curve.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -39,6 +40,7 @@ FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3
   const auto inner = std::size_t(curves.points_per_edge);
   Index runs = 0;
   for (const Chain& chain : mesh.chains) {
+    stop_if_cancelled();
     std::vector<Vec3> vertices, parameters;
     for (Index v : chain.vertices) {
       vertices.push_back(positions[std::size_t(v)]);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -124,8 +126,10 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Wor
   Stencils s;
   s.ring_offset.resize(vertices + 1);
   s.ring_offset[0] = 0;
-  for (std::size_t v = 0; v < vertices; ++v)
+  for (std::size_t v = 0; v < vertices; ++v) {
+    stop_if_cancelled(v);
     s.ring_offset[v + 1] = s.ring_offset[v] + ring_size(mesh, Index(v));
+  }
   const auto neighbours = std::size_t(s.ring_offset.back());
   s.vertex_fit.resize(vertices);
   s.vertex_rows.resize(5 * neighbours);

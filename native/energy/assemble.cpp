@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/assemble.h"
 
+#include "execution/cancel.h"
+
 namespace fairing {
 
 std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
@@ -10,12 +12,16 @@ std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unkno
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (unknowns.vertex[std::size_t(v)]) number[std::size_t(v)] = next++;
   std::size_t point = std::size_t(mesh.vertex_count());
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    stop_if_cancelled(e);
     for (int k = 1; k < lattice.n(); ++k, ++point)
       if (unknowns.edge[e]) number[point] = next++;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    stop_if_cancelled(f);
     for (auto k = interior_size(mesh.faces[f].quad(), lattice.n()); k > 0; --k, ++point)
       if (unknowns.has_face(f)) number[point] = next++;
+  }
   return number;
 }
 
@@ -26,7 +32,9 @@ AssembledSystem assemble_thin_plate(const Lattice& lattice, const Stencils& sten
   for (std::size_t p = 0; p < number.size(); ++p)
     if (number[p] >= 0) system.unknown_points.push_back(Index(p));
   std::vector<Eigen::Triplet<double>> entries;
+  std::size_t visited = 0;
   visit_stencils(lattice, stencils, [&](const WrittenStencil& s) {
+    stop_if_cancelled(visited++);
     for (std::size_t a = 0; a < s.points.size(); ++a) {
       const Index row = number[std::size_t(s.points[a])];
       if (row < 0) continue;
@@ -43,6 +51,7 @@ AssembledSystem assemble_thin_plate(const Lattice& lattice, const Stencils& sten
     if (number[v] >= 0) entries.emplace_back(number[v], number[v], weights[v]);
   const auto size = Index(system.unknown_points.size());
   system.matrix.resize(size, size);
+  stop_if_cancelled();
   system.matrix.setFromTriplets(entries.begin(), entries.end());
   return system;
 }

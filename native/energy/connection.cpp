@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -139,6 +141,7 @@ double Connection::set(const Surface& surface, const double* tensor, Workers& wo
       gather_face<1>(lattice, surface.area, Index(f), area.data());
       double* to = force + 3 * std::size_t(lattice.face_base(Index(f)));
       for (int j = 1; j < n; ++j) {
+        stop_in_large_face(j);
         const RowRun<float> run = rows_.face(Index(f), j);
         for (std::size_t i = 0; i < run.count; ++i, to += 3) {
           const auto point = [&](int s) -> TensorPoint {

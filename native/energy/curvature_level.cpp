@@ -161,7 +161,9 @@ double CurvatureLevel::linearize(const double* x, Surface* out) {
     if (surface.with_axes) std::fill_n(surface.axis.data() + 3 * p, 3 * count, 0.0f);
     if (varies()) tensors.clear(p, count);
   };
-  if (!mesh.region.whole()) clear_points(0, lattice_.size());  // faces outside are not visited
+  if (!mesh.region.whole())  // faces outside are not visited
+    shared_.workers.for_parts(lattice_.size(), vector_grain / 8,
+                              [&](std::size_t begin, std::size_t end) { clear_points(begin, end - begin); });
 
   const auto vertex_body = [&](Index v, double* centre, double* spokes, std::vector<double>&) {
     clear_points(std::size_t(v), 1);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/plate_matrix.h"
 
+#include "rows/limits.h"
+
 namespace fairing {
 namespace {
 
-constexpr int most_subdivisions = 16;
-constexpr std::size_t most_points = std::size_t(1) << 22;
 constexpr std::size_t most_products = 128;  // a point's rings by their sizes
 
 // Row p of K, from the rings that hold the point: they are those about its own ring's members.
@@ -30,7 +30,7 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
 }  // namespace
 
 bool PlateMatrix::suits(const Lattice& lattice, const Stencils& stencils) {
-  if (lattice.n() > most_subdivisions || lattice.size() > most_points) return false;
+  if (!has_rows(lattice.n(), lattice.size())) return false;
   std::size_t products = 81 * lattice.size();
   for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
     const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy/ring_rows.h"
 
+#include "execution/cancel.h"
+
 namespace fairing {
 
 RingRows::RingRows(const Lattice& lattice) : lattice_(&lattice) {
@@ -8,6 +10,7 @@ RingRows::RingRows(const Lattice& lattice) : lattice_(&lattice) {
   const std::size_t n = std::size_t(lattice.n());
   std::size_t offset = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     vertex_offset_.push_back(offset);
     std::size_t slots = 1;
     visit_ring(lattice, v, [&](Index, std::size_t) { ++slots; });
@@ -15,6 +18,7 @@ RingRows::RingRows(const Lattice& lattice) : lattice_(&lattice) {
   }
   vertex_offset_.push_back(offset);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    stop_if_cancelled(e);
     edge_offset_.push_back(offset);
     offset += 3 * std::size_t(1 + EdgeRingLanes(mesh, Index(e)).size) * (n - 1);
   }
@@ -24,7 +28,8 @@ RingRows::RingRows(const Lattice& lattice) : lattice_(&lattice) {
     offset += 3 * (1 + face_ring(face.quad()).size()) * std::size_t(interior_size(face.quad(), lattice.n()));
   }
   face_offset_.push_back(offset);
-  data_.assign(offset, 0.0f);
+  data_.resize(offset);
+  fill_long(data_.data(), offset, 0.0f);
 }
 
 RowRun<float> RingRows::face(Index f, int j) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "energy/shape_packs.h"
+#include "execution/cancel.h"
 #include "execution/scratch.h"
 
 namespace fairing {
@@ -49,6 +50,7 @@ void visit_face_runs(const Lattice& lattice, Index f, const double* x, const flo
   rings.size = int(steps.size());
   for (std::size_t s = 0; s < steps.size(); ++s) rings.far[s + 1] = quad && steps[s].i * steps[s].j != 0;
   for (int j = 1; j < n && row_count(quad, n, j) > 0; ++j) {
+    stop_in_large_face(j);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto beside = beside_row<const double>(quad, n, j, coordinate[a]);
       for (int s = 0; s <= rings.size; ++s) rings.at[s][a] = beside.at[s];

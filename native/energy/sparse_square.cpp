@@ -3,6 +3,7 @@
 
 #include "energy/assemble.h"
 #include "energy/ring_passes.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 namespace {
@@ -29,6 +30,7 @@ SparseSquare::SparseSquare(const RingRows& rows, const Unknowns& unknowns) : lat
   const float* origin = rows.vertex(0).coefficient;
   visit_rows(rows,
              [&](Index, const RowRun<const float>& run, std::size_t i, const std::vector<Index>& points) {
+               stop_if_cancelled(ring_.size());
                ring_.push_back({std::size_t(&run.at(0, 0, i) - origin), std::uint32_t(member_.size()),
                                 std::uint32_t(run.count)});
                member_.insert(member_.end(), points.begin(), points.end());
@@ -43,16 +45,20 @@ SparseSquare::SparseSquare(const RingRows& rows, const Unknowns& unknowns) : lat
 
 void SparseSquare::find_parts(const std::vector<Index>& unknown) {
   part_begin_.assign(unknown.size() + 1, 0);
-  for (const Index q : member_)
-    if (unknown[std::size_t(q)] >= 0) ++part_begin_[std::size_t(q) + 1];
+  for (std::size_t m = 0; m < member_.size(); ++m) {
+    stop_if_cancelled(m);
+    if (const auto q = std::size_t(member_[m]); unknown[q] >= 0) ++part_begin_[q + 1];
+  }
   for (std::size_t p = 0; p < unknown.size(); ++p) part_begin_[p + 1] += part_begin_[p];
   part_.resize(part_begin_.back());
   Array<std::size_t> next(part_begin_.begin(), part_begin_.end() - 1);
-  for (std::uint32_t r = 0; r < unknown.size(); ++r)
+  for (std::uint32_t r = 0; r < unknown.size(); ++r) {
+    stop_if_cancelled(r);
     for (std::uint32_t k = ring_[r].begin; k < ring_[r + 1].begin; ++k) {
       const auto q = std::size_t(member_[k]);
       if (unknown[q] >= 0) part_[next[q]++] = {r, k - ring_[r].begin};
     }
+  }
 }
 
 void SparseSquare::find_columns(const std::vector<Index>& unknown) {
@@ -62,6 +68,7 @@ void SparseSquare::find_columns(const std::vector<Index>& unknown) {
   column_.reserve(regular_columns * unknown.size());
   std::vector<std::size_t> seen(unknown.size(), 0);  // 1 + the place among all columns
   for (std::size_t p = 0; p < unknown.size(); ++p) {
+    stop_if_cancelled(p);
     const std::size_t first = column_.size();
     column_begin_.push_back(first);
     place_begin_.push_back(place_.size());

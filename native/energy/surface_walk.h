@@ -3,6 +3,7 @@
 #pragma once
 
 #include "energy/point_curvature.h"
+#include "execution/cancel.h"
 #include "execution/memory.h"
 #include "execution/workers.h"
 #include "lattice/ring.h"
@@ -105,7 +106,8 @@ void walk_face(const Lattice& lattice, Index f, const double* x, const float* li
     return closed_row(quad, std::size_t(n), std::size_t(j)) + std::size_t(i);
   };
   const auto steps = face_ring(quad);
-  for (int j = 1; j < n; ++j)
+  for (int j = 1; j < n; ++j) {
+    stop_in_large_face(j);
     for (int i = 1; i < (quad ? n : n - j); ++i) {
       ring.start(&scratch.points[3 * at(i, j)], lift ? scratch.lifts[at(i, j)] : 0);
       int slot = 0;
@@ -116,6 +118,7 @@ void walk_face(const Lattice& lattice, Index f, const double* x, const float* li
       }
       visit(j, std::size_t(i - 1), ring, true);
     }
+  }
 }
 
 // The lifts of all points (point_curvature.h); empty where there is none. Inside faces nothing is irregular, and the

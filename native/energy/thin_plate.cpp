@@ -4,6 +4,7 @@
 #include "energy/edge_pass.h"
 #include "energy/face_passes.h"
 #include "energy/joint_weight.h"
+#include "execution/cancel.h"
 #include "lattice/ring.h"
 
 namespace fairing {
@@ -76,10 +77,13 @@ void face_weights(const JointWeight& joint, bool quad, int n, Index f, T* weight
 
 template <class T>
 ThinPlateRows<T>::ThinPlateRows(const ControlMesh& mesh, const Stencils& s) : stencils(s) {
-  vertex.assign(s.vertex_energy.begin(), s.vertex_energy.end());
-  edge.assign(s.edge_energy.begin(), s.edge_energy.end());
+  vertex.resize(s.vertex_energy.size());
+  copy_long(s.vertex_energy.data(), vertex.size(), vertex.data());
+  edge.resize(s.edge_energy.size());
+  copy_long(s.edge_energy.data(), edge.size(), edge.data());
   face.resize(16 * mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    stop_if_cancelled(f);
     const double* g = s.face_energy.data() + 12 * f;
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)

@@ -8,6 +8,11 @@
 #else
 #include <unistd.h>
 #endif
+#if defined(__linux__)
+#include <sys/mman.h>
+
+#include <cstdint>
+#endif
 
 namespace fairing {
 namespace {
@@ -26,6 +31,16 @@ void MemoryLedger::add(std::size_t bytes) {
 
 void MemoryLedger::remove(std::size_t bytes) {
   if (open_ledger) open_ledger->current_ -= std::min(bytes, open_ledger->current_);
+}
+
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  // Whole pages only: what lies beside the array stays as it is.
+  constexpr std::uintptr_t page = std::uintptr_t(1) << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + page - 1) / page * page, last = (begin + bytes) / page * page;
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // a wish
+#endif
 }
 
 std::size_t physical_memory() {

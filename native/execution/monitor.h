@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 #include "check/error.h"
 
@@ -27,7 +28,12 @@ inline const char* name(Phase phase) {
 // Shared between a run and whoever watches it, on any thread.
 class Monitor {
  public:
-  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  void cancel() { wish_.store(Wish::stop, std::memory_order_relaxed); }
+  // Cancels when the run asks for the n-th time, so that a run can be stopped anywhere, and there again.
+  void cancel_at_question(std::int64_t n) {
+    questions_.store(n, std::memory_order_relaxed);
+    wish_.store(Wish::count, std::memory_order_relaxed);
+  }
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   Phase phase() const { return phase_.load(std::memory_order_relaxed); }
 
@@ -46,11 +52,21 @@ class Monitor {
     end_ = end;
   }
   void check_cancelled() const {
-    if (cancelled_.load(std::memory_order_relaxed)) throw FairingError(ErrorCode::cancelled, "Cancelled.");
+    if (wish_.load(std::memory_order_relaxed) != Wish::go_on) answer();
   }
 
  private:
-  std::atomic<bool> cancelled_{false};
+  enum class Wish : int { go_on, count, stop };
+
+  void answer() const {
+    if (wish_.load(std::memory_order_relaxed) == Wish::count &&
+        questions_.fetch_sub(1, std::memory_order_relaxed) > 1)
+      return;
+    throw FairingError(ErrorCode::cancelled, "Cancelled.");
+  }
+
+  std::atomic<Wish> wish_{Wish::go_on};
+  mutable std::atomic<std::int64_t> questions_{0};
   std::atomic<double> fraction_{0.0};
   std::atomic<Phase> phase_{Phase::check};
   double begin_ = 0, end_ = 1;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace fairing {
@@ -29,7 +30,18 @@ T* room_in(std::vector<T>& buffer, std::size_t size) {
   return buffer.data();
 }
 
+// Which columns a row of a sparse matrix has named: their marks are greater than `last`, which only grows.
+struct ColumnMarks {
+  std::vector<std::uint32_t> mark;
+  std::uint32_t last = 0;
+};
+inline ColumnMarks& thread_column_marks() {
+  thread_local ColumnMarks own;
+  return own;
+}
+
 inline void release_thread_scratch() {
+  thread_column_marks() = {};
   thread_scratch<float>() = {};
   thread_scratch<double>() = {};
 }

@@ -53,7 +53,7 @@ Workers::~Workers() {
 
 void Workers::run_part(Task task, void* data, int part) {
   try {
-    task(data, part);
+    if (!failed_.load(std::memory_order_relaxed)) task(data, part);
   } catch (...) {
     if (!failed_.exchange(true)) failure_ = std::current_exception();
   }

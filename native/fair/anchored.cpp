@@ -2,6 +2,7 @@
 #include "fair/anchored.h"
 
 #include "check/error.h"
+#include "execution/cancel.h"
 
 namespace fairing {
 
@@ -17,7 +18,8 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns, const V
       held[v] = 1;
       front.push_back(Index(v));
     }
-  while (!front.empty()) {
+  for (std::size_t step = 0; !front.empty(); ++step) {
+    stop_if_cancelled(step);
     const Index v = front.back();
     front.pop_back();
     for (const Spoke& spoke : mesh.ring(v)) {

@@ -93,7 +93,8 @@ void CurvatureSystem::symmetrize(int level, Array<double>& x) {
 }
 
 void CurvatureSystem::take_plate(int level, const Array<double>& plate) {
-  surface_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(3 * lattice(level).size()));
+  surface_.resize(3 * lattice(level).size());
+  for_each_index(workers_, surface_.size(), [&](std::size_t i) { surface_[i] = plate[i]; });
   symmetrize(level, surface_);
 }
 

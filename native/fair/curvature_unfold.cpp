@@ -76,7 +76,7 @@ void CurvatureSystem::unfold(int level, const Array<double>& start, const Curvat
 // Marked points anew, as the control mesh has them between those around.
 void CurvatureSystem::refill(int level, const Array<float>& marks) {
   trial_.resize(surface_.size());
-  refine_linearly(lattice(level), hold_.places(), trial_.data());
+  refine_linearly(lattice(level), hold_.places(), workers_, trial_.data());
   fill_harmonically(lattice(level), hold_.any() ? hold_.without_held() : shared_.unknowns, marks,
                     trial_.data(), surface_.data());
   symmetrize(level, surface_);

@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "execution/cancel.h"
 #include "fair/kept_run.h"
 #include "fair/world.h"
 
@@ -62,6 +63,7 @@ void solve_shapes(KeptRun& run, const PolygonMesh& input, const std::vector<Plac
 
 FairResult run_once(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   MemoryLedger ledger;
+  const CancelScope scope(&monitor);
   FairResult result;
   Report& report = result.report;
   Stopwatch watch(report, monitor);

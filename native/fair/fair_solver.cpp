@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "execution/cancel.h"
 #include "fair/world.h"
 
 namespace fairing {
@@ -44,6 +45,7 @@ void FairSolver::start_anew() {
 // Whatever goes wrong on the way leaves nothing half done behind.
 template <class Call>
 auto FairSolver::guarded(Call&& call) {
+  const CancelScope scope(&monitor_);
   try {
     return call();
   } catch (const std::bad_alloc&) {

@@ -145,7 +145,7 @@ std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh, std::spa
                                                Workers& workers) {
   const Lattice lattice(mesh, 0);
   std::vector<double> x(3 * lattice.size());
-  refine_linearly(lattice, control, x.data());
+  refine_linearly(lattice, control, workers, x.data());
   const Folds folds = find_folds(Cut::every, lattice, workers, x.data(), {});
   std::vector<std::uint8_t> folded(mesh.faces.size(), 0);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) folded[f] = folds.in_face[f] > 0;

@@ -6,6 +6,7 @@
 
 #include "check/check.h"
 #include "energy/total_curvature.h"
+#include "execution/cancel.h"
 #include "fair/anchored.h"
 #include "fair/back_leg.h"
 #include "fair/check_options.h"
@@ -18,6 +19,7 @@ namespace fairing {
 KeptRun::KeptRun(const PolygonMesh& input, const FairOptions& options, Monitor& monitor, Stopwatch& watch,
                  Report& report)
     : options_(options), monitor_(monitor) {
+  const CancelScope scope(&monitor);
   watch.enter(Phase::check, 0);
   check_options(input, options_);
   check(input, watch, report);
@@ -151,7 +153,7 @@ SurfaceEnergies KeptRun::energies(const double* x) {
 
 SurfaceEnergies KeptRun::polyhedron_energies(const Placement& place) {
   Array<double> polyhedron(3 * finest().size());
-  refine_linearly(finest(), place.working, polyhedron.data());
+  refine_linearly(finest(), place.working, *workers_, polyhedron.data());
   return energies(polyhedron.data());
 }
 

@@ -11,6 +11,7 @@
 #include "energy/sparse_square.h"
 #include "execution/memory.h"
 #include "lattice/lattice.h"
+#include "rows/limits.h"
 #include "solver/coarse.h"
 
 namespace fairing {
@@ -24,6 +25,17 @@ struct Counts {
 // A sparse Cholesky factor of so many unknowns of a plate, as minimum degree leaves it.
 std::int64_t factor_bytes(std::int64_t unknowns) {
   return 12 * unknowns * (40 + 4 * std::bit_width(std::uint64_t(unknowns)));
+}
+
+// The thin plate's rows of levels with small faces, and those of the transfers between them.
+std::int64_t row_bytes(const Counts& c, int levels) {
+  const std::int64_t row = c.quads > 0 ? 250 : 190, transfer = 190;  // a point
+  std::int64_t bytes = 0;
+  for (int l = 1; l <= levels; ++l) {
+    const std::int64_t size = lattice_size(c.vertices, c.edges, c.triangles, c.quads, l);
+    if (has_rows(1 << l, std::size_t(size))) bytes += (row + transfer) * size;
+  }
+  return bytes;
 }
 
 // What Gauss-Newton steps hold beside the thin plate's system: rows of all levels, and the factor of the finest one that may
@@ -56,7 +68,8 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
   }
   if (levels > 0) factored = std::max(factored, std::min<std::int64_t>(size(1), direct_limit));
   const std::int64_t outer =
-      5 * 24 * points + 24 * below;  // in double: x, r, p, q, and one more to measure or diagonalize
+      5 * 24 * points +
+      (24 + 48) * below;  // x, the iteration's vectors, and one more to measure or diagonalize
   const std::int64_t inner = all_levels * (4 * 12 + 4);  // the cycle in float, and the diagonal
   // The first smoothed levels estimate their spectrum with five vectors more; two or three levels at the most are so.
   const std::int64_t spectrum = n <= 16 && points > tiny ? 5 * 12 * points : 0;
@@ -66,7 +79,8 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
       rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
   const std::int64_t steps = energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_levels, energy);
   const std::int64_t output = n * n * (16 * c.triangles + 20 * c.quads);
-  return std::max(outer + inner + spectrum + exchange + stencils + factor_bytes(factored) + steps,
+  return std::max(outer + inner + spectrum + exchange + stencils + factor_bytes(factored) +
+                      row_bytes(c, levels) + steps,
                   24 * points + output) +
          (1 << 14);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fair/output.h"
 
+#include "execution/cancel.h"
+#include "lattice/accumulate.h"
+
 namespace fairing {
 namespace {
 
@@ -34,7 +37,7 @@ OutputFaces make_faces(const Lattice& lattice, Workers& workers) {
   out.quads.resize(4 * quads * cells);
   out.quad_polygon.resize(quads * cells);
 
-  workers.for_parts(mesh.faces.size(), 64, [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> low, high;
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];
@@ -45,6 +48,7 @@ OutputFaces make_faces(const Lattice& lattice, Workers& workers) {
       std::fill(polygon, polygon + cells, std::int32_t(face.polygon));
       row_ids(lattice, Index(f), quad, 0, low);
       for (int j = 0; j < n; ++j) {
+        stop_in_large_face(j);
         row_ids(lattice, Index(f), quad, j + 1, high);
         const auto width = std::size_t(quad ? n : n - j);
         for (std::size_t i = 0; i < width; ++i) {

@@ -117,7 +117,7 @@ double SurfaceSystem::energy(int level, const double* x) {
 SurfaceSystem::Scales SurfaceSystem::scales(int level, std::span<const Vec3> targets, double* x) {
   const std::size_t size = 3 * lattice(level).size();
   Array<double>& r = hierarchy_.state().residual;
-  refine_linearly(lattice(level), targets, x);
+  refine_linearly(lattice(level), targets, workers_, x);
   set_fixed(level, targets, x);
   residual(level, targets, x, r.data());
   const Array<float>& inverse = operators_[std::size_t(level - base_)]->inverse_diagonal();
@@ -166,14 +166,15 @@ void SurfaceSystem::report_progress(int level, const PcgResult& so_far, double t
 
 const Array<double>& SurfaceSystem::surface_below(int level, Array<double>& x) {
   x.resize(3 * lattice(top()).size());
-  below_.assign(x.begin(), x.begin() + std::ptrdiff_t(level > base_ ? 3 * lattice(level - 1).size() : 0));
+  below_.resize(level > base_ ? 3 * lattice(level - 1).size() : 0);
+  for_each_index(workers_, below_.size(), [&](std::size_t i) { below_[i] = x[i]; });
   return below_;
 }
 
 void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, const Array<double>& below,
                                 Array<double>& x) {
   if (level == base_)
-    refine_linearly(lattice(level), targets, x.data());
+    refine_linearly(lattice(level), targets, workers_, x.data());
   else
     prolong(lattice(level - 1), lattice(level), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
             below.data(), x.data());

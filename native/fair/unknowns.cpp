@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fair/unknowns.h"
 
+#include "execution/cancel.h"
 #include "fair/constrain.h"
 
 namespace fairing {
@@ -9,6 +10,7 @@ Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   Unknowns u;
   u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
     const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
     u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_place(v) == Place::inside;

@@ -11,8 +11,10 @@ void to_world(const Placement& place, const Lattice& lattice, const Frame& frame
   const ControlMesh& mesh = lattice.mesh();
   const std::vector<Vec3>& given = place.world;
   std::vector<std::uint8_t> kept(given.size());
-  for (std::size_t v = 0; v < given.size(); ++v)
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    stop_if_cancelled(v);
     kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == place.working[v];
+  }
   workers.for_parts(lattice.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
       for (std::size_t a = 0; a < 3; ++a)

@@ -66,10 +66,11 @@ void for_pairs(const Lattice& lattice, const Mirror& mirror, const Unknowns& unk
   const Pairs pairs(lattice, mirror, unknowns, write);
   if (unknowns.any_vertex)
     for (Index v = 0; v < mesh.vertex_count(); ++v) pairs.vertex(v);
-  workers.for_parts(mesh.edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) pairs.edge(Index(e));
-  });
-  workers.for_parts(mesh.faces.size(), 256, [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(mesh.edges.size(), element_grain(lattice.n()) * std::size_t(lattice.n()),
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t e = begin; e < end; ++e) pairs.edge(Index(e));
+                    });
+  workers.for_parts(mesh.faces.size(), element_grain(lattice.n()), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) pairs.face(Index(f));
   });
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lattice/closed_face.h"
+#include "lattice/accumulate.h"
 
 namespace fairing {
 
@@ -13,12 +13,13 @@ void sample(const Lattice& coarse, const Lattice& fine, Workers& workers, const 
   const int n = coarse.n();
   const auto at = [](Index p) { return std::ptrdiff_t(C) * p; };
   std::copy_n(x, at(mesh.vertex_count()), y);
-  workers.for_parts(mesh.edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (Index e = Index(begin); e < Index(end); ++e)
-      for (int k = 1; k < n; ++k)
-        copy_point<C>(y + at(coarse.edge_point(e, k)), x + at(fine.edge_point(e, 2 * k)));
-  });
-  workers.for_parts(mesh.faces.size(), 256, [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
+                    [&](std::size_t begin, std::size_t end) {
+                      for (Index e = Index(begin); e < Index(end); ++e)
+                        for (int k = 1; k < n; ++k)
+                          copy_point<C>(y + at(coarse.edge_point(e, k)), x + at(fine.edge_point(e, 2 * k)));
+                    });
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     for (Index f = Index(begin); f < Index(end); ++f) {
       const bool quad = mesh.faces[std::size_t(f)].quad();
       T* to = y + at(coarse.face_base(f));

@@ -2,11 +2,10 @@
 // Sums rows of a sparse matrix, one after another.
 #pragma once
 
-#include <cstdlib>
-#include <memory>
-#include <new>
+#include <algorithm>
 #include <vector>
 
+#include "execution/scratch.h"
 #include "rows/chunk.h"
 
 namespace fairing {
@@ -14,9 +13,12 @@ namespace fairing {
 class RowBuilder {
  public:
   // For columns 0 … columns - 1.
-  explicit RowBuilder(std::size_t columns)
-      : seen_(static_cast<std::uint32_t*>(std::calloc(columns, sizeof(std::uint32_t)))) {
-    if (!seen_) throw std::bad_alloc();
+  explicit RowBuilder(std::size_t columns) : marks_(thread_column_marks()) {
+    constexpr std::uint32_t room_of_marks = std::uint32_t(1) << 31;
+    if (marks_.mark.size() < columns) marks_.mark.resize(columns, 0);
+    if (marks_.last < room_of_marks) return;
+    std::fill(marks_.mark.begin(), marks_.mark.end(), 0);
+    marks_.last = 0;
   }
 
   // To the row's number in a column.
@@ -29,29 +31,24 @@ class RowBuilder {
     for (; chunk.number.size() % row_block != 0; chunk.number.push_back(0))
       chunk.column.push_back(column_.empty() ? 0 : column_.front());
     chunk.row_end.push_back(std::uint32_t(chunk.column.size()));
-    start_ += std::uint32_t(sum_.size());
+    marks_.last += std::uint32_t(sum_.size());
     sum_.clear();
     column_.clear();
   }
 
  private:
-  struct Free {
-    void operator()(void* p) const { std::free(p); }
-  };
-
-  // `seen_` is 1 + the place among the columns of all rows so far.
+  // A mark is 1 + the place among the columns of all rows so far.
   std::size_t place_of(Index column) {
-    std::uint32_t& seen = seen_.get()[column];
-    if (seen <= start_) {
+    std::uint32_t& mark = marks_.mark[std::size_t(column)];
+    if (mark <= marks_.last) {
       column_.push_back(std::uint32_t(column));
       sum_.push_back(0);
-      seen = start_ + std::uint32_t(sum_.size());
+      mark = marks_.last + std::uint32_t(sum_.size());
     }
-    return seen - start_ - 1;
+    return mark - marks_.last - 1;
   }
 
-  std::unique_ptr<std::uint32_t, Free> seen_;  // pages that no row touches are never made
-  std::uint32_t start_ = 0;
+  ColumnMarks& marks_;
   std::vector<double> sum_;
   std::vector<std::uint32_t> column_;
 };

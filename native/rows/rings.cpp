@@ -46,6 +46,7 @@ void WrittenRings::code_points(const Unknowns& unknowns) {
 void WrittenRings::write_vertices() {
   const ControlMesh& mesh = lattice_.mesh();
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     ring_.push_back({member_.size(), std::uint32_t(ring_length(mesh, v) + 1), v});
     member_.push_back(coded_[std::size_t(v)]);
     visit_ring(lattice_, v, [&](Index point, std::size_t) { member_.push_back(coded_[std::size_t(point)]); });
@@ -59,6 +60,7 @@ void WrittenRings::write_edges(Workers& workers) {
   const std::size_t first_ring = ring_.size();
   std::size_t members = member_.size();
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    stop_if_cancelled(e);
     const auto size = std::uint32_t(EdgeRingLanes(mesh, Index(e)).size + 1);
     for (int k = 1; k < n; ++k, members += size)
       ring_.push_back({members, size, mesh.vertex_count() + Index(e)});
@@ -86,6 +88,7 @@ void WrittenRings::write_faces(Workers& workers) {
   const Index first_face = mesh.vertex_count() + Index(mesh.edges.size());
   std::size_t members = member_.size();
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    stop_if_cancelled(f);
     const bool quad = mesh.faces[f].quad();
     const auto size = std::uint32_t(face_ring(quad).size() + 1);
     for (auto k = interior_size(quad, n); k > 0; --k, members += size)

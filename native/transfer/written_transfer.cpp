@@ -2,12 +2,10 @@
 #include "transfer/written_transfer.h"
 
 #include "lattice/ring.h"
+#include "rows/limits.h"
 
 namespace fairing {
 namespace {
-
-constexpr std::size_t most_points = std::size_t(1) << 22;
-constexpr int most_subdivisions = 16;
 
 // What a fit's value half-way to a neighbour counts for: half of an edge's midpoint, a quarter of a quad's centre.
 constexpr double of_midpoint = 0.5, of_centre = 0.25;
@@ -158,9 +156,7 @@ class FineRows {
 
 }  // namespace
 
-bool WrittenTransfer::suits(const Lattice& fine) {
-  return fine.n() > 1 && fine.n() <= most_subdivisions && fine.size() <= most_points;
-}
+bool WrittenTransfer::suits(const Lattice& fine) { return has_rows(fine.n(), fine.size()); }
 
 WrittenTransfer::WrittenTransfer(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
                                  const Unknowns& unknowns, Workers& workers)

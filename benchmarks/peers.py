@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same job by us and by other programs: a control mesh refined, its vertices fixed, all others faired.
+
+Two kinds of peers. Those that solve the very same system: CHOLMOD, and Eigen's LDLT where it is small (cholesky.cpp);
+their time is from the assembled matrix to the solution, the assembly apart. And those that fair in their own way: CGAL
+and libigl by their own bi-Laplacians, on a mesh that has been refined for them beforehand; Manifold by patches, for
+which nothing is solved. Ours is everything, from plain arrays to plain arrays.
+
+A process for each; one that takes more than LIMIT seconds is ended, and left out at the larger sizes.
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cholesky
+import control_meshes
+import numpy as np
+import table
+
+LIMIT = 60  # seconds a run
+REPEATS = {46_080: 7, 184_320: 5, 800_000: 3}
+CASES = {
+    "46 K, 720 faces": (6, 3),
+    "184 K, 2,880 faces": (12, 3),
+    "800 K, 12,500 faces": (25, 3),
+}
+THREADS = {1: ", one thread", 2: ", two"}
+LARGEST_FOR_LDLT = 50_000
+TOLERANCE = 1e-6
+CGAL = cholesky.PROGRAM.with_name("fairing_bench_cgal")
+
+
+def refined(points: np.ndarray, triangles: np.ndarray, levels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Flat faces 1-to-4, again and again; the control vertices stay in front."""
+    for _ in range(levels):
+        sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        edges, place = np.unique(sides, axis=0, return_inverse=True)
+        a, b, c = triangles.T
+        ab, bc, ca = (len(points) + place.reshape(-1, 3)).T
+        points = np.concatenate([points, points[edges].mean(axis=1)])
+        pieces = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        triangles = np.concatenate([np.stack(piece, axis=1) for piece in pieces])
+    return points, triangles
+
+
+def timed(body: Callable[[], Any], repeats: int) -> dict[str, Any]:
+    """Wall seconds of each run, after one that warms up."""
+    body()
+    wall = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        last = body()
+        wall.append(time.perf_counter() - start)
+    return {"wall": wall, **(last if isinstance(last, dict) else {})}
+
+
+def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
+    """From arrays to arrays."""
+    import runs
+
+    mesh = control_meshes.sphere(size)
+
+    def body() -> dict[str, Any]:
+        report = runs.fair(mesh, levels=levels, relative_residual=TOLERANCE, measure=False, threads=threads)
+        return {"iterations": [level["iterations"] for level in report["levels"]]}
+
+    return timed(body, repeats)
+
+
+def warm(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
+    """One control vertex moves by a tenth of an edge, to and fro; the solver knows the mesh."""
+    import discrete_fairing as df
+
+    if not hasattr(df, "Solver"):
+        return {"note": "this build has no Solver"}
+    vertices, faces = control_meshes.sphere(size)
+    solver = df.Solver(vertices, faces, levels=levels, relative_residual=TOLERANCE, threads=threads)
+    solver.solve()
+    moved = vertices.copy()
+    moved[0] += 0.1 * np.linalg.norm(vertices[faces[0, 0]] - vertices[faces[0, 1]])
+    positions = [moved, vertices]
+
+    def body() -> dict[str, Any]:
+        positions.reverse()
+        report = solver.solve(positions[0]).report
+        return {"iterations": [level["iterations"] for level in report["levels"]]}
+
+    return timed(body, 2 * repeats)
+
+
+def libigl(size: int, levels: int, repeats: int) -> dict[str, Any]:
+    """harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's LDLT."""
+    import rivals
+
+    igl = rivals.installed("igl", "libigl")
+    vertices, faces = control_meshes.sphere(size)
+    points, triangles = refined(vertices, faces, levels)
+    fixed = np.arange(len(vertices))
+    return timed(lambda: igl.harmonic(points, triangles, fixed, vertices, 2), repeats)
+
+
+def manifold(size: int, levels: int, repeats: int) -> dict[str, Any]:
+    """smooth, then refine; from arrays to arrays."""
+    import rivals
+
+    rivals.installed("manifold3d", "manifold3d")
+    vertices, faces = control_meshes.sphere(size)
+    return timed(lambda: rivals.manifold(vertices, faces.tolist(), levels), repeats)
+
+
+CHILDREN = {"ours": ours, "warm": warm, "libigl": libigl, "manifold": manifold}
+
+
+def finished(words: list[str], repeats: int, **variables: str) -> dict[str, Any]:
+    """What a program prints; a note where it takes too long or fails."""
+    try:
+        done = subprocess.run(
+            words,
+            capture_output=True,
+            text=True,
+            env={**os.environ, **variables},
+            timeout=LIMIT * (repeats + 1),
+        )
+    except subprocess.TimeoutExpired:
+        return {"note": f"over {LIMIT} s"}
+    if done.returncode:
+        return {"note": (done.stderr.strip().splitlines() or ["failed"])[-1]}
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def child(name: str, case: tuple[int, int], repeats: int, *more: int) -> dict[str, Any]:
+    """One of the Python ones in a process of its own."""
+    words = [sys.executable, __file__, name, *map(str, (*case, repeats, *more))]
+    return finished(words, repeats)
+
+
+def cgal(case: tuple[int, int], repeats: int) -> dict[str, Any]:
+    """cgal.cpp on the refined mesh."""
+    vertices, faces = control_meshes.sphere(case[0])
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "mesh.txt"
+        cholesky.write_mesh(refined(vertices, faces, case[1]), path)
+        return finished([str(CGAL), str(path), str(len(vertices)), str(repeats)], repeats)
+
+
+def same_system(case: tuple[int, int], repeats: int, threads: int, ldlt: bool) -> dict[str, Any]:
+    """cholesky.cpp: CHOLMOD, its analysis alone, assembly, LDLT."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "mesh.txt"
+        cholesky.write_mesh(control_meshes.sphere(case[0]), path)
+        words = [str(cholesky.PROGRAM), str(path), str(case[1]), str(threads), str(repeats)]
+        count = str(threads)
+        return finished(
+            words + ["ldlt"] * ldlt, 3 * repeats, OPENBLAS_NUM_THREADS=count, OMP_NUM_THREADS=count
+        )
+
+
+def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
+    """Everybody on one mesh; those in `slow` are left out."""
+    triangles = 20 * case[0] ** 2 * 4 ** case[1]
+    repeats = REPEATS[triangles]
+    found: dict[str, Any] = {}
+    for threads, on in THREADS.items():
+        found[f"ours{on}"] = child("ours", case, repeats, threads)
+        found[f"ours, warm{on}"] = child("warm", case, repeats, threads)
+        entry = same_system(case, repeats, threads, threads == 1 and triangles <= LARGEST_FOR_LDLT)
+        if "note" in entry:
+            found[f"CHOLMOD{on}"] = entry
+            continue
+        whole, analysis = entry["cholmod"]["wall"], entry["analysis"]["wall"]
+        found[f"CHOLMOD{on}"] = {"wall": whole}
+        found[f"CHOLMOD without analysis{on}"] = {"wall": [a - b for a, b in zip(whole, analysis)]}
+        if threads == 1:
+            found["(assembly of its matrix)"] = entry["assembly"]
+        if entry["ldlt"]["wall"]:
+            found["Eigen SimplicialLDLT"] = entry["ldlt"]
+    others = {
+        "CGAL fair": lambda: cgal(case, min(2, repeats)),
+        "libigl harmonic": lambda: child("libigl", case, min(2, repeats)),
+        "manifold3d smooth": lambda: child("manifold", case, repeats),
+    }
+    for name, make in others.items():
+        found[name] = {"note": "left out: too slow at the size before"} if name in slow else make()
+    return found
+
+
+def run() -> dict[str, Any]:
+    """All sizes; the ratios are to ours on as many threads."""
+    result: dict[str, Any] = {"blas": cholesky.blas()}
+    rows: list[list[Any]] = []
+    slow: set[str] = set()
+    for name, case in CASES.items():
+        found = result[name] = measure(case, slow)
+        base = {on: statistics.median(found[f"ours{on}"]["wall"]) for on in THREADS.values()}
+        for peer, entry in found.items():
+            if "note" in entry:
+                slow |= {peer} if "over" in entry["note"] else set()
+                rows.append([name, peer, entry["note"], "", "", ""])
+                continue
+            seconds = statistics.median(entry["wall"])
+            slow |= {peer} if 4 * seconds > LIMIT else set()
+            ratio = seconds / base[THREADS[2] if peer.endswith(THREADS[2]) else THREADS[1]]
+            spread = f"{min(entry['wall']):.3g} … {max(entry['wall']):.3g}"
+            iterations = " ".join(map(str, entry.get("iterations", [])))
+            rows.append([name, peer, seconds, spread, ratio, iterations])
+    table.show(
+        f"The same job, seconds (median) and times ours; CHOLMOD on {result['blas']}",
+        ["mesh", "by", "seconds", "from … to", "ratio", "iterations a level"],
+        rows,
+    )
+    return result
+
+
+if __name__ == "__main__":
+    print(json.dumps(CHILDREN[sys.argv[1]](*map(int, sys.argv[2:]))))
