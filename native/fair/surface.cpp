@@ -241,6 +241,7 @@ void SurfaceSystem::add_difference(std::span<const Vec3> before, std::span<const
   PcgLimits rough;
   rough.tolerance = difference_tolerance;
   rough.from_start = true;
+  rough.noise = finest_limits_.noise;
   rough.max_iterations = options_.max_iterations;
   for (int l = base_; l < top(); ++l) {
     start_level(l, moved_, surface_below(l, difference_), difference_);

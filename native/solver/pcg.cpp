@@ -86,6 +86,14 @@ class Iteration {
            (result_.residual <= limits_.tolerance && result_.energy_error <= limits_.tolerance);
   }
 
+  // From the error that the preconditioner sees at the start.
+  bool is_done_before(double error) {
+    if (limits_.from_start) energy_scale_ = error;
+    result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
+    result_.converged = result_.residual <= limits_.tolerance && result_.energy_error <= limits_.tolerance;
+    return result_.converged;
+  }
+
   // z <- M^-1 r, where z stands for unit z.
   const float* precondition() {
     // The preconditioner works on a residual of order one.
@@ -99,7 +107,7 @@ class Iteration {
   bool step() {
     const float* z = precondition();
     const double rz = z_unit_ * sum(workers_, size_, [&](std::size_t i) { return double(r_[i]) * z[i]; });
-    if (limits_.from_start && result_.iterations == 0) energy_scale_ = unit_ * std::sqrt(std::max(0.0, rz));
+    if (result_.iterations == 0 && is_done_before(unit_ * std::sqrt(std::max(0.0, rz)))) return false;
     // A new preconditioner starts a new sequence of conjugate directions.
     const bool fresh = result_.iterations == 0 || cycle_.degree != degree_;
     degree_ = cycle_.degree;
