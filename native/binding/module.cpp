@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy in, NumPy out: this file translates and decides nothing.
-#include <pybind11/numpy.h>
+// NumPy in, NumPy out: this folder translates and decides nothing.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
+#include "binding/arrays.h"
+#include "binding/report.h"
+#include "binding/runner.h"
+#include "binding/solver.h"
 #include "check/check.h"
 #include "fair/fair.h"
 #include "fair/memory_plan.h"
@@ -16,25 +15,6 @@ namespace py = pybind11;
 using namespace fairing;
 
 namespace {
-
-template <class T>
-using Contiguous = py::array_t<T, py::array::c_style>;
-
-template <class T>
-std::span<const T> as_span(const Contiguous<T>& a) {
-  return {a.data(), std::size_t(a.size())};
-}
-
-// Hands an Array over to NumPy without a copy.
-template <class T>
-py::array to_numpy(Array<T>&& values, py::ssize_t columns) {
-  auto owner = std::make_unique<Array<T>>(std::move(values));
-  T* data = owner->data();
-  const auto size = py::ssize_t(owner->size());
-  py::capsule free_later(owner.release(), [](void* p) { delete static_cast<Array<T>*>(p); });
-  if (columns == 1) return py::array_t<T>({size}, data, free_later);
-  return py::array_t<T>({size / columns, columns}, data, free_later);
-}
 
 PyObject* fairing_error_type = nullptr;
 
@@ -45,121 +25,6 @@ void raise(const FairingError& error) {
   value.attr("elements") = error.elements;
   value.attr("kind") = name(error.kind);
   PyErr_SetObject(type.ptr(), value.ptr());
-}
-
-py::list to_python(const std::vector<Warning>& warnings) {
-  py::list list;
-  for (const Warning& w : warnings) {
-    py::dict entry;
-    entry["code"] = w.code;
-    entry["message"] = w.message;
-    entry["elements"] = w.elements;
-    entry["kind"] = name(w.kind);
-    list.append(entry);
-  }
-  return list;
-}
-
-py::dict to_python(const SurfaceEnergies& e) {
-  py::dict d;
-  d["thin_plate"] = e.thin_plate;
-  d["total_curvature"] = e.total_curvature;
-  return d;
-}
-
-py::dict to_python(const LevelReport& l) {
-  py::dict d;
-  d["level"] = l.level;
-  d["points"] = l.points;
-  d["unknowns"] = l.unknowns;
-  d["iterations"] = l.iterations;
-  d["residual"] = l.residual;
-  d["energy_error"] = l.energy_error;
-  d["largest_eigenvalue"] = l.largest_eigenvalue;
-  d["smoother_degree"] = l.smoother_degree;
-  d["direct"] = l.direct;
-  d["converged"] = l.converged;
-  d["residuals"] = l.residuals;
-  return d;
-}
-
-py::dict to_python(const CurvatureLevelReport& l) {
-  py::dict d;
-  d["level"] = l.level;
-  d["plate_energy"] = l.plate_energy;
-  d["start_energy"] = l.start_energy;
-  d["energy"] = l.energy;
-  d["start_variation"] = l.start_variation;
-  d["variation"] = l.variation;
-  d["folds_before"] = l.folds_before;
-  d["folds"] = l.folds;
-  d["converged"] = l.converged;
-  d["accurate"] = l.accurate;
-  py::list steps;
-  for (const StepReport& s : l.steps) {
-    py::dict step;
-    step["functional"] = s.variation ? "minimum_variation" : "total_curvature";
-    step["energy"] = s.energy;
-    step["decrement"] = s.decrement;
-    step["length"] = s.length;
-    step["movement"] = s.movement;
-    step["iterations"] = s.iterations;
-    step["residual"] = s.residual;
-    step["direct"] = s.direct;
-    steps.append(step);
-  }
-  d["steps"] = steps;
-  return d;
-}
-
-py::dict to_python(const ShapeReport& s) {
-  py::dict d;
-  d["iterations"] = s.finest.iterations;
-  d["residual"] = s.finest.residual;
-  d["converged"] = s.finest.converged;
-  d["largest_deviation"] = s.largest_deviation;
-  d["constraint_rounds"] = s.constraint_rounds;
-  return d;
-}
-
-py::dict to_python(const Report& r) {
-  py::dict energy, seconds, d;
-  energy["result"] = to_python(r.result);
-  energy["polyhedron"] = to_python(r.polyhedron);
-  energy["prediction"] = to_python(r.prediction);
-  for (const PhaseSeconds& s : r.seconds) seconds[py::str(s.phase)] = s.seconds;
-  py::list levels, iterations, residuals;
-  bool converged = true;
-  for (const LevelReport& l : r.levels) {
-    levels.append(to_python(l));
-    iterations.append(l.iterations);
-    residuals.append(l.residual);
-    converged &= l.converged;
-  }
-  d["energy"] = energy;
-  d["levels"] = levels;
-  py::list curvature;
-  for (const CurvatureLevelReport& l : r.curvature) curvature.append(to_python(l));
-  d["curvature"] = curvature;
-  d["iterations"] = iterations;
-  d["residuals"] = residuals;
-  py::list shapes;
-  for (const ShapeReport& s : r.shapes) {
-    shapes.append(to_python(s));
-    converged &= s.finest.converged;
-  }
-  d["converged"] = converged;
-  d["shapes"] = shapes;
-  d["seconds"] = seconds;
-  d["predicted_bytes"] = r.predicted_bytes;
-  d["peak_bytes"] = r.peak_bytes;
-  d["largest_deviation"] = r.largest_deviation;
-  d["constraint_rounds"] = r.constraint_rounds;
-  d["constraint_gap"] = r.constraint_gap;
-  d["threads"] = r.threads;
-  d["warnings"] = to_python(r.warnings);
-  d["flipped_faces"] = r.flipped_faces;
-  return d;
 }
 
 using VertexPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
@@ -188,63 +53,13 @@ py::list to_python(const Defects& defects) {
   return list;
 }
 
-// Runs on a thread of its own while the calling thread looks after Python: progress, Ctrl-C.
-FairResult run_watched(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor,
-                       const py::object& progress) {
-  FairResult result;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  std::condition_variable finished;
-  bool done = false;
-  std::thread runner([&] {
-    try {
-      result = fair(mesh, options, monitor);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
-    done = true;
-    finished.notify_all();
-  });
-  std::exception_ptr python_failure;
-  double last_fraction = -1;
-  const auto ask_python = [&] {
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (progress.is_none()) return;
-      const double fraction = monitor.fraction();
-      const py::object answer = progress(std::max(fraction, last_fraction), name(monitor.phase()));
-      last_fraction = std::max(fraction, last_fraction);
-      if (answer.is(py::bool_(false))) monitor.cancel();
-    } catch (...) {
-      python_failure = std::current_exception();
-      monitor.cancel();
-    }
-  };
-  for (bool over = false; !over;) {
-    {
-      py::gil_scoped_release release;
-      std::unique_lock lock(mutex);
-      over = finished.wait_for(lock, std::chrono::milliseconds(25), [&] { return done; });
-    }
-    if (!over && !python_failure) ask_python();
-  }
-  {
-    py::gil_scoped_release release;
-    runner.join();
-  }
-  if (!python_failure && !failure) ask_python();
-  if (python_failure) std::rethrow_exception(python_failure);
-  if (failure) std::rethrow_exception(failure);
-  return result;
-}
-
 py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                      const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
                      FairOptions options, Monitor& monitor, const py::object& progress) {
   const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
   options.shapes = as_span(shapes);
-  FairResult r = run_watched(mesh, options, monitor, progress);
+  FairResult r;
+  Runner().run([&] { r = fair(mesh, options, monitor); }, monitor, nullptr, progress);
   py::dict d;
   d["report"] = to_python(r.report);
   d["vertices"] = to_numpy(std::move(r.vertices), 3);
@@ -405,6 +220,7 @@ PYBIND11_MODULE(_native, m) {
         py::arg("offsets").noconvert());
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"));
+  bind_solver(m);
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;
 #else

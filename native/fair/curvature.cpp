@@ -2,6 +2,8 @@
 // The levels: where steps start, and which ones are gone.
 #include "fair/curvature.h"
 
+#include <cmath>
+
 #include "execution/vectors.h"
 #include "fair/surface.h"
 #include "transfer/point_normal.h"
@@ -13,6 +15,7 @@ namespace {
 constexpr double real_gain = 1 - 1e-9;  // what rounding may not decide
 constexpr double hopeful = 1.5;   // a start's energy, to the level below's, that needs no other beside it
 constexpr double desperate = 10;  // one from which no other is worse
+constexpr double nearby = 0.02;   // of the energy: its change where what preconditions may stay
 constexpr double as_low = 1.01;   // as the energy by damped steps
 
 constexpr int long_patience = 14, polishing_patience = 3;
@@ -168,9 +171,45 @@ CurvatureLevelReport CurvatureSystem::solve_level(int level, const Array<double>
     if (epsilon_ > 0) release(level, report);
     if (!(report.energy <= report.plate_energy)) fall_back(level, plate, report);
     if (options_.energy == Energy::minimum_variation) vary(level, report);
-    report.folds = find_folds_of(level).count();
+    found_folds_ = report.folds = find_folds_of(level).count();
+    found_energy_ = report.energy;
+    sound_ = report.converged;
   }
   return report;
+}
+
+// Where steps had to be damped, or control vertices take part in them, all levels are needed.
+bool CurvatureSystem::can_move() const {
+  return sound_ && mode_ == Mode::plain && !hold_.any() && !(epsilon_ > 0);
+}
+
+void CurvatureSystem::leave_plate(const Array<double>& plate) {
+  for_each_index(workers_, surface_.size(), [&](std::size_t i) { surface_[i] -= plate[i]; });
+}
+
+bool CurvatureSystem::solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report) {
+  const int level = int(lattices_.size()) - 1;
+  mirrors_ = std::move(mirrors);
+  folded_faces_ = folded_control_faces(mesh_, hold_.places(), workers_);
+  for_each_index(workers_, surface_.size(), [&](std::size_t i) { surface_[i] += plate[i]; });
+  symmetrize(level, surface_);
+  energy_ = op(level).linearize(surface_.data(), &here_);
+  is_linearized_ = true;
+  report.level = level;
+  report.plate_energy = NAN;  // nobody has asked
+  report.start_energy = report.energy = op(level).bending();
+  if (!(report.start_energy <= hopeful * found_energy_ + flat)) return false;
+  is_near_ = std::abs(report.start_energy - found_energy_) <= nearby * found_energy_;
+  report.converged = true;
+  if (options_.energy == Energy::minimum_variation)
+    vary(level, report);
+  else
+    minimize(level, Mode::plain, {0, options_.step_tolerance}, short_patience, report);
+  report.folds_before = report.folds = find_folds_of(level).count();
+  sound_ = report.converged && report.energy <= as_low * report.start_energy + flat &&
+           report.folds <= found_folds_;
+  found_energy_ = report.energy;
+  return sound_;
 }
 
 // Steps may end in a fold; then the thin plate's surface is the better one.

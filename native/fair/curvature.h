@@ -31,6 +31,13 @@ class CurvatureSystem {
   // level below helps to start.
   CurvatureLevelReport solve_level(int level, const Array<double>& plate);
 
+  // The finest level's surface again after control vertices have moved, by steps on that level alone, from the one before:
+  // leave_plate() takes the thin plate's surface of before off it, solve_moved() puts the present one in its place. False:
+  // it does not go well that way, and another system has to solve level by level. Both need can_move().
+  bool can_move() const;
+  void leave_plate(const Array<double>& plate);
+  bool solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report);
+
   // The latest level's surface.
   Array<double>& surface() { return surface_; }
 
@@ -62,7 +69,8 @@ class CurvatureSystem {
   static constexpr double least_length = 1.0 / 8;
   static constexpr double damped_decrement = 3e-2;  // where damped steps end
   static constexpr int most_rejections = 4;
-  static constexpr double flat = 1e-16;  // an energy that is rounding
+  static constexpr double flat = 1e-16;               // an energy that is rounding
+  static constexpr double first_damping_share = 0.1;  // of variation's steps, where nothing is known
 
   // Near the end the surface hardly changes: what only preconditions stays as it is.
   static constexpr double nearly_there = 0.1;  // decrement
@@ -122,6 +130,12 @@ class CurvatureSystem {
   Array<float> predicted_;
   Anderson anderson_;
   Array<double> plate_below_;  // the thin plate's surface on the level before
+  double damping_share_ = first_damping_share;
+  // Of the finest level's surface.
+  bool sound_ = false;
+  double found_energy_ = 0;
+  std::size_t found_folds_ = 0;
+  bool is_near_ = false;  // the next step begins near that surface: its coarse levels will do
 };
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Newton steps on one level.
 #include <cmath>
+#include <utility>
 
 #include "execution/vectors.h"
 #include "fair/curvature.h"
@@ -70,7 +71,7 @@ void CurvatureSystem::go_steps(int level, LocalDamping* damping, const Enough& e
   for (int steps = 0; steps < most && rejections < most_rejections; ++steps) {
     if ((report.converged = energy_ < flat)) break;
     report_progress(level, report);
-    const bool fresh = damping || is_fresh(last);
+    const bool fresh = damping || (!std::exchange(is_near_, false) && is_fresh(last));
     if (fresh) linearize_below(level);
     damp(level, damping ? damping->mu() : undamped);
     StepReport& step = report.steps.emplace_back();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The steps from the least total curvature to the least variation of curvature.
 #include <cmath>
+#include <utility>
 
 #include "execution/vectors.h"
 #include "fair/curvature.h"
@@ -10,11 +11,11 @@ namespace {
 
 constexpr std::size_t wide_rows = 4;  // 37 numbers in place of 19: a factor costs so many times as much
 
-constexpr double enough = 1e-3, late_enough = 3e-2;      // decrements
-constexpr int patience = 10;                             // steps, after which the second will do
-constexpr double slack = 0.1, late = 1e-3;               // as those of curvature_steps.cpp
-constexpr double first_share = 0.1, least_share = 1e-6;  // of the damping: of the energies' ratio
-constexpr double still = 1e-4;  // of the curvature: variation that is as good as none
+constexpr double enough = 1e-3, late_enough = 3e-2;  // decrements
+constexpr int patience = 10;                         // steps, after which the second will do
+constexpr double slack = 0.1, late = 1e-3;           // as those of curvature_steps.cpp
+constexpr double least_share = 1e-6;                 // of the damping: of the energies' ratio
+constexpr double still = 1e-4;                       // of the curvature: variation that is as good as none
 
 }  // namespace
 
@@ -40,15 +41,14 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
   report.start_variation = energy_;
   report.converged = false;
   LocalDamping damping(lattice(level), shared_.unknowns, workers_);
-  double damping_share = first_share;
   int rejections = 0;
   double last = 0;  // decrement
   for (int steps = 0; steps < options_.max_steps && rejections < most_rejections; ++steps) {
     report_progress(level, report);
     // near a sphere nothing varies: what is left of the energy is measured by the curvature itself
     const double scale = energy_ + still * square / area;
-    shared_.damping = damping_share * scale / square;
-    const bool fresh = is_fresh(last);
+    shared_.damping = damping_share_ * scale / square;
+    const bool fresh = !std::exchange(is_near_, false) && is_fresh(last);
     if (fresh) linearize_below(level);
     for (int l = fresh ? level : base_; l <= level; ++l) op(l).update_diagonal();
     damp(level, damping.mu());
@@ -70,14 +70,14 @@ void CurvatureSystem::vary(int level, CurvatureLevelReport& report) {
       energy_ = energy;
       accepted = true;
       if (step.length < 1)
-        damping_share *= 2;
+        damping_share_ *= 2;
       else if (gain > 0.5)
-        damping_share = std::max(damping_share / 4, least_share);
+        damping_share_ = std::max(damping_share_ / 4, least_share);
       break;
     }
     if (!accepted) {
       step.length = 0;
-      damping_share = std::max(4 * damping_share, first_share);
+      damping_share_ = std::max(4 * damping_share_, first_damping_share);
       ++rejections;
       last = 0;
       op(level).linearize(surface_.data(), &here_);

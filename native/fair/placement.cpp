@@ -61,6 +61,19 @@ void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {
   }
 }
 
+void check_positions(std::size_t vertices, std::span<const double> coordinates) {
+  if (coordinates.size() != 3 * vertices)
+    throw FairingError(ErrorCode::bad_shape, std::to_string(coordinates.size() / 3) +
+                                                 " vertices where the solver's mesh has " +
+                                                 std::to_string(vertices) + ". Make another solver.");
+  const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
+  if (!bad.empty())
+    throw FairingError(ErrorCode::non_finite,
+                       listing(vertex_s, bad, {"has", "have"}) +
+                           " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
+                       bad);
+}
+
 Placement place_basis(const ControlMesh& mesh, const Frame& frame, int subdivisions, double exponent) {
   return placement(mesh.positions, refine_feature_edges(mesh, subdivisions, exponent), frame);
 }

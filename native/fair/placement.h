@@ -17,6 +17,9 @@ struct Placement {
 // vertices.
 void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes);
 
+// The same for the positions of one surface: other ones than `vertices` many, or not finite.
+void check_positions(std::size_t vertices, std::span<const double> coordinates);
+
 // Everything here takes a mesh whose positions are in world coordinates.
 Placement place_basis(const ControlMesh& mesh, const Frame& frame, int subdivisions, double exponent);
 

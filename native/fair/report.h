@@ -67,6 +67,7 @@ struct Report {
   int constraint_rounds = 0;     // solves that tolerance or epsilon took
   double constraint_gap = 0;     // tolerance: how far the energy may be over the least possible one, relative
   int threads = 1;
+  bool warm = false;  // started from an earlier surface
   std::vector<Warning> warnings;
   std::vector<std::int64_t> flipped_faces;
 };

@@ -14,6 +14,11 @@ constexpr double coarse_tolerance = 1e-4;
 
 // Share of the run before and after the finest level's iterations.
 constexpr double solve_begin = 0.25, solve_end = 0.8;
+// The differences that other control positions make are starts as well, and small beside the surface.
+constexpr double difference_tolerance = 1e-2;
+constexpr double negligible =
+    1e-6;  // of the mesh's size: a difference that the finest level takes in its stride
+
 // The same where Gauss-Newton steps follow, which take longer.
 constexpr double begin_of_steps = 0.3;
 
@@ -73,9 +78,9 @@ void SurfaceSystem::set_weights(const VertexWeights& weights, int level) {
   hierarchy_.refresh(std::size_t(level - base_), false);
 }
 
-void SurfaceSystem::take_shape(const FeatureCurves& curves, const VertexWeights& weights) {
+void SurfaceSystem::take_shape(const FeatureCurves& curves, const VertexWeights& weights, bool adapts) {
   curves_ = &curves;
-  hierarchy_.set_adapting(false);
+  hierarchy_.set_adapting(adapts);
   if (shared_.weights != weights) set_weights(weights, top());
 }
 
@@ -160,9 +165,9 @@ void SurfaceSystem::start_level(int level, std::span<const Vec3> targets, Array<
     x.resize(3 * lattice(top()).size());
     refine_linearly(lattice(level), targets, x.data());
   } else {
-    const Array<double> coarse(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(level - 1).size()));
+    below_.assign(x.begin(), x.begin() + std::ptrdiff_t(3 * lattice(level - 1).size()));
     prolong(lattice(level - 1), lattice(level), shared_.stencils, nullptr, workers_, shared_.fine_exchange,
-            coarse.data(), x.data());
+            below_.data(), x.data());
   }
   set_fixed(level, targets, x.data());
 }
@@ -186,6 +191,46 @@ void SurfaceSystem::solve_nested(std::span<const Vec3> targets, Array<double>& x
     if (l < top()) hierarchy_.choose_degree(reports.back(), tolerance(l), tolerance(l + 1));
     on_level(l, x);
   }
+}
+
+void SurfaceSystem::solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets, double tolerance,
+                                Array<double>& x, std::vector<LevelReport>& reports,
+                                const std::function<void(const double*)>& on_prediction) {
+  double farthest = 0;
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    farthest = std::max(farthest, (targets[v] - before[v]).lpNorm<Eigen::Infinity>());
+  if (farthest > negligible && base_ < top()) add_difference(before, targets, x, reports);
+  set_fixed(top(), targets, x.data());
+  if (on_prediction) on_prediction(x.data());
+  const Scales scale = scales(top(), targets);
+  reports.push_back(solve_level(top(), targets, tolerance, scale, x.data()));
+}
+
+// The difference solves the same system, for the differences of what is fixed or weighted.
+void SurfaceSystem::add_difference(std::span<const Vec3> before, std::span<const Vec3> targets,
+                                   Array<double>& x, std::vector<LevelReport>& reports) {
+  moved_.resize(targets.size());
+  for (std::size_t v = 0; v < targets.size(); ++v) moved_[v] = targets[v] - before[v];
+  const FeatureCurves& curves = *curves_;
+  moved_curves_ = curves;
+  const Lattice& finest = lattice(top());
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    if (curves.run[e] < 0) continue;
+    Vec3* const moved =
+        moved_curves_.points.data() + std::size_t(curves.run[e]) * std::size_t(curves.points_per_edge);
+    const double* const now = x.data() + 3 * std::size_t(finest.edge_base(Index(e)));
+    for (int k = 0; k < curves.points_per_edge; ++k)
+      moved[k] -= Vec3(now[3 * k], now[3 * k + 1], now[3 * k + 2]);
+  }
+  curves_ = &moved_curves_;
+  for (int l = base_; l < top(); ++l) {
+    const Scales scale = scales(l, moved_);
+    start_level(l, moved_, difference_);
+    reports.push_back(solve_level(l, moved_, difference_tolerance, scale, difference_.data()));
+  }
+  start_level(top(), moved_, difference_);
+  curves_ = &curves;
+  for_each_index(workers_, 3 * finest.size(), [&](std::size_t i) { x[i] += difference_[i]; });
 }
 
 LevelReport SurfaceSystem::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,

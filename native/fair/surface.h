@@ -32,9 +32,9 @@ class SurfaceSystem {
   ThinPlateShared& shared() { return shared_; }
   Monitor& monitor() { return monitor_; }
 
-  // From here on for another shape: its curves, and the weights to start from. The smoother stays as it is, so that a
-  // surface depends on its own shape alone.
-  void take_shape(const FeatureCurves& curves, const VertexWeights& weights);
+  // From here on for another shape: its curves, and the weights to start from. Unless it `adapts`, the smoother stays as it
+  // is, so that a surface depends on its own shape alone.
+  void take_shape(const FeatureCurves& curves, const VertexWeights& weights, bool adapts);
 
   // Full multigrid: from the control polyhedron to the solution on the finest level.
   // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
@@ -42,6 +42,12 @@ class SurfaceSystem {
   void solve_nested(std::span<const Vec3> targets, Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction,
                     const std::function<void(int, Array<double>&)>& on_level);
+
+  // From x, a surface of the control positions `before`, to that of `targets` on the finest level, to `tolerance`: the
+  // difference first, roughly and level by level.
+  void solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets, double tolerance,
+                   Array<double>& x, std::vector<LevelReport>& reports,
+                   const std::function<void(const double*)>& on_prediction);
 
   // x <- the start of a level: the control polyhedron on the coarsest, the prolongated x of the level below on others.
   void start_level(int level, std::span<const Vec3> targets, Array<double>& x);
@@ -73,6 +79,8 @@ class SurfaceSystem {
   LevelReport solve_level(int level, std::span<const Vec3> targets, double tolerance, const Scales& scales,
                           double* x);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
+  void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
+                      std::vector<LevelReport>& reports);
 
   const ControlMesh& mesh_;
   const FeatureCurves* curves_;
@@ -86,6 +94,11 @@ class SurfaceSystem {
   ThinPlateShared shared_;
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<ThinPlateTransfer>> transfers_;
+  Array<double> below_;  // the level below a start
+  // Of solve_moved.
+  std::vector<Vec3> moved_;
+  FeatureCurves moved_curves_;
+  Array<double> difference_;
 };
 
 }  // namespace fairing

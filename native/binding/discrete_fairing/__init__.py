@@ -11,12 +11,14 @@ from .arrays import predicted_size
 from .checking import Defect, check, repair_orientation
 from .fairing import fair
 from .result import Result
+from .solver import Solver
 
 __all__ = [
     "Defect",
     "FairingError",
     "Monitor",
     "Result",
+    "Solver",
     "__version__",
     "check",
     "fair",

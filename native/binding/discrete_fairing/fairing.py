@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import isfinite
 
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, index_array, numbers, shape_array, vertex_array
-from .errors import fairing_error
+from .arrays import face_arrays, shape_array, vertex_array
+from .options import native_options
 from .result import Result
 
 
@@ -133,97 +132,36 @@ def fair(
     FairingError
         With `code`, `elements` and a message that says what to do. CANCELLED after a cancel.
     """
-    o = _native.Options()
-    o.levels = whole("levels", levels)
-    o.energy = choice("energy", energy, _native.Energy)
-    o.step_tolerance = real("step_tolerance", step_tolerance)
-    o.max_steps = whole("max_steps", max_steps)
-    o.metric_exponent = real("metric_exponent", metric_exponent)
-    o.chart_blend = real("chart_blend", chart_blend)
-    o.chart = choice("chart", chart, _native.Chart)
-    o.interpolation = choice("interpolation", interpolation, _native.Interpolation)
-    o.tolerance = real("tolerance", tolerance)
-    o.epsilon = real("epsilon", epsilon)
-    o.boundary = choice("boundary", boundary, _native.Boundary)
-    o.joint = choice("joint", joint, _native.Joint)
-    o.method = choice("method", method, _native.Method)
-    o.repair_orientation = bool(repair_orientation)
-    o.relative_residual = real("relative_residual", relative_residual)
-    o.max_iterations = whole("max_iterations", max_iterations)
-    o.smoother_degree = whole("smoother_degree", smoother_degree)
-    o.sweeps = whole("sweeps", sweeps)
-    o.threads = whole("threads", threads)
-    o.memory_limit = whole("memory_limit", memory_limit)
-    o.measure = bool(measure)
-    if weights is not None:
-        o.weights = weight_array(weights)
-    if crease_edges is not None:
-        o.crease_edges = crease_pairs(crease_edges)
-    if crease_angle is not None:
-        o.crease_angle = real("crease_angle", crease_angle)
-    if corner_vertices is not None:
-        o.corner_vertices = index_array(corner_vertices, "corner_vertices").reshape(-1)
-    if corner_angle is not None:
-        o.corner_angle = real("corner_angle", corner_angle)
-    if region is not None:
-        o.region = region_faces(region)
+    o = native_options(
+        levels=levels,
+        energy=energy,
+        step_tolerance=step_tolerance,
+        max_steps=max_steps,
+        metric_exponent=metric_exponent,
+        chart_blend=chart_blend,
+        chart=chart,
+        interpolation=interpolation,
+        tolerance=tolerance,
+        epsilon=epsilon,
+        boundary=boundary,
+        joint=joint,
+        method=method,
+        repair_orientation=repair_orientation,
+        relative_residual=relative_residual,
+        max_iterations=max_iterations,
+        smoother_degree=smoother_degree,
+        sweeps=sweeps,
+        threads=threads,
+        memory_limit=memory_limit,
+        measure=measure,
+        weights=weights,
+        crease_edges=crease_edges,
+        crease_angle=crease_angle,
+        corner_vertices=corner_vertices,
+        corner_angle=corner_angle,
+        region=region,
+    )
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     others = shape_array(shapes, len(points))
     return Result(_native.fair(points, corners, offsets, others, o, monitor or _native.Monitor(), progress))
-
-
-def crease_pairs(edges: ArrayLike):
-    pairs = index_array(edges, "crease_edges")
-    if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
-        raise fairing_error("BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2).")
-    return pairs.reshape(-1, 2)
-
-
-def region_faces(region: ArrayLike):
-    faces = index_array(region, "region")
-    if faces.ndim != 1:
-        raise fairing_error("BAD_SHAPE", f"region has shape {faces.shape}; it must be (r,), ids of faces.")
-    return faces
-
-
-def weight_array(weights: ArrayLike):
-    array = numbers(weights, "weights", "iuf").astype(float)
-    if array.ndim != 1 or not array.size:
-        raise fairing_error("BAD_SHAPE", f"weights has shape {array.shape}; it must be (n,), one a vertex.")
-    return array
-
-
-def choice(name: str, value: str, options):
-    members = options.__members__
-    if not isinstance(value, str) or value not in members:
-        raise choice_error(name, value, tuple(members))
-    return members[value]
-
-
-def choice_error(name: str, value: object, options: tuple[str, ...]):
-    listed = " or ".join(f'"{option}"' for option in options)
-    return fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {listed}.")
-
-
-def whole(name: str, value: object) -> int:
-    try:
-        number = value.__index__()
-    except AttributeError:
-        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a whole number.") from None
-    if not 0 <= number < 2**31 and not (name == "memory_limit" and 0 <= number < 2**63):
-        raise fairing_error(
-            "BAD_OPTION",
-            f"{name} is {number}; it must be 0 or more" + (", and below 2**31." if number > 0 else "."),
-        )
-    return number
-
-
-def real(name: str, value: object) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a number.") from None
-    if not isfinite(number):
-        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be finite.")
-    return number

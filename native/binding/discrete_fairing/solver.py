@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One control mesh again and again while its vertices move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from threading import Lock
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, vertex_array
+from .errors import fairing_error
+from .options import native_options
+from .result import Result
+
+
+class Solver:
+    """Fairs one control mesh again and again while its vertices move.
+
+    Keeps the check, the hierarchy, operators and buffers, and starts each time from its last surface.
+
+    Parameters
+    ----------
+    vertices, faces, levels, energy
+        As those of fair().
+    **settings
+        Its keyword settings, but for shapes, progress and monitor. `measure` is False unless given; then no energy is
+        measured at all (NaN in the report). method="back_leg" is refused.
+
+    Raises
+    ------
+    FairingError
+        As fair() does.
+
+    Checks and builds, and solves nothing yet. One call at a time: another one meanwhile raises FairingError BUSY.
+    """
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[Sequence[int]],
+        levels: int = 3,
+        energy: str = "thin_plate",
+        **settings: object,
+    ):
+        options = native_options(levels=levels, energy=energy, **{"measure": False, **settings})
+        points = vertex_array(vertices)
+        corners, offsets = (np.array(part) for part in face_arrays(faces))
+        self._native = _native.Solver(points, corners, offsets, options)
+        self._constants = self._native.constants()
+        self._busy = Lock()
+        self._control_vertices = len(points)
+        self._levels = options.levels
+        self._energy = energy
+
+    @property
+    def control_vertices(self) -> int:
+        """Their number n."""
+        return self._control_vertices
+
+    @property
+    def levels(self) -> int:
+        return self._levels
+
+    @property
+    def energy(self) -> str:
+        return self._energy
+
+    @property
+    def bytes(self) -> int:
+        """What the long arrays and factorizations take that are kept from call to call."""
+        return self._native.bytes
+
+    def solve(
+        self,
+        vertices: ArrayLike | None = None,
+        *,
+        progress: Callable[[float, str], bool | None] | None = None,
+        monitor: _native.Monitor | None = None,
+    ) -> Result:
+        """The surface of these positions (n, 3) of the control vertices; None: those given last.
+
+        Charts, stencils, the curves' parameters and split polygons stay those of the vertices at construction, or of the
+        last rebase. The first call's surface is that of fair(), to the last bit; later ones start from the last surface
+        and end at the same accuracy. result.vertices is new each time; result.faces, triangle_polygon, quad_polygon and
+        crease_edges are the same read-only arrays. report["warm"] says whether the last surface was the start.
+
+        Raises FairingError: BAD_SHAPE, NON_FINITE, CANCELLED, BUSY. The solver can go on after any of them.
+        """
+        points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
+        with self._alone():
+            return Result({**self._constants, "shapes": [], **self._native.solve(points, monitor, progress)})
+
+    def rebase(self, vertices: ArrayLike) -> None:
+        """From here on charts, stencils and curves are those of these positions (n, 3).
+
+        As a new solver's, but creases that an angle chose, and the splits of polygons, stay. The next solve starts afresh.
+        Raises FairingError as fair() does for bad geometry; then all is as before.
+        """
+        points = self._positions(vertices)
+        with self._alone():
+            self._native.rebase(points)
+
+    def _positions(self, vertices: ArrayLike) -> np.ndarray:
+        points = vertex_array(vertices)
+        if len(points) != self._control_vertices:
+            raise fairing_error(
+                "BAD_SHAPE",
+                f"vertices has shape {points.shape}; it must be ({self._control_vertices}, 3), as at the start.",
+            )
+        return points
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        if not self._busy.acquire(blocking=False):
+            raise fairing_error(
+                "BUSY", "The solver is at work in another call. Wait for it, or make another solver."
+            )
+        try:
+            yield
+        finally:
+            self._busy.release()
+
+    def __repr__(self) -> str:
+        return f"Solver({self._control_vertices} control vertices, levels={self._levels}, energy={self._energy!r})"
