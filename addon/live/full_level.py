@@ -2,7 +2,9 @@
 """The surface at all its levels, once edits pause: computed on a thread, so that the next edit can begin."""
 
 from .. import native
+from ..check import messages
 from ..run.job import Job
+from ..run.job_error import JobCancelled, JobError
 from ..run.progress import phase_text
 from ..run.queue import Queue
 
@@ -15,25 +17,55 @@ _EDITING = (
 )  # modal operators of these are edits
 
 
-class FullLevel:
-    """A run of the job that Recompute does."""
+class FreshSolver:
+    """A solver about the shape that the mesh has now, with its first surface: what the next edit starts from.
 
-    def __init__(self, context, source, target, region):
-        """Reads; raises JobError. Then `start` or `compute`."""
+    The one in use keeps the charts of the shape that it was made for, and may be needed meanwhile.
+    """
+
+    triangles = 0  # for the bar: little beside the full level
+
+    def __init__(self, name, arguments):
+        self.name = name
+        self._arguments = arguments
+        self.solver = None
+
+    def compute(self, monitor=None):
+        core = native.core()
+        try:
+            solver = core.Solver(**self._arguments)
+            solver.solve(monitor=monitor)
+        except core.FairingError as error:
+            kind = JobCancelled if error.code == "CANCELLED" else JobError
+            raise kind(messages.error_text(self.name, error), error.code) from error
+        self.solver = solver
+
+
+class FullLevel:
+    """A run of the job that Recompute does, and then of a fresh solver."""
+
+    def __init__(self, context, source, target, region, arguments):
+        """Reads; raises JobError. Then `start` or `compute`. `arguments`: of the live solver, for `region` or all faces."""
         self.job = Job(context, source, target.discrete_fairing, target, region)
-        self._queue = Queue([self.job], native.core().Monitor)
+        self._fresh = FreshSolver(source.name, {**arguments, "vertices": self.job.arrays.positions})
+        self._queue = Queue([self.job, self._fresh], native.core().Monitor)
 
     def start(self):
         """Computes on a thread."""
         self._queue.start()
 
     def compute(self):
-        """Computes at once; raises JobError."""
+        """The surface alone, at once; raises JobError."""
         self.job.compute()
 
     @property
     def finished(self):
         return self._queue.finished
+
+    @property
+    def solver(self):
+        """The fresh solver, None if there is none."""
+        return self._fresh.solver
 
     @property
     def error(self):

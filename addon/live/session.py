@@ -51,7 +51,7 @@ class Session:
 
     def _forget(self):
         """Everything that was made for other settings."""
-        self.solver = self._fixed = self._arrays = self._region = self._settings = self._chosen = None
+        self.solver = self._arguments = self._arrays = self._region = self._settings = self._chosen = None
         self._pace = Pace()
 
     def objects(self):
@@ -75,7 +75,7 @@ class Session:
 
     def distrust(self):
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
-        self._stale = True
+        self._stale, self._mesh = True, None
 
     def follow(self, depsgraph):
         """Brings the surface up to date with source and settings, at the live level. True if anything had changed."""
@@ -108,9 +108,9 @@ class Session:
         clock.lap("build")
         result = self.solver.solve(arrays.positions)
         clock.lap("solve")
-        self._write(source, target, result, is_new, depsgraph)
+        self._write(source, target, result, depsgraph)
         clock.lap("write")
-        if not is_new:
+        if result.report["warm"]:
             self._pace.note(self.level, clock.total / 1e3)
         self.parts, self.trouble = clock.parts, ""
         self.updates += 1
@@ -124,15 +124,15 @@ class Session:
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
         arguments = fair_arguments(arrays, self._settings, preferences(), self._region)
         arguments |= {"levels": self._level, "relative_residual": _RESIDUAL, "step_tolerance": _STEP}
-        if self.solver is not None and same(fixed(arguments), self._fixed):
+        if self.solver is not None and same(fixed(arguments), fixed(self._arguments)):
             return False
-        self.solver = None
+        self.solver = self._mesh = None
         self.solver = native.core().Solver(**arguments)
-        self._fixed = fixed(arguments)
+        self._arguments = arguments
         return True
 
-    def _write(self, source, target, result, is_new, depsgraph):
-        if is_new or self._mesh != key(target.data) or not update.fits(target.data, result):
+    def _write(self, source, target, result, depsgraph):
+        if self._mesh != key(target.data) or not update.fits(target.data, result):
             data = read_surface_data(source, self._settings, depsgraph)
             update.build(target, result, self._arrays, data, self._settings, self._level)
             self._mesh = key(target.data)
@@ -194,7 +194,7 @@ class Session:
             return False
         self._due = None
         try:
-            self._full = FullLevel(context, source, target, self._region)
+            self._full = FullLevel(context, source, target, self._region, self._arguments)
         except JobError as error:
             self._fail(str(error))
         return self._full is not None
@@ -212,8 +212,7 @@ class Session:
         self.level, self.triangles = job.settings.levels, job.triangles
         # the same faces: the next edit need only move them
         self._mesh = key(target.data) if job.settings.levels == self._level else None
-        if self.solver is not None:
-            self.solver.rebase(job.arrays.positions)
+        self.solver = full.solver or self.solver
 
     @property
     def full_text(self):

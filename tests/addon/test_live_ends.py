@@ -67,6 +67,20 @@ def test_the_full_level_comes_when_the_edit_pauses(no_pause):
     assert np.array_equal(positions(target.data), shown), "the very surface of Recompute"
 
 
+def test_the_next_edit_starts_from_the_shape_that_is_there(no_pause):
+    """A fresh solver comes with the full level: charts of the new shape, and its surface to start from."""
+    source, target = box()
+    move(source)
+    follow()
+    before = session(target).solver
+    tick_until(lambda: not session(target).is_waiting)
+    fresh = session(target).solver
+    assert fresh is not before and fresh.solve().report["warm"]
+    move(source)
+    follow()
+    assert session(target).solver is fresh, "one for the whole edit"
+
+
 def test_not_before_the_pause():
     _, target = box()
     watch.tick()
