@@ -12,6 +12,7 @@ import charts
 import cholesky
 import clean_meshes
 import curvature_peaks
+import live
 import memory
 import million
 import paper
@@ -31,6 +32,7 @@ BENCHMARKS = {
     "side_by_side": side_by_side.run,
     "peaks": curvature_peaks.run,
     "clean": clean_meshes.run,
+    "live": live.run,
 }
 
 
