@@ -21,9 +21,9 @@ from .inputs import fixed, same
 from .pace import Pace
 from .reference import Reference, is_in_a_scene, key
 
-# what is enough to look at; the full level has the core's own accuracy
-_RESIDUAL = 1e-4
-_STEP = 1e-4
+# what is enough to look at, and mostly one step an update; the full level has the core's own accuracy
+_RESIDUAL = 1e-3
+_STEP = 1e-2
 
 SOURCE_GONE = "The source was deleted: Live has ended"
 SURFACE_GONE = "The surface was deleted: Live has ended"

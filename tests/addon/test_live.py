@@ -203,18 +203,35 @@ def test_an_error_leaves_the_last_surface_and_it_goes_on():
     source = add("Box", *CUBE)
     target = live(source)
     before = positions(target.data)
-    place = source.data.vertices[0].co.copy()
-    source.data.vertices[0].co = source.data.vertices[1].co
+    source.data.clear_geometry()
+    source.data.from_pydata([*CUBE[0], (0, 0, 3)], [], [*CUBE[1], (0, 1, 8)])
     source.data.update()
     follow()
     assert np.array_equal(positions(target.data), before)
-    assert "Box" in target.discrete_fairing_live.status and target.discrete_fairing_live.on
+    assert "more than two faces" in target.discrete_fairing_live.status and target.discrete_fairing_live.on
     assert not session(target).is_waiting, "no full level of what cannot be faired"
-    source.data.vertices[0].co = place
+    source.data.clear_geometry()
+    source.data.from_pydata(*CUBE[:1], [], CUBE[1])
     move(source)
     follow()
-    assert "no area" not in target.discrete_fairing_live.status and not session(target).trouble
+    assert not session(target).trouble
     assert np.array_equal(positions(target.data)[:8], positions(source.data))
+
+
+def test_what_cannot_be_faired_anew_is_said_with_the_full_level():
+    """A face that collapses in passing does not stop the edit: charts are those of its beginning."""
+    source = add("Box", *CUBE)
+    target = live(source)
+    source.data.vertices[0].co = source.data.vertices[1].co
+    source.data.update()
+    follow()
+    assert not session(target).trouble
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    session(target).complete(bpy.context)
+    assert "another vertex of the same face" in target.discrete_fairing_live.status
+    move(source, by=-1.0)
+    follow()
+    assert not session(target).trouble and session(target).is_waiting
 
 
 def test_an_empty_mesh_is_said():
