@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which level can be kept up with: the chosen one, or fewer where updates would be slow. No Blender."""
+"""Which level and energy can be kept up with: those chosen, or less where updates would be slow. No Blender."""
+
+from time import monotonic
 
 MOST = 250_000  # triangles; beyond them the level is lowered from the start
 SLOW = 0.25  # seconds; an update that takes longer lowers the level by one
+LIMIT = 1.5  # seconds; a solve that takes longer is broken off
+FAST = "thin_plate"
 
 
 class Pace:
-    """The live level of one surface."""
+    """The live level and energy of one surface."""
 
     def __init__(self):
         self._too_slow = None  # the lowest level that was
+        self.is_plain = False  # whether the fastest energy has to stand in
 
     def level(self, chosen, coarse_triangles):
         """The highest level up to `chosen` that can be kept up with; 1 whatever it takes."""
@@ -18,7 +23,31 @@ class Pace:
             level -= 1
         return level if self._too_slow is None else max(1, min(level, self._too_slow - 1))
 
-    def note(self, level, seconds):
-        """Learns how long an update at `level` took."""
+    def energy(self, chosen):
+        """`chosen`, or the fastest where that has been too slow."""
+        return FAST if self.is_plain else chosen
+
+    def note(self, level, energy, seconds):
+        """Learns how long an update took."""
         if seconds > SLOW:
-            self._too_slow = level
+            self.slow_down(level, energy, hopeless=False)
+
+    def slow_down(self, level, energy, hopeless):
+        """Less from now on: the fastest energy where levels will not help, else one level. Whether there is less."""
+        if energy != FAST and (hopeless or level == 1):
+            self.is_plain, self._too_slow = True, None
+            return True
+        self._too_slow = level
+        return level > 1
+
+
+class Deadline:
+    """The core's `progress`: breaks a solve off that takes too long."""
+
+    def __init__(self):
+        self._end = monotonic() + LIMIT
+        self.is_over = False
+
+    def __call__(self, _fraction, _phase):
+        self.is_over = monotonic() > self._end
+        return not self.is_over

@@ -18,7 +18,7 @@ from . import update
 from .full_level import PAUSE, FullLevel, is_editing
 from .geometry import read_arrays, read_region, read_surface_data
 from .inputs import fixed, same
-from .pace import Pace
+from .pace import Deadline, Pace
 from .reference import Reference, is_in_a_scene, key
 
 # what is enough to look at, and mostly one step an update; the full level has the core's own accuracy
@@ -106,16 +106,29 @@ class Session:
         self.cancel_full()
         self._arrays = arrays
         clock.lap("build")
-        result = self.solver.solve(arrays.positions)
+        result = self._solve(source, arrays, depsgraph)
         clock.lap("solve")
         self._write(source, target, result, depsgraph)
         clock.lap("write")
-        if result.report["warm"]:
-            self._pace.note(self.level, clock.total / 1e3)
+        if result.report["warm"] or not is_new:
+            self._pace.note(self.level, self._arguments["energy"], clock.total / 1e3)
         self.parts, self.trouble = clock.parts, ""
         self.updates += 1
         self._due = monotonic() + PAUSE
         return True
+
+    def _solve(self, source, arrays, depsgraph):
+        """The surface at a level and by an energy that can be kept up with; found out by trying, where need be."""
+        while True:
+            deadline = Deadline()
+            try:
+                return self.solver.solve(arrays.positions, progress=deadline)
+            except native.core().FairingError:
+                if not deadline.is_over:
+                    raise
+                if not self._pace.slow_down(self._level, self._arguments["energy"], hopeless=True):
+                    raise
+            self._prepare(source, arrays, depsgraph)
 
     def _prepare(self, source, arrays, depsgraph):
         """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
@@ -124,6 +137,7 @@ class Session:
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
         arguments = fair_arguments(arrays, self._settings, preferences(), self._region)
         arguments |= {"levels": self._level, "relative_residual": _RESIDUAL, "step_tolerance": _STEP}
+        arguments["energy"] = self._pace.energy(arguments["energy"])
         if self.solver is not None and same(fixed(arguments), fixed(self._arguments)):
             return False
         self.solver = self._mesh = None
@@ -221,10 +235,13 @@ class Session:
 
     @property
     def slower(self):
-        """Why the level is lower than chosen, a sentence; empty if it is not."""
-        if self._chosen is None or self.level == 0 or self._level >= self._chosen:
-            return ""
-        return f"Level {self._level} instead of {self._chosen}, to keep up"
+        """What is less than chosen during edits, a line each."""
+        if self._settings is None or not self.updates:
+            return []
+        less = ["Thin Plate while editing"] if self._pace.is_plain else []
+        if self._level < self._chosen:
+            less.append(f"Level {self._level} instead of {self._chosen}, to keep up")
+        return less
 
 
 class _Clock:

@@ -14,8 +14,7 @@ def lines(target):
     if session.triangles:
         found.append(f"Level {session.level}: {count_text(session.triangles)}")
         found.append(f"Last update: {sum(session.parts.values()):.1f} ms")
-    if session.slower:
-        found.append(session.slower)
+    found += session.slower
     if session.full_text:
         found.append(f"Full level: {session.full_text}")
     return found

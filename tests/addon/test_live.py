@@ -266,6 +266,19 @@ def test_the_level_is_lowered_where_updates_are_slow(monkeypatch):
     assert "Level 2 instead of 3" in target.discrete_fairing_live.status
 
 
+def test_thin_plate_stands_in_where_another_energy_is_hopeless():
+    """Total curvature of Suzanne at this level takes seconds, and would stop the edit."""
+    source = add_suzanne()
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    bpy.context.scene.discrete_fairing.levels = 4
+    target = live(source)
+    target.discrete_fairing_live.levels = 4
+    watch.tick()
+    assert "Thin Plate while editing" in target.discrete_fairing_live.status
+    assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
+    assert session(target).solver.energy == "thin_plate"
+
+
 def test_a_recompute_in_between():
     source = add("Box", *CUBE)
     target = live(source)
