@@ -78,6 +78,7 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     target.discrete_fairing_live.levels = live_levels
     yield from wait_for_the_full_level(target, levels)
     with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo_push(message="live")
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_mode(type="VERT")
         bpy.ops.mesh.select_all(action="DESELECT")
@@ -85,6 +86,8 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     edit.verts.ensure_lookup_table()
     edit.verts[vertex].select_set(True)
     bmesh.update_edit_mesh(source.data)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo_push(message="one vertex is selected")
     yield 0.5
     return source, target
 
@@ -230,7 +233,7 @@ def test_rendering_meanwhile():
         bpy.ops.object.mode_set(mode="OBJECT")
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
-    scene.cycles.samples = 1
+    scene.cycles.samples, scene.cycles.use_denoising = 1, False
     scene.render.resolution_x = scene.render.resolution_y = 64
     scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     scene.collection.objects.link(scene.camera)
