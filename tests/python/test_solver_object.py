@@ -314,7 +314,7 @@ def test_properties_and_bytes():
     assert solver.bytes == kept  # nothing grows
 
 
-@pytest.mark.parametrize("name", ["icosahedron", "rough_ball", "single_triangle"])
+@pytest.mark.parametrize("name", ["icosahedron", "torus_triangles", "wavy_patch", "single_triangle"])
 def test_rebase_is_another_solver(name):
     vertices, faces = sample(name)
     solver = df.Solver(vertices, faces, 2)
