@@ -14,6 +14,9 @@ from .inspection import properties as inspection_properties
 from .interface import check as check_panel
 from .interface import inspection as inspection_panel
 from .interface import panel
+from .live import operator as live_operator
+from .live import properties as live_properties
+from .live import watch as live_watch
 from .run import operator, show_source
 from .settings import presets, properties
 
@@ -25,6 +28,9 @@ _MODULES = (
     freshness,
     operator,
     show_source,
+    live_properties,
+    live_watch,
+    live_operator,
     check_operators,
     inspection_operators,
     panel,

@@ -22,6 +22,7 @@ _GERMAN = {
     ("*", "Through"): "Hindurch",
     ("*", "Near"): "Nahe",
     ("*", "Tolerance"): "Toleranz",
+    ("*", "Live Levels"): "Stufen bei Live",
     ("*", "Creases"): "Falten",
     ("*", "Spacing"): "Abstände",
     ("*", "Keep Symmetry"): "Symmetrie erhalten",

@@ -13,6 +13,7 @@ import charts
 import cholesky
 import clean_meshes
 import curvature_peaks
+import live
 import memory
 import million
 import paper
@@ -37,6 +38,7 @@ BENCHMARKS = {
     "side_by_side": side_by_side.run,
     "peaks": curvature_peaks.run,
     "clean": clean_meshes.run,
+    "live": live.run,
 }
 
 

@@ -36,6 +36,14 @@ def refresh(target, settings):
         show(target, mode, settings)
 
 
+def remeasure(target, settings):
+    """Measures anew the curvature that `target` shows; for after its points have moved. Nothing to do if it shows none."""
+    mode = target.discrete_fairing_inspection.mode
+    if mode in CURVATURES:
+        attributes.write_values(target.data)
+        attributes.write_colours(target.data, mode, settings)
+
+
 def recolour(target, settings):
     """Colours by other limits what was measured before."""
     mode = target.discrete_fairing_inspection.mode

@@ -12,6 +12,7 @@ from ..run.show_source import OBJECT_OT_fair_show_source
 from ..settings.layout import draw_advanced, draw_creases, draw_result, draw_shape, draw_source
 from ..settings.presets import draw_presets
 from ..settings.properties import copy_settings
+from .live import draw_live
 from .notice import draw_notice
 
 
@@ -51,6 +52,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         else:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             copy_settings(settings, _draw_button(layout, OBJECT_OT_fair_surface, "SURFACE_DATA", text))
+        draw_live(layout, context)
 
 
 def remembered(context):

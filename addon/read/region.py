@@ -3,6 +3,10 @@
 
 import numpy as np
 
+NONE_SELECTED = (
+    "no face is selected. Select the faces to fair in Edit Mode, or switch off Selected Faces Only."
+)
+
 
 def selected_faces(mesh):
     """(r,) int32: ids of the selected and visible faces of a bpy.types.Mesh."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects are faired, and the mesh of each: its own, or what its modifiers make of it."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 
 def source_objects(context):
@@ -17,15 +17,16 @@ def source_objects(context):
 
 
 @contextmanager
-def control_mesh(context, source, evaluated=False):
+def control_mesh(context, source, evaluated=False, depsgraph=None):
     """The bpy.types.Mesh to read, with the edits of this moment; valid inside the `with` only.
 
-    `evaluated`: with the modifiers of `source` applied.
+    `evaluated`: with the modifiers of `source` applied, as `depsgraph` has them already; None: brought up to date first.
     """
     if source.mode == "EDIT":
         source.update_from_editmode()
     if evaluated:
-        with _evaluated(context, source) as owner, _copy_of_mesh(owner) as mesh:
+        known = nullcontext(source.evaluated_get(depsgraph)) if depsgraph else _evaluated(context, source)
+        with known as owner, _copy_of_mesh(owner) as mesh:
             yield mesh
     elif source.mode == "EDIT":  # then it lists the attributes of the edit, not its own: read a copy
         with _copy_of_mesh(source) as mesh:

@@ -15,7 +15,7 @@ from ..inspection import convergence, display, override
 from ..preferences import preferences
 from ..read.data import read_data
 from ..read.mesh import read_mesh
-from ..read.region import selected_faces
+from ..read.region import NONE_SELECTED, selected_faces
 from ..read.source import control_mesh
 from ..request import size
 from ..request.arguments import fair_arguments
@@ -31,10 +31,11 @@ from .job_error import JobCancelled, JobError
 class Job:
     """The fairing of one object. A failed or cancelled job leaves everything as it was."""
 
-    def __init__(self, context, source, settings, target=None):
+    def __init__(self, context, source, settings, target=None, region=None):
         """Reads all that will be needed; `settings` may change or go afterwards.
 
-        `target`: an object that gets the surface as its mesh; None: a new one is made.
+        `target`: an object that gets the surface as its mesh; None: a new one is made. `region`: (r,) ids of the faces to
+        fair with `use_selection`; None: those that are selected now.
         """
         self.source = source
         self.target = target
@@ -47,12 +48,12 @@ class Job:
         ):
             self.arrays = read_mesh(mesh)
             self.data = read_data(source, mesh, evaluated)
-            region = selected_faces(mesh) if self.settings.use_selection else None
+            if not self.settings.use_selection:
+                region = None
+            elif region is None:
+                region = selected_faces(mesh)
         if region is not None and not len(region):
-            raise JobError(
-                f"{self.name}: no face is selected. Select the faces to fair in Edit Mode, "
-                "or switch off Selected Faces Only."
-            )
+            raise JobError(f"{self.name}: {NONE_SELECTED}")
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
         if too_large:

@@ -9,7 +9,7 @@ _PASSING = "discrete_fairing_weight"
 
 
 def write_groups(target, groups, active, carrier):
-    """Gives the object `target`, in Object Mode, the vertex `groups` (list of VertexGroup) with carried weights."""
+    """Gives the object `target`, itself in Object Mode, the vertex `groups` (list of VertexGroup) with carried weights."""
     target.vertex_groups.clear()
     for group in groups:
         control = group.dense(carrier.control_count)
@@ -26,10 +26,13 @@ def write_groups(target, groups, active, carrier):
 
 
 def _convert(target, weights):
-    """A new vertex group of the `weights` (N,) float32 that are not 0."""
+    """A new vertex group of the `weights` (N,) float32 that are not 0.
+
+    The operator only asks whether anything is being edited, which may be another object.
+    """
     attribute = target.data.attributes.new(_PASSING, "FLOAT", "POINT")
     attribute.data.foreach_set("value", np.clip(weights, 0.0, 1.0))
     target.data.attributes.active = attribute
-    with bpy.context.temp_override(object=target, active_object=target):
+    with bpy.context.temp_override(object=target, active_object=target, edit_object=None):
         bpy.ops.geometry.attribute_convert(mode="VERTEX_GROUP")
     return target.vertex_groups[-1]

@@ -12,15 +12,25 @@ def write_mesh(name, result, sharp_pairs, materials=()):
 
     The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
     """
-    triangles, quads = result.faces
     mesh = bpy.data.meshes.new(name)
-    _write_faces(mesh, result.vertices, triangles, quads)
     for material in materials:
         mesh.materials.append(material)
+    fill_mesh(mesh, result, sharp_pairs)
+    return mesh
+
+
+def fill_mesh(mesh, result, sharp_pairs):
+    """The same into a `mesh` that has no geometry. Its materials stay."""
+    _write_faces(mesh, result.vertices, *result.faces)
     mesh.update(calc_edges=True)
     if len(sharp_pairs):
         _mark_sharp(mesh, sharp_pairs)
-    return mesh
+
+
+def write_positions(mesh, vertices):
+    """Moves the points of `mesh` to `vertices` (N, 3): single precision goes in as one block."""
+    mesh.attributes["position"].data.foreach_set("vector", vertices.astype(np.float32).ravel())
+    mesh.update()
 
 
 def _write_faces(mesh, vertices, triangles, quads):

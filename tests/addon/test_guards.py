@@ -30,6 +30,8 @@ PURE_FILES = (
     "inspection/convergence.py",
     "inspection/curvature.py",
     "inspection/measures.py",
+    "live/inputs.py",
+    "live/pace.py",
 )
 
 FILES = sorted([*ADDON.rglob("*.py"), *BINDING.rglob("*.py")])

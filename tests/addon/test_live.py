@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A live surface follows its source: moved vertices in both modes, creases, settings, another topology, errors."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from live_scenes import follow, live, session, surface_of
+from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
+
+from addon.live import pace, watch
+
+
+def move(source, index=0, by=0.5):
+    source.data.vertices[index].co.z += by
+    source.data.update()
+
+
+def test_live_makes_the_surface_if_there_is_none():
+    source = add("Box", *CUBE)
+    target = live(source)
+    assert target.discrete_fairing.source == source and target.discrete_fairing_live.on
+    assert len(target.data.polygons) == 6 * 4**3
+    assert not source.hide_get() and bpy.context.active_object == source
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+
+
+def test_it_takes_the_surface_that_is_there_and_shows_its_source():
+    source = add("Box", *CUBE)
+    target = fair(levels=2)
+    assert source.hide_get()
+    assert bpy.ops.object.fair_live() == {"FINISHED"}
+    assert target.discrete_fairing_live.on and not source.hide_get()
+    assert [o for o in bpy.data.objects if o.discrete_fairing.source] == [target]
+    assert len(target.data.polygons) == 6 * 4**2, "no finer than the surface itself"
+
+
+def test_moved_vertices_in_object_mode():
+    source = add("Box", *CUBE)
+    target = live(source)
+    before, mesh = positions(target.data), target.data
+    move(source)
+    follow()
+    assert target.data == mesh, "the same mesh"
+    assert np.array_equal(positions(mesh)[:8], positions(source.data))
+    assert np.abs(positions(mesh)[8:] - before[8:]).max() > 0.1
+
+
+def test_it_is_the_surface_of_the_core():
+    """The full level is what Recompute makes; a live one is near it."""
+    source = add("Box", *CUBE)
+    target = live(source)
+    move(source, by=0.1)
+    follow()
+    shown = positions(target.data)
+    activate(target)
+    bpy.ops.object.fair_recompute()
+    assert np.abs(positions(target.data) - shown).max() < 0.02
+
+
+def test_moved_vertices_in_edit_mode():
+    source = add("Box", *CUBE)
+    target = live(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    edit = bmesh.from_edit_mesh(source.data)
+    edit.verts.ensure_lookup_table()
+    for step in range(3):
+        edit.verts[0].co.z -= 0.25
+        bmesh.update_edit_mesh(source.data, loop_triangles=False, destructive=False)
+        follow()
+        assert positions(target.data)[0][2] == np.float32(-1.0 - 0.25 * (step + 1))
+    assert source.mode == "EDIT" and session(target).updates == 4
+
+
+def test_another_topology_in_edit_mode():
+    source = add("Box", *CUBE)
+    source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
+    target = live(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    follow()
+    assert source.mode == "EDIT" and len(target.data.polygons) == 24 * 4**3
+    assert target.vertex_groups["Group"].weight(0) == 0.5
+
+
+def test_another_topology_with_the_same_counts():
+    """An edge turned within a quad: as many vertices, edges and faces as before."""
+    square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.5)]
+    source = add("Square", square, [(0, 1, 2), (0, 2, 3)])
+    target = live(source)
+    before = positions(target.data)
+    source.data.clear_geometry()
+    source.data.from_pydata(square, [], [(0, 1, 3), (1, 2, 3)])
+    source.data.update()
+    follow()
+    assert positions(target.data).shape == before.shape and not np.array_equal(positions(target.data), before)
+
+
+def test_creases():
+    source = add("Box", *CUBE)
+    target = live(source)
+    before = positions(target.data)
+    assert "sharp_edge" not in target.data.attributes
+    set_edge_attribute(source.data, "crease_edge", "FLOAT", [(1, 3), (3, 7), (7, 5), (5, 1)], 1.0)
+    source.data.update()
+    follow()
+    assert np.abs(positions(target.data) - before).max() > 0.05
+    assert sum(item.value for item in target.data.attributes["sharp_edge"].data) == 4 * 2**3
+
+
+@pytest.mark.parametrize("name, value", [("energy", "TOTAL_CURVATURE"), ("metric_exponent", 1.0)])
+def test_settings(name, value):
+    source = add("Box", [(x, y, 2 * z) for x, y, z in CUBE[0]], CUBE[1])
+    target = live(source)
+    before = positions(target.data)
+    setattr(target.discrete_fairing, name, value)
+    watch.tick()
+    assert not np.array_equal(positions(target.data), before)
+
+
+def test_live_levels():
+    source = add("Box", *CUBE)
+    target = live(source)
+    target.discrete_fairing_live.levels = 1
+    target.update_tag()
+    follow()
+    assert len(target.data.polygons) == 6 * 4
+    target.discrete_fairing_live.levels = 5
+    watch.tick()
+    assert len(target.data.polygons) == 6 * 4**3, "no finer than the surface itself"
+
+
+def test_nothing_is_done_for_nothing():
+    source = add("Box", *CUBE)
+    target = live(source)
+    source.location.x += 1.0
+    follow()
+    source.data.update()
+    follow()
+    target.location.x += 1.0
+    follow()
+    assert session(target).updates == 1
+
+
+def test_the_source_is_only_read():
+    source = add_suzanne()
+    before = snapshot(source)
+    target = live(source)
+    move(source)
+    follow()
+    move(source, by=-0.5)
+    follow()
+    assert snapshot(source) == before
+    bpy.ops.object.fair_live(state="OFF")
+    assert snapshot(source) == before and not target.discrete_fairing_live.on
+
+
+def test_what_the_mesh_carries():
+    """UV maps, weights and material indices at the live level too; the object keeps materials and modifiers."""
+    source = add("Box", *CUBE)
+    source.data.materials.append(bpy.data.materials.new("Paint"))
+    source.data.uv_layers.new(name="Map")
+    source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
+    target = live(source)
+    target.modifiers.new("Thick", "SOLIDIFY")
+    move(source)
+    follow()
+    assert [m.name for m in target.data.materials] == ["Paint"] and "Map" in target.data.uv_layers
+    assert target.vertex_groups["Group"].weight(0) == 0.5 and "Thick" in target.modifiers
+    assert target.data.name == "Box Fair"
+
+
+def test_with_modifiers():
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    modifier = source.modifiers.new("More", "ARRAY")
+    target = live(source)
+    assert len(target.data.polygons) == 12 * 4**3
+    modifier.count = 3
+    follow()
+    assert len(target.data.polygons) == 18 * 4**3
+
+
+def test_a_region_is_that_of_the_beginning():
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.use_selection = True
+    for face in source.data.polygons:
+        face.select = face.index in (0, 1)
+    target = live(source)
+    assert not target.discrete_fairing_live.status.count("no face is selected")
+    before = positions(target.data)
+    for face in source.data.polygons:
+        face.select = False
+    move(source)
+    follow()
+    assert not np.array_equal(positions(target.data), before)
+    bpy.ops.object.fair_live(state="OFF")
+    assert len(target.data.polygons) == 6 * 4**3
+
+
+def test_an_error_leaves_the_last_surface_and_it_goes_on():
+    source = add("Box", *CUBE)
+    target = live(source)
+    before = positions(target.data)
+    source.data.clear_geometry()
+    source.data.from_pydata([*CUBE[0], (0, 0, 3)], [], [*CUBE[1], (0, 1, 8)])
+    source.data.update()
+    follow()
+    assert np.array_equal(positions(target.data), before)
+    assert "more than two faces" in target.discrete_fairing_live.status and target.discrete_fairing_live.on
+    assert not session(target).is_waiting, "no full level of what cannot be faired"
+    source.data.clear_geometry()
+    source.data.from_pydata(*CUBE[:1], [], CUBE[1])
+    move(source)
+    follow()
+    assert not session(target).trouble
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+
+
+def test_what_cannot_be_faired_anew_is_said_with_the_full_level():
+    """A face that collapses in passing does not stop the edit: charts are those of its beginning."""
+    source = add("Box", *CUBE)
+    target = live(source)
+    source.data.vertices[0].co = source.data.vertices[1].co
+    source.data.update()
+    follow()
+    assert not session(target).trouble
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    session(target).complete(bpy.context)
+    assert "another vertex of the same face" in target.discrete_fairing_live.status
+    move(source, by=-1.0)
+    follow()
+    assert not session(target).trouble and session(target).is_waiting
+
+
+def test_an_empty_mesh_is_said():
+    source = add("Nothing", [], [])
+    bpy.ops.object.fair_live()
+    target = surface_of(source)
+    assert "no vertices" in target.discrete_fairing_live.status
+
+
+def test_several_at_once():
+    sources = [add("Box", *CUBE), add("Crate", *CUBE)]
+    targets = [live(source) for source in sources]
+    for source in sources:
+        move(source)
+    follow()
+    for source, target in zip(sources, targets):
+        assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    activate(sources[0])
+    bpy.ops.object.fair_live()
+    assert [target.discrete_fairing_live.on for target in targets] == [False, True]
+
+
+def test_the_level_is_lowered_where_updates_are_slow(monkeypatch):
+    source = add("Box", *CUBE)
+    target = live(source)
+    monkeypatch.setattr(pace, "SLOW", 0.0)
+    for _ in range(pace.IN_A_ROW + 1):
+        move(source)
+        follow()
+    assert len(target.data.polygons) == 6 * 4**2
+    assert "Level 2 instead of 3" in target.discrete_fairing_live.status
+
+
+def test_thin_plate_stands_in_where_another_energy_is_hopeless():
+    """Total curvature of Suzanne at this level takes seconds, and would stop the edit."""
+    source = add_suzanne()
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    bpy.context.scene.discrete_fairing.levels = 4
+    target = live(source)
+    target.discrete_fairing_live.levels = 4
+    watch.tick()
+    assert "Thin Plate while editing" in target.discrete_fairing_live.status
+    assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
+    assert session(target).solver.energy == "thin_plate"
+
+
+def test_a_recompute_in_between():
+    source = add("Box", *CUBE)
+    target = live(source)
+    target.discrete_fairing_live.levels = 2
+    activate(target)
+    bpy.ops.object.fair_recompute()
+    assert len(target.data.polygons) == 6 * 4**3
+    move(source)
+    follow()
+    assert len(target.data.polygons) == 6 * 4**2
+
+
+def test_shape_keys_come_with_the_full_level():
+    source = add("Box", *CUBE)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 0.5
+    target = live(source)
+    assert target.data.shape_keys is None
+    bpy.ops.object.fair_live(state="OFF")
+    assert [block.name for block in target.data.shape_keys.key_blocks] == ["Basis", "Up"]
+    bpy.ops.object.fair_live(state="ON")
+    assert target.data.shape_keys is None
+    move(source)
+    follow()
+    assert session(target).updates == 2 or session(target).trouble == ""
+
+
+def test_curvature_colours_follow():
+    source = add_suzanne()
+    target = live(source)
+    activate(target)
+    bpy.ops.object.fairing_inspect(mode="MEAN")
+    follow()
+    before = [item.value for item in target.data.attributes["fair_mean_curvature"].data]
+    move(source, by=0.2)
+    follow()
+    assert [item.value for item in target.data.attributes["fair_mean_curvature"].data] != before

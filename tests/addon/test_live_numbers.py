@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What decides on solver and level: plain values."""
+
+import numpy as np
+import pytest
+
+from addon.live import pace
+from addon.live.inputs import fixed, same
+from addon.live.pace import Pace
+
+
+def test_vertices_are_not_fixed():
+    assert fixed({"vertices": 1, "levels": 2}) == {"levels": 2}
+
+
+@pytest.mark.parametrize("value", [None, 1, 0.5, "x", np.arange(3), (np.arange(3), np.arange(2)), {"a": 1}])
+def test_same(value):
+    assert same({"k": value}, {"k": value})
+
+
+@pytest.mark.parametrize(
+    "a, b",
+    [
+        (None, np.arange(3)),
+        (np.arange(3), np.arange(4)),
+        (np.arange(3), np.zeros(3, int)),
+        ((np.arange(3), 1), (np.arange(3), 2)),
+        ((1,), (1, 1)),
+        ({"a": 1}, {"b": 1}),
+        (1, True),
+        (0.5, 0.25),
+    ],
+)
+def test_not_same(a, b):
+    assert not same({"k": a}, {"k": b})
+
+
+def test_a_large_result_is_lowered_from_the_start():
+    assert Pace().level(3, 1000) == 3
+    assert Pace().level(5, pace.MOST // 4**3) == 3
+    assert Pace().level(5, pace.MOST) == 1
+
+
+def slow(it, level, energy):
+    for _ in range(pace.IN_A_ROW):
+        it.note(level, energy, 1.1 * pace.SLOW)
+
+
+def test_slow_updates_lower_the_level_for_good():
+    it = Pace()
+    slow(it, 3, "thin_plate")
+    assert it.level(3, 10) == 2
+    it.note(2, "thin_plate", 0.0)
+    slow(it, 2, "thin_plate")
+    slow(it, 1, "thin_plate")
+    assert it.level(3, 10) == 1 and it.energy("thin_plate") == "thin_plate"
+
+
+def test_a_slow_one_now_and_then_does_not():
+    it = Pace()
+    for _ in range(5):
+        it.note(3, "thin_plate", 1.1 * pace.SLOW)
+        it.note(3, "thin_plate", 0.9 * pace.SLOW)
+    assert it.level(3, 10) == 3
+
+
+def test_the_fastest_energy_stands_in_where_levels_do_not_help():
+    it = Pace()
+    slow(it, 2, "total_curvature")
+    assert (it.level(2, 10), it.energy("total_curvature")) == (1, "total_curvature")
+    slow(it, 1, "total_curvature")
+    assert (it.level(2, 10), it.energy("total_curvature")) == (2, "thin_plate")
+
+
+def test_a_solve_beyond_the_limit():
+    it = Pace()
+    assert it.slow_down(3, "total_curvature", hopeless=True)
+    assert (it.level(3, 10), it.energy("total_curvature")) == (3, "thin_plate")
+    assert it.slow_down(3, "thin_plate", hopeless=True) and it.level(3, 10) == 2
+    assert it.slow_down(2, "thin_plate", hopeless=True)
+    assert not it.slow_down(1, "thin_plate", hopeless=True), "nothing is less"
+
+
+def test_the_deadline(monkeypatch):
+    deadline = pace.Deadline()
+    assert deadline(0.5, "solve") and not deadline.is_over
+    monkeypatch.setattr(pace, "LIMIT", -1.0)
+    deadline = pace.Deadline()
+    assert not deadline(0.5, "solve") and deadline.is_over

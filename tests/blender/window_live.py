@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live in a real window: vertices are grabbed with keyboard and mouse, and the surface follows. Prints how long updates take."""
+
+import importlib
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bmesh
+import bpy
+import harness
+import numpy as np
+
+PATIENCE = 120.0  # seconds until a full level must be there
+MOVES = 24  # of the mouse, in one grab
+
+
+def live(name):
+    """A module of the extension's folder live/."""
+    return importlib.import_module(f"{harness.EXTENSION}.live.{name}")
+
+
+def session(target):
+    return live("registry").session_of(target)
+
+
+def xdotool(*words):
+    """Mouse and keyboard of the X server."""
+    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
+
+
+def positions(mesh):
+    values = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", values)
+    return values.reshape(-1, 3)
+
+
+def positions_of(source):
+    """Of the control vertices, as its mesh has them, which lists no attributes in Edit Mode."""
+    values = np.empty(3 * len(source.data.vertices), np.float32)
+    source.data.vertices.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def wait_for_the_full_level(target, level):
+    """Until the surface is shown at that level and nothing is waiting; a generator."""
+    waited = 0.0
+    while session(target).is_waiting or session(target).level != level:
+        assert waited < PATIENCE, f"no full level: {target.discrete_fairing_live.status}"
+        waited += 0.1
+        yield 0.1
+    yield 0.3
+
+
+def add_torus():
+    """A torus in the place of Suzanne: where total curvature takes few steps."""
+    bpy.data.objects.remove(harness.add_suzanne())
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_torus_add(
+            major_segments=24, minor_segments=16, major_radius=1.5, minor_radius=0.5
+        )
+    return bpy.context.view_layer.objects.active
+
+
+def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne, vertex=285):
+    """A mesh with a live surface, in Edit Mode with one vertex selected; a generator that returns both objects."""
+    source = add()
+    settings = bpy.context.scene.discrete_fairing
+    settings.levels, settings.energy = levels, energy
+    yield from harness.open_sidebar("Fairing")
+    with bpy.context.temp_override(**harness.view()):
+        assert bpy.ops.object.fair_live(state="ON") == {"FINISHED"}
+    target = bpy.data.objects[f"{source.name} Fair"]
+    target.discrete_fairing_live.levels = live_levels
+    yield from wait_for_the_full_level(target, levels)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo_push(message="live")
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="VERT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+    edit = bmesh.from_edit_mesh(source.data)
+    edit.verts.ensure_lookup_table()
+    edit.verts[vertex].select_set(True)
+    bmesh.update_edit_mesh(source.data)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo_push(message="one vertex is selected")
+    yield 0.5
+    return source, target
+
+
+def centre():
+    """The middle of the viewport on the screen."""
+    view = harness.view()
+    region, height = view["region"], view["window"].height
+    return region.x + region.width // 2, height - region.y - region.height // 2
+
+
+class Recorder:
+    """Hears of each update, and how long Blender takes for the whole of it: from one redraw to the next."""
+
+    def __init__(self, target):
+        self.session, self.parts, self.seen = session(target), [], session(target).updates
+        self._handle = bpy.types.SpaceView3D.draw_handler_add(self._note, (), "WINDOW", "POST_VIEW")
+
+    def _note(self):
+        if self.session.updates != self.seen:
+            self.seen = self.session.updates
+            self.parts.append(dict(self.session.parts))
+
+    def stop(self):
+        bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+        return self.parts
+
+
+def grab(target):
+    """G, and the mouse from place to place; a generator that returns the parts of the updates. The grab goes on."""
+    x, y = centre()
+    xdotool("mousemove", x, y)
+    yield 0.3
+    xdotool("key", "g")
+    yield 0.3
+    recorder = Recorder(target)
+    for step in range(MOVES):
+        xdotool("mousemove", x + 3 * step, y - 2 * step)
+        yield 0.05
+    yield 0.5
+    return recorder.stop()
+
+
+def told(what, parts):
+    """Prints the middle of each part over the updates; the first has to build."""
+    kept = parts[1:]
+    middle = {name: float(np.median([update[name] for update in kept])) for name in kept[0]}
+    whole = [sum(update.values()) for update in kept]
+    text = ", ".join(f"{name} {value:.2f}" for name, value in middle.items())
+    print(f"live, {what}: {text}; whole {np.median(whole):.2f}, worst {max(whole):.2f} ms of {len(kept)}")
+
+
+def test_a_grab_is_followed_and_the_full_level_comes_after():
+    source, target = yield from open_scene(4, 3)
+    before = positions(target.data)[: len(source.data.vertices)]
+    parts = yield from grab(target)
+    assert len(parts) > MOVES // 4, f"{len(parts)} updates were seen"
+    assert session(target).level <= 3, "the live level while the mouse drags"
+    assert session(target).is_waiting and not session(target).full_text, "and it stays so"
+    harness.photograph("live")
+    source.update_from_editmode()
+    moved = positions(target.data)[: len(before)]
+    assert np.abs(moved - before).max() > 0.05
+    told(f"thin plate, {session(target).triangles} triangles", parts)
+    xdotool("click", 1)
+    yield from wait_for_the_full_level(target, 4)
+    assert source.mode == "EDIT"
+    source.update_from_editmode()
+    assert np.array_equal(positions(target.data)[: len(before)], positions_of(source)), "through its vertices"
+    harness.photograph("live_full")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
+    yield from wait_for_the_full_level(target, 4)
+    source.update_from_editmode()
+    assert np.array_equal(positions(target.data)[: len(before)], positions_of(source))
+    assert np.array_equal(positions_of(source), before), "undone"
+
+
+def test_total_curvature_is_followed():
+    source, target = yield from open_scene(3, 3, "TOTAL_CURVATURE", add_torus, 0)
+    parts = yield from grab(target)
+    xdotool("key", "Escape")
+    assert len(parts) > 2, f"{len(parts)} updates were seen"
+    told(f"total curvature, {session(target).triangles} triangles", parts)
+    yield from wait_for_the_full_level(target, 3)
+
+
+def test_another_topology():
+    source, target = yield from open_scene(2, 2)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide()
+    yield 0.5
+    yield from wait_for_the_full_level(target, 2)
+    source.update_from_editmode()
+    assert len(target.data.polygons) >= len(source.data.polygons) * 4**2 >= 2000 * 4**2
+
+
+def test_settings_are_followed():
+    _, target = yield from open_scene(3, 2)
+    before = positions(target.data)
+    target.discrete_fairing.metric_exponent = 1.0
+    yield 0.3
+    assert session(target).level == 2 and len(target.data.vertices) < len(before)
+    yield from wait_for_the_full_level(target, 3)
+    assert not np.array_equal(positions(target.data), before)
+
+
+def test_undo_of_object_mode_edits():
+    source, target = yield from open_scene(3, 2)
+    before = positions(target.data)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.ed.undo_push(message="before")
+        source.data.vertices[0].co.z += 1.0
+        source.data.update()
+        bpy.ops.ed.undo_push(message="after")
+    yield 0.2
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    target = bpy.data.objects["Suzanne Fair"]
+    yield from wait_for_the_full_level(target, 3)
+    assert np.array_equal(positions(target.data), before)
+    assert target.discrete_fairing_live.on
+
+
+def test_deleted_source():
+    source, target = yield from open_scene(3, 2)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.object.delete()
+    yield 0.5
+    assert live("registry").sessions() == []
+    bpy.context.view_layer.objects.active = target
+    yield 0.5
+    harness.photograph("live_ended")
+
+
+def test_rendering_meanwhile():
+    source, target = yield from open_scene(3, 2)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = 1, False
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    scene.collection.objects.link(scene.camera)
+    source.data.vertices[0].co.z += 1.0
+    source.data.update()
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.render.render()
+    yield from wait_for_the_full_level(target, 3)
+    assert np.array_equal(positions(target.data)[0], positions_of(source)[0])
+
+
+def test_another_file_and_disabling():
+    _, target = yield from open_scene(3, 2)
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "live.blend")
+        with bpy.context.temp_override(**harness.view()):
+            bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        yield 1.0
+    watch = live("watch")
+    assert live("registry").sessions() == [] and not bpy.app.timers.is_registered(watch.tick)
+    target = bpy.data.objects["Suzanne Fair"]
+    assert not target.discrete_fairing_live.on
+    target.discrete_fairing_live.on = True
+    yield 0.2
+    assert session(target).updates and bpy.app.timers.is_registered(watch.tick)
+    bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
+    yield 0.5
+    assert not bpy.app.timers.is_registered(watch.tick)
+    for name in watch._HANDLERS:
+        assert not [f for f in getattr(bpy.app.handlers, name) if ".live." in f.__module__], name
+    bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
+    yield 0.5
+
+
+def test_quitting_while_live():
+    """The last one: Blender has to end by itself afterwards, which the time limit of the script sees to."""
+    _, target = yield from open_scene(5, 2)
+    start = perf_counter()
+    target.discrete_fairing.metric_exponent = 1.0
+    while not session(target).full_text:
+        assert perf_counter() - start < PATIENCE
+        yield 0.1
+
+
+harness.run_in_window(globals())
