@@ -12,7 +12,6 @@ constexpr std::size_t most_products = 128;  // a point's rings by their sizes
 void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
   const WrittenRings& rings = plate.rings();
   if (!rings.is_unknown(p)) return;
-  row.add(p, 0);  // the diagonal comes first
   const WrittenRings::Ring& own = rings.about(p);
   for (std::size_t k = 0; k < own.size; ++k) {
     const Index centre = WrittenRings::id_of(rings.members(own)[k]);
@@ -27,9 +26,7 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
   }
 }
 
-}  // namespace
-
-bool PlateMatrix::suits(const Lattice& lattice, const Stencils& stencils) {
+bool suits(const Lattice& lattice, const Stencils& stencils) {
   if (!has_rows(lattice.n(), lattice.size())) return false;
   std::size_t products = 81 * lattice.size();
   for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
@@ -39,27 +36,28 @@ bool PlateMatrix::suits(const Lattice& lattice, const Stencils& stencils) {
   return products < most_products * lattice.size();
 }
 
-PlateMatrix::PlateMatrix(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns,
-                         Workers& workers)
-    : points_(lattice.size()), rows_(lattice.size(), lattice.size()) {
+}  // namespace
+
+std::unique_ptr<PlateMatrix> PlateMatrix::make(const Lattice& lattice, const Stencils& stencils,
+                                               const Unknowns& unknowns, Workers& workers) {
+  if (!suits(lattice, stencils)) return nullptr;
+  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(lattice));
   const PlateRings plate(lattice, stencils, unknowns, workers);
-  rows_.build(workers, [&](Index p, RowBuilder& row) { write_row(plate, p, row); });
-  for (std::size_t v = 0; v < unknowns.vertex.size(); ++v) {
-    const float* diagonal = rows_.first_number(v);
-    unweighted_.push_back(diagonal ? *diagonal : 0);
-  }
+  const auto writer = [&] { return [&plate](Index p, RowBuilder& row) { write_row(plate, p, row); }; };
+  return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
 }
 
 void PlateMatrix::set_weights(const VertexWeights& weights) {
+  weight_.clear();
   for (std::size_t v = 0; v < weights.size(); ++v)
-    if (float* diagonal = rows_.first_number(v)) *diagonal = unweighted_[v] + float(weights[v]);
+    weight_.insert(weight_.end(), 3, rows_.diagonal(v) > 0 ? float(weights[v]) : 0.0f);
 }
 
-Array<float> PlateMatrix::inverse_diagonal() {
+Array<float> PlateMatrix::inverse_diagonal() const {
   Array<float> inverse(points_);
   for (std::size_t p = 0; p < points_; ++p) {
-    const float* diagonal = rows_.first_number(p);
-    inverse[p] = diagonal && *diagonal > 0 ? 1 / *diagonal : 1.0f;
+    const float diagonal = rows_.diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+    inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
   }
   return inverse;
 }

@@ -3,6 +3,8 @@
 // passes over faces and edges cost more than an index a number. For the smoother, which wants many cheap applications.
 #pragma once
 
+#include <memory>
+
 #include "energy/plate_rings.h"
 #include "rows/matrix.h"
 #include "solver/level_operator.h"
@@ -11,22 +13,31 @@ namespace fairing {
 
 class PlateMatrix {
  public:
-  // Whether a level is served so: few points a face, and no rings so large that their squares are not linear.
-  static bool suits(const Lattice& lattice, const Stencils& stencils);
+  // Null where the passes are better: with many points a face, or rings so large that their squares are not linear.
+  static std::unique_ptr<PlateMatrix> make(const Lattice& lattice, const Stencils& stencils,
+                                           const Unknowns& unknowns, Workers& workers);
 
-  PlateMatrix(const Lattice& lattice, const Stencils& stencils, const Unknowns& unknowns, Workers& workers);
-
-  // Of control vertices, in place of earlier ones.
+  // Of control vertices: what is added to their diagonal.
   void set_weights(const VertexWeights& weights);
 
-  Array<float> inverse_diagonal();  // one number a point; 1 where it is no unknown
+  Array<float> inverse_diagonal() const;  // one number a point; 1 where it is no unknown
 
-  const WrittenMatrix& rows() const { return rows_; }
+  // Calls finish(point, count, image) with K x on so many points, 3 numbers each; x has `vector_room` more.
+  template <class Finish>
+  void visit_images(const float* x, Workers& workers, const Finish& finish) const {
+    rows_.visit_images<3>(x, workers, [&](std::size_t first, std::size_t count, float* image) {
+      for (std::size_t i = 3 * first; i < std::min(3 * (first + count), weight_.size()); ++i)
+        image[i - 3 * first] += weight_[i] * x[i];
+      finish(first, count, static_cast<const float*>(image));
+    });
+  }
 
  private:
+  PlateMatrix(const Lattice& lattice) : points_(lattice.size()), rows_(points_, points_) {}
+
   std::size_t points_;
-  WrittenMatrix rows_;             // the diagonal comes first
-  std::vector<float> unweighted_;  // the diagonal of control vertices
+  WrittenMatrix rows_;
+  std::vector<float> weight_;  // 3 a control vertex; empty: none
 };
 
 }  // namespace fairing

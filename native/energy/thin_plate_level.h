@@ -39,8 +39,7 @@ struct ThinPlateShared {
 class ThinPlateLevel final : public LevelOperator {
  public:
   ThinPlateLevel(ThinPlateShared& shared, const Lattice& lattice) : shared_(shared), lattice_(lattice) {
-    if (PlateMatrix::suits(lattice, shared.stencils))
-      matrix_ = std::make_unique<PlateMatrix>(lattice, shared.stencils, shared.unknowns, shared.workers);
+    matrix_ = PlateMatrix::make(lattice, shared.stencils, shared.unknowns, shared.workers);
     update();
   }
 
@@ -63,24 +62,25 @@ class ThinPlateLevel final : public LevelOperator {
                      shared_.fine_exchange, x, y);
   }
   void apply(const float* x, float* y) override {
-    if (matrix_) return matrix_->rows().apply<3>(x, shared_.workers, y);
+    if (matrix_)
+      return matrix_->visit_images(x, shared_.workers,
+                                   [=](std::size_t first, std::size_t count, const float* image) {
+                                     std::copy_n(image, 3 * count, y + 3 * first);
+                                   });
     apply_thin_plate(lattice_, shared_.fast_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.fast_exchange, x, y);
   }
   void relax(const SmoothingStep& step, Workers& workers) override {
     if (!matrix_) return LevelOperator::relax(step, workers);
-    matrix_->rows().visit_images<3>(step.d, workers,
-                                    [&](std::size_t first, std::size_t count, const float* image) {
-                                      finish_step(step, 3, inverse_diagonal_.data(), first, count, image);
-                                    });
+    matrix_->visit_images(step.d, workers, [&](std::size_t first, std::size_t count, const float* image) {
+      finish_step(step, 3, inverse_diagonal_.data(), first, count, image);
+    });
   }
   void subtract_image(const float* x, float* room, float* y, Workers& workers) override {
     if (!matrix_) return LevelOperator::subtract_image(x, room, y, workers);
-    matrix_->rows().visit_images<3>(x, workers,
-                                    [=](std::size_t first, std::size_t count, const float* image) {
-                                      for (std::size_t i = 0; i < 3 * count; ++i)
-                                        y[3 * first + i] -= image[i];
-                                    });
+    matrix_->visit_images(x, workers, [=](std::size_t first, std::size_t count, const float* image) {
+      for (std::size_t i = 0; i < 3 * count; ++i) y[3 * first + i] -= image[i];
+    });
   }
   bool does_with_single() const override { return lattice_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
@@ -99,9 +99,7 @@ class ThinPlateTransfer final : public LevelTransfer {
  public:
   ThinPlateTransfer(ThinPlateShared& shared, const Lattice& coarse, const Lattice& fine)
       : shared_(shared), coarse_(coarse), fine_(fine) {
-    if (WrittenTransfer::suits(fine))
-      written_ =
-          std::make_unique<WrittenTransfer>(coarse, fine, shared.stencils, shared.unknowns, shared.workers);
+    written_ = WrittenTransfer::make(coarse, fine, shared.stencils, shared.unknowns, shared.workers);
   }
   void prolong(const float* x, float* y) override {
     if (written_) return written_->prolong<3>(x, shared_.workers, y);

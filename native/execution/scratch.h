@@ -3,6 +3,8 @@
 // pass. They go with the thread; the one that owns the Workers gives its own back with them.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,6 +17,7 @@ struct ThreadScratch {
   std::vector<T> run;       // an edge's points
   std::vector<T> work;      // what a body works in
   std::vector<T> gathered;  // closed faces that a body reads
+  std::vector<T> columns;   // what a block of rows reads
 };
 
 template <class T>
@@ -30,13 +33,21 @@ T* room_in(std::vector<T>& buffer, std::size_t size) {
   return buffer.data();
 }
 
-// Which columns a row of a sparse matrix has named: their marks are greater than `last`, which only grows.
+// Which columns of a sparse matrix have been named of late: their marks are greater than `last`, which only grows.
 struct ColumnMarks {
   std::vector<std::uint32_t> mark;
   std::uint32_t last = 0;
+
+  void fit(std::size_t columns) {
+    constexpr std::uint32_t most = std::uint32_t(1) << 31;
+    if (mark.size() < columns) mark.resize(columns, 0);
+    if (last < most) return;
+    std::fill(mark.begin(), mark.end(), 0);
+    last = 0;
+  }
 };
-inline ColumnMarks& thread_column_marks() {
-  thread_local ColumnMarks own;
+inline std::array<ColumnMarks, 2>& thread_column_marks() {
+  thread_local std::array<ColumnMarks, 2> own;
   return own;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of rows of a sparse matrix. Every number sees the same operations in the same order on all machines.
+// A block of rows of a sparse matrix. What a large matrix costs is reading it: rows name their columns by short places
+// among those of the block, and rows alike, as there are many along an edge and inside a face, share their numbers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "execution/wide.h"
-#include "lattice/lattice.h"
 
 namespace fairing {
 
@@ -14,49 +13,30 @@ constexpr std::size_t chunk_rows = 256;
 constexpr std::uint32_t row_block = 4;
 
 struct RowChunk {
-  std::vector<std::uint32_t> row_end;  // of each row among the numbers; zero rows have none
-  std::vector<std::uint32_t> column;
-  std::vector<float> number;  // rows are filled up with zeros to whole blocks
+  using Place = std::uint16_t;
+  struct Row {
+    std::uint32_t end;     // of its places; a zero row has none
+    std::uint32_t number;  // the first of as many
+  };
+  std::vector<std::uint32_t> column;  // of the block, each once
+  std::vector<Row> row;
+  std::vector<Place> place;   // rows are filled up to whole blocks
+  std::vector<float> number;  // with zeros
 
   void clear() {
-    row_end.clear();
     column.clear();
+    row.clear();
+    place.clear();
     number.clear();
   }
   std::size_t bytes() const {
-    return (row_end.capacity() + column.capacity() + number.capacity()) * sizeof(float);
+    return column.capacity() * sizeof(std::uint32_t) + row.capacity() * sizeof(Row) +
+           place.capacity() * sizeof(Place) + number.capacity() * sizeof(float);
   }
 };
 
-// A row's sum, with C numbers a point; of three, a fourth is written that is nobody's.
-template <int C>
-struct RowSum {
-  DF_INLINE static void run(const std::uint32_t* column, const float* number, std::uint32_t k,
-                            std::uint32_t end, const float* x, float* image) {
-    using Four = Packs<float, 16>;
-    typename Four::Pack sum[row_block] = {}, p;
-    for (; k < end; k += row_block)
-#pragma GCC unroll 4
-      for (std::uint32_t m = 0; m < row_block; ++m) {
-        Four::load(x + 3 * std::size_t(column[k + m]), p);
-        sum[m] += number[k + m] * p;
-      }
-    Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), image);
-  }
-};
-template <>
-struct RowSum<1> {
-  DF_INLINE static void run(const std::uint32_t* column, const float* number, std::uint32_t k,
-                            std::uint32_t end, const float* x, float* image) {
-    float sum[row_block] = {};
-    for (; k < end; k += row_block)
-#pragma GCC unroll 4
-      for (std::uint32_t m = 0; m < row_block; ++m) sum[m] += number[k + m] * x[column[k + m]];
-    *image = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-  }
-};
-
-// image <- a chunk's rows of the matrix times x, and up to one number beyond.
+// image <- a chunk's rows of the matrix times x, with C numbers a point, 1 or 3, and up to one number beyond. Every number
+// sees the same operations in the same order on all machines. x has `vector_room` more.
 template <int C>
 void chunk_image(const RowChunk& chunk, const float* x, float* image);
 

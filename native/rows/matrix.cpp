@@ -4,53 +4,37 @@
 namespace fairing {
 namespace {
 
-template <int C>
-struct RowsLoop {
-  template <class T, int Bytes>
-  struct Of {
-    DF_INLINE static void run(const RowChunk* chunk, const float* x, float* image) {
-      std::uint32_t k = 0;
-      for (const std::uint32_t end : chunk->row_end) {
-        RowSum<C>::run(chunk->column.data(), chunk->number.data(), k, end, x, image);
-        k = end;
-        image += C;
-      }
-    }
-  };
-};
-
 template <class Visit>
-void visit_numbers(const Array<RowChunk>& chunks, Visit&& visit) {
-  Index row = 0;
-  for (const RowChunk& chunk : chunks) {
-    std::uint32_t k = 0;
-    for (const std::uint32_t end : chunk.row_end) {
-      for (; k < end; ++k)
-        if (chunk.number[k] != 0) visit(row, std::size_t(chunk.column[k]), chunk.number[k]);
-      ++row;
-    }
-  }
+void visit_numbers(const RowChunk& chunk, Visit&& visit) {
+  std::uint32_t k = 0;
+  for (std::size_t r = 0; r < chunk.row.size(); ++r)
+    for (const float* number = chunk.number.data() + chunk.row[r].number; k < chunk.row[r].end; ++k, ++number)
+      if (*number != 0) visit(r, std::size_t(chunk.column[chunk.place[k]]), *number);
 }
 
 }  // namespace
 
-template <int C>
-void chunk_image(const RowChunk& chunk, const float* x, float* image) {
-  run_loop<RowsLoop<C>::template Of, float>(&chunk, x, image);
+float WrittenMatrix::diagonal(std::size_t row) const {
+  const RowChunk& chunk = chunk_[row / chunk_rows];
+  const std::size_t r = row % chunk_rows;
+  float sum = 0;
+  for (std::uint32_t begin = r == 0 ? 0 : chunk.row[r - 1].end, k = begin; k < chunk.row[r].end; ++k)
+    if (chunk.column[chunk.place[k]] == row) sum += chunk.number[chunk.row[r].number + k - begin];
+  return sum;
 }
-template void chunk_image<1>(const RowChunk&, const float*, float*);
-template void chunk_image<3>(const RowChunk&, const float*, float*);
 
 WrittenMatrix::Columns WrittenMatrix::by_columns() const {
   Columns out;
   out.first.assign(columns_ + 1, 0);
-  visit_numbers(chunk_, [&](Index, std::size_t column, float) { ++out.first[column + 1]; });
+  for (const RowChunk& chunk : chunk_)
+    visit_numbers(chunk, [&](std::size_t, std::size_t column, float) { ++out.first[column + 1]; });
   for (std::size_t c = 0; c < columns_; ++c) out.first[c + 1] += out.first[c];
   out.entry.resize(out.first.back());
   std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
-  visit_numbers(chunk_, [&](Index row, std::size_t column, float number) {
-    out.entry[next[column]++] = {row, number};
-  });
+  for (std::size_t c = 0; c < chunk_.size(); ++c)
+    visit_numbers(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
+      out.entry[next[column]++] = {Index(c * chunk_rows + row), number};
+    });
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 
 #include "execution/memory.h"
 #include "execution/workers.h"
@@ -17,33 +18,32 @@ class WrittenMatrix {
   WrittenMatrix& operator=(const WrittenMatrix&) = delete;
   ~WrittenMatrix() { MemoryLedger::remove(bytes_); }
 
-  // write(row, builder) adds the numbers of a row; none: the row is zero.
-  template <class Write>
-  void build(Workers& workers, Write&& write) {
+  // make_writer()(row, builder) adds the numbers of one row after another, a writer on each stretch of them; none: the row
+  // is zero. False: the matrix has too many columns in one place, and is not to be used.
+  template <class MakeWriter>
+  bool build(Workers& workers, MakeWriter&& make_writer) {
     chunk_.resize((rows_ + chunk_rows - 1) / chunk_rows);
+    std::atomic<bool> fits = true;
     workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
       RowBuilder builder(columns_);
-      RowChunk chunk;
+      auto write = make_writer();
       for (std::size_t c = begin; c < end; ++c) {
-        chunk.clear();
+        builder.begin_chunk();
         for (std::size_t r = c * chunk_rows; r < std::min(rows_, (c + 1) * chunk_rows); ++r) {
           write(Index(r), builder);
-          builder.finish(chunk);
+          builder.finish();
         }
-        chunk_[c] = chunk;  // no longer than it need be
+        if (!builder.fits()) fits = false;
+        chunk_[c] = builder.chunk();  // no longer than it need be
       }
     });
     for (const RowChunk& chunk : chunk_) bytes_ += chunk.bytes();
     MemoryLedger::add(bytes_);
+    return fits;
   }
 
-  // The first number of a row, which is that of the column first named; null: the row is zero.
-  float* first_number(std::size_t row) {
-    RowChunk& chunk = chunk_[row / chunk_rows];
-    const std::size_t r = row % chunk_rows;
-    const std::uint32_t begin = r == 0 ? 0 : chunk.row_end[r - 1];
-    return begin == chunk.row_end[r] ? nullptr : chunk.number.data() + begin;
-  }
+  // The number of a row in its own column; 0 where the row is zero.
+  float diagonal(std::size_t row) const;
 
   // Its numbers column by column: first[c] … first[c + 1] of (row, number).
   struct Columns {
@@ -61,7 +61,7 @@ class WrittenMatrix {
       alignas(64) float image[C * chunk_rows + 4];
       for (std::size_t c = begin; c < end; ++c) {
         chunk_image<C>(chunk_[c], x, image);
-        finish(c * chunk_rows, chunk_[c].row_end.size(), static_cast<const float*>(image));
+        finish(c * chunk_rows, chunk_[c].row.size(), static_cast<float*>(image));
       }
     });
   }

@@ -18,7 +18,7 @@ constexpr int refinement_steps = 3;
 // Levels up to so many unknowns are factored sooner than smoothed; the cycle ends on the finest of them.
 constexpr std::size_t tiny_level = 1200;
 
-constexpr double settled_margin = 1.06;  // of a largest eigenvalue that is taken from the level below
+constexpr double settled_margin = 1.03;  // of a largest eigenvalue that is taken from the level below
 
 constexpr std::size_t hopeless_degree = 60;  // then a factor is cheaper, whatever it costs
 

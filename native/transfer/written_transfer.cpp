@@ -95,27 +95,26 @@ class HalfWay {
   WrittenRings rings_;
 };
 
-// Rows of the prolongation for the points of the fine level.
+// Rows of the prolongation for the points of the fine level, one after another.
 class FineRows {
  public:
   FineRows(const Lattice& coarse, const Lattice& fine, const HalfWay& half)
-      : coarse_(coarse), fine_(fine), half_(half) {}
+      : coarse_(coarse), fine_(fine), half_(half), first_in_faces_(fine.face_base(0)) {}
 
-  void write(Index p, RowBuilder& row) const {
-    const ControlMesh& mesh = fine_.mesh();
+  void write(Index p, RowBuilder& row) {
     const int n = fine_.n();
-    const Index vertices = mesh.vertex_count(), first_in_faces = fine_.face_base(0);
+    const Index vertices = fine_.mesh().vertex_count();
     if (p < vertices) return row.add(p, 1);
-    if (p < first_in_faces) {
+    if (p < first_in_faces_) {
       const Index e = (p - vertices) / (n - 1), k = (p - vertices) % (n - 1) + 1;
       return between(coarse_.edge_point(e, k / 2), coarse_.edge_point(e, (k + 1) / 2), of_midpoint, row);
     }
-    const Index f = face_of(p);
-    const bool quad = mesh.faces[std::size_t(f)].quad();
-    const LatticePoint at = place_in(quad, n, p - fine_.face_base(f));
-    const auto corner = [&](int i, int j) { return coarse_.face_point(f, (at.i + i) / 2, (at.j + j) / 2); };
-    const bool odd_i = at.i % 2, odd_j = at.j % 2;
-    if (odd_i && odd_j && quad) {
+    go_to(p);
+    const auto corner = [&](int i, int j) {
+      return coarse_.face_point(face_, (at_.i + i) / 2, (at_.j + j) / 2);
+    };
+    const bool odd_i = at_.i % 2, odd_j = at_.j % 2;
+    if (odd_i && odd_j && is_quad()) {
       between(corner(-1, -1), corner(1, 1), of_centre, row);
       between(corner(1, -1), corner(-1, 1), of_centre, row);
     } else if (odd_i && odd_j) {
@@ -135,43 +134,65 @@ class FineRows {
     half_.add(b, a, share, row);
   }
 
-  Index face_of(Index p) const {
-    Index low = 0, high = Index(fine_.mesh().faces.size());
-    while (high - low > 1) {
-      const Index middle = low + (high - low) / 2;
-      (fine_.face_base(middle) <= p ? low : high) = middle;
-    }
-    return low;
-  }
+  bool is_quad() const { return fine_.mesh().faces[std::size_t(face_)].quad(); }
 
-  static LatticePoint place_in(bool quad, int n, Index inside) {
-    int j = 1;
-    while (j + 1 < n && std::size_t(inside) >= interior_row(quad, std::size_t(n), std::size_t(j + 1))) ++j;
-    return {int(inside - Index(interior_row(quad, std::size_t(n), std::size_t(j)))) + 1, j};
+  // To the face that holds p, and its place there: the next one, mostly.
+  void go_to(Index p) {
+    const int n = fine_.n();
+    if (p != last_ + 1 || last_ < first_in_faces_) {
+      Index low = 0, high = Index(fine_.mesh().faces.size());
+      while (high - low > 1) {
+        const Index middle = low + (high - low) / 2;
+        (fine_.face_base(middle) <= p ? low : high) = middle;
+      }
+      face_ = low;
+      begin_face();
+      for (Index k = fine_.face_base(face_); k < p; ++k) step();
+    } else {
+      step();
+      while (at_.j >= n || (!is_quad() && at_.j >= n - 1)) {
+        ++face_;
+        begin_face();
+      }
+    }
+    last_ = p;
+  }
+  void begin_face() { at_ = {1, 1}; }
+  void step() {
+    if (++at_.i < (is_quad() ? fine_.n() : fine_.n() - at_.j)) return;
+    at_ = {1, at_.j + 1};
   }
 
   const Lattice &coarse_, &fine_;
   const HalfWay& half_;
+  Index first_in_faces_, last_ = -1, face_ = 0;
+  LatticePoint at_{1, 1};
 };
 
 }  // namespace
 
-bool WrittenTransfer::suits(const Lattice& fine) { return has_rows(fine.n(), fine.size()); }
-
-WrittenTransfer::WrittenTransfer(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
-                                 const Unknowns& unknowns, Workers& workers)
-    : prolongation_(fine.size(), coarse.size()), restriction_(coarse.size(), fine.size()) {
+std::unique_ptr<WrittenTransfer> WrittenTransfer::make(const Lattice& coarse, const Lattice& fine,
+                                                       const Stencils& stencils, const Unknowns& unknowns,
+                                                       Workers& workers) {
+  if (!has_rows(fine.n(), fine.size())) return nullptr;
+  std::unique_ptr<WrittenTransfer> transfer(new WrittenTransfer(coarse.size(), fine.size()));
   const HalfWay half(coarse, stencils, unknowns, workers);
-  const FineRows rows(coarse, fine, half);
   const std::vector<std::uint8_t> unknown = unknown_points(fine, unknowns);
-  prolongation_.build(workers, [&](Index p, RowBuilder& row) {
-    if (unknown[std::size_t(p)]) rows.write(p, row);
-  });
-  const WrittenMatrix::Columns columns = prolongation_.by_columns();
-  restriction_.build(workers, [&](Index p, RowBuilder& row) {
-    for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1]; ++k)
-      row.add(columns.entry[k].first, double(columns.entry[k].second));
-  });
+  const auto fine_writer = [&] {
+    return [&unknown, rows = FineRows(coarse, fine, half)](Index p, RowBuilder& row) mutable {
+      if (unknown[std::size_t(p)]) rows.write(p, row);
+    };
+  };
+  if (!transfer->prolongation_.build(workers, fine_writer)) return nullptr;
+  const WrittenMatrix::Columns columns = transfer->prolongation_.by_columns();
+  const auto coarse_writer = [&] {
+    return [&columns](Index p, RowBuilder& row) {
+      for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1]; ++k)
+        row.add(columns.entry[k].first, double(columns.entry[k].second));
+    };
+  };
+  if (!transfer->restriction_.build(workers, coarse_writer)) return nullptr;
+  return transfer;
 }
 
 }  // namespace fairing

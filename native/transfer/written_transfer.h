@@ -3,6 +3,8 @@
 // cost more than an index a number.
 #pragma once
 
+#include <memory>
+
 #include "difference/stencils.h"
 #include "rows/matrix.h"
 #include "rows/rings.h"
@@ -11,10 +13,10 @@ namespace fairing {
 
 class WrittenTransfer {
  public:
-  static bool suits(const Lattice& fine);
-
-  WrittenTransfer(const Lattice& coarse, const Lattice& fine, const Stencils& stencils,
-                  const Unknowns& unknowns, Workers& workers);
+  // Null where the passes are better.
+  static std::unique_ptr<WrittenTransfer> make(const Lattice& coarse, const Lattice& fine,
+                                               const Stencils& stencils, const Unknowns& unknowns,
+                                               Workers& workers);
 
   // As prolong() and restrict_to() do on unknowns, with C numbers a point; the vector that is read has `vector_room` more.
   template <int C>
@@ -27,6 +29,9 @@ class WrittenTransfer {
   }
 
  private:
+  WrittenTransfer(std::size_t coarse, std::size_t fine)
+      : prolongation_(fine, coarse), restriction_(coarse, fine) {}
+
   WrittenMatrix prolongation_, restriction_;
 };
 
