@@ -41,7 +41,7 @@ bool suits(const Lattice& lattice, const Stencils& stencils) {
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const Lattice& lattice, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers) {
   if (!suits(lattice, stencils)) return nullptr;
-  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(lattice));
+  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(lattice, unknowns));
   const PlateRings plate(lattice, stencils, unknowns, workers);
   const auto writer = [&] { return [&plate](Index p, RowBuilder& row) { write_row(plate, p, row); }; };
   return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
@@ -50,7 +50,7 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const Lattice& lattice, const Ste
 void PlateMatrix::set_weights(const VertexWeights& weights) {
   weight_.clear();
   for (std::size_t v = 0; v < weights.size(); ++v)
-    weight_.insert(weight_.end(), 3, rows_.diagonal(v) > 0 ? float(weights[v]) : 0.0f);
+    weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
 }
 
 Array<float> PlateMatrix::inverse_diagonal() const {

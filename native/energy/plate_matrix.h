@@ -33,11 +33,13 @@ class PlateMatrix {
   }
 
  private:
-  PlateMatrix(const Lattice& lattice) : points_(lattice.size()), rows_(points_, points_) {}
+  PlateMatrix(const Lattice& lattice, const Unknowns& unknowns)
+      : points_(lattice.size()), rows_(points_, points_), moves_(unknowns.vertex) {}
 
   std::size_t points_;
   WrittenMatrix rows_;
-  std::vector<float> weight_;  // 3 a control vertex; empty: none
+  std::vector<std::uint8_t> moves_;  // whether a control vertex is an unknown
+  std::vector<float> weight_;        // 3 a control vertex; empty: none
 };
 
 }  // namespace fairing

@@ -12,11 +12,14 @@
 #include <random>
 
 #include "energy/assemble.h"
+#include "energy/plate_matrix.h"
 #include "energy/thin_plate.h"
+#include "energy/thin_plate_level.h"
 #include "lattice/linear.h"
 #include "lattice/ring.h"
 #include "meshes.h"
 #include "transfer/transfer.h"
+#include "transfer/written_transfer.h"
 #include "written_rings.h"
 
 namespace fairing::test {
@@ -513,6 +516,157 @@ TEST(Transfer, KeepsQuadraticsInThePlane) {
         EXPECT_NEAR(residual(p, 2), 0, 1e-9) << "level " << level << " point " << p;
       }
     }
+  }
+}
+
+using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+// With the room that rows may read in packs.
+FloatPoints with_room(const Points& x) {
+  FloatPoints out = FloatPoints::Constant(x.rows() + Eigen::Index(vector_room), 3, 1e30f);
+  out.topRows(x.rows()) = x.cast<float>();
+  return out;
+}
+
+Points of_room(const FloatPoints& x, std::size_t size) {
+  return x.topRows(Eigen::Index(size)).cast<double>();
+}
+
+Unknowns inside_region(const ControlMesh& mesh, Unknowns u) {
+  for (std::size_t v = 0; v < u.vertex.size(); ++v)
+    if (mesh.vertex_place(Index(v)) != Place::inside) u.vertex[v] = 0;
+  for (std::size_t e = 0; e < u.edge.size(); ++e)
+    if (mesh.edge_place(Index(e)) != Place::inside) u.edge[e] = 0;
+  for (const Place place : mesh.region.face) u.face.push_back(place == Place::inside);
+  return u;
+}
+
+// K in rows, weights of control vertices and the diagonal included, against the assembled system.
+void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers) {
+  const std::unique_ptr<PlateMatrix> rows = PlateMatrix::make(s.lattice, s.stencils, unknowns, workers);
+  ASSERT_EQ(rows != nullptr, s.lattice.n() > 1);
+  if (!rows) return;
+  VertexWeights weights(std::size_t(s.mesh.vertex_count()), 0.0);
+  for (const bool weighted : {true, false}) {
+    for (std::size_t v = 0; v < weights.size(); v += 2) weights[v] = weighted ? 0.5 + double(v) : 0.0;
+    rows->set_weights(weights);
+    const AssembledSystem system = assemble_thin_plate(s.lattice, s.stencils, unknowns, weights);
+    const Dense k(system.matrix);
+    const Points x = masked(s.lattice, unknowns, random_points(s.lattice.size()));
+    Points small(k.cols(), 3), expected = Points::Zero(x.rows(), 3);
+    for (Eigen::Index r = 0; r < k.cols(); ++r) small.row(r) = x.row(system.unknown_points[std::size_t(r)]);
+    small = k * small;
+    Array<float> diagonal(s.lattice.size(), 1.0f);
+    for (Eigen::Index r = 0; r < k.cols(); ++r) {
+      const Index p = system.unknown_points[std::size_t(r)];
+      expected.row(p) = small.row(r);
+      if (k(r, r) > 0) diagonal[std::size_t(p)] = float(1 / k(r, r));
+    }
+    const FloatPoints xf = with_room(x);
+    FloatPoints image = FloatPoints::Constant(x.rows(), 3, 1e30f);
+    rows->visit_images(xf.data(), workers, [&](std::size_t first, std::size_t count, const float* part) {
+      std::copy_n(part, 3 * count, image.data() + 3 * first);
+    });
+    EXPECT_LT((image.cast<double>() - expected).norm(), 1e-6 * k.norm() * x.norm() + 1e-300);
+    const Array<float> inverse = rows->inverse_diagonal();
+    for (std::size_t p = 0; p < diagonal.size(); ++p)
+      EXPECT_NEAR(inverse[p], diagonal[p], 1e-5 * diagonal[p]);
+  }
+}
+
+TEST(Rows, AreTheAssembledSystem) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    for (int choice = 0; choice < 3; ++choice) expect_rows_of(s, some_points(s.mesh, choice), workers);
+  });
+}
+
+TEST(Rows, AreTheAssembledSystemBesideJoints) {
+  Workers workers(1);
+  for (const Joint joint : {Joint::position, Joint::tangent, Joint::curvature})
+    for (const OwnedPolygonMesh& owned :
+         {shaken(grid(4, 3)), shaken(mixed_grid(4, 3)), shaken(torus(6, 5))}) {
+      FeatureOptions features;
+      features.region = {true, {0, 1, 2, 5}, joint};
+      const ControlMesh mesh = control(owned, features);
+      for (int level = 1; level <= 3; ++level) {
+        SCOPED_TRACE(int(joint) * 10 + level);
+        const ChartOptions options;
+        const Setting s{mesh, Lattice(mesh, level), ChartMaker(mesh, options),
+                        make_stencils(mesh, options, workers)};
+        expect_rows_of(s, inside_region(mesh, some_points(mesh, 1)), workers);
+      }
+    }
+}
+
+TEST(Rows, TransferAsPassesDo) {
+  on_all(2, [](const Setting& s, Workers& workers) {
+    const Lattice fine(s.mesh, s.lattice.level() + 1);
+    const double rounding = 2e-7 * (1 + written_prolongation(s, fine).norm());
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      const std::unique_ptr<WrittenTransfer> rows =
+          WrittenTransfer::make(s.lattice, fine, s.stencils, unknowns, workers);
+      ASSERT_NE(rows, nullptr);
+      Exchange<double> exchange = poisoned<double>(fine);
+      const Points x = masked(s.lattice, unknowns, random_points(s.lattice.size()));
+      const Points y = masked(fine, unknowns, random_points(fine.size(), 2));
+      Points px(y.rows(), 3), ry(x.rows(), 3);
+      prolong(s.lattice, fine, s.stencils, &unknowns, workers, exchange, x.data(), px.data());
+      restrict_to(s.lattice, fine, s.stencils, unknowns, workers, exchange, y.data(), ry.data());
+      FloatPoints up = with_room(Points::Zero(y.rows(), 3)), down = with_room(Points::Zero(x.rows(), 3));
+      rows->prolong<3>(with_room(x).data(), workers, up.data());
+      rows->restrict_to<3>(with_room(y).data(), workers, down.data());
+      EXPECT_LT((of_room(up, fine.size()) - px).norm(), rounding * (1 + x.norm())) << choice;
+      EXPECT_LT((of_room(down, s.lattice.size()) - ry).norm(), rounding * (1 + y.norm())) << choice;
+
+      // The same rows for one number a point.
+      Eigen::VectorXf one = with_room(x).col(1), result = Eigen::VectorXf::Zero(y.rows());
+      rows->prolong<1>(one.data(), workers, result.data());
+      EXPECT_LT((result.cast<double>() - px.col(1)).norm(), rounding * (1 + x.norm()));
+      one = with_room(y).col(2);
+      result = Eigen::VectorXf::Zero(x.rows());
+      rows->restrict_to<1>(one.data(), workers, result.data());
+      EXPECT_LT((result.cast<double>() - ry.col(2)).norm(), rounding * (1 + y.norm()));
+    }
+  });
+}
+
+// Rows finished where they are computed, against one application and then the vectors.
+TEST(Rows, RelaxAsApplicationsDo) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Unknowns unknowns = some_points(s.mesh, 1);
+    ThinPlateShared shared(s.mesh, s.stencils, unknowns, {}, workers);
+    ThinPlateLevel level(shared, s.lattice);
+    const auto start = [&](unsigned seed) {
+      return with_room(masked(s.lattice, unknowns, random_points(s.lattice.size(), seed)));
+    };
+    for (const bool adds : {false, true}) {
+      FloatPoints d = start(1), x[2] = {start(2), start(2)}, r[2] = {start(3), start(3)},
+                  next[2] = {start(4), start(4)};
+      level.relax({d.data(), next[0].data(), x[0].data(), r[0].data(), 0.3f, 0.7f, adds}, workers);
+      level.LevelOperator::relax({d.data(), next[1].data(), x[1].data(), r[1].data(), 0.3f, 0.7f, adds},
+                                 workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.lattice.size())).norm(), 0);
+      EXPECT_EQ((r[0] - r[1]).topRows(Eigen::Index(s.lattice.size())).norm(), 0);
+      EXPECT_EQ((next[0] - next[1]).topRows(Eigen::Index(s.lattice.size())).norm(), 0);
+      level.subtract_image(d.data(), next[0].data(), x[0].data(), workers);
+      level.LevelOperator::subtract_image(d.data(), next[1].data(), x[1].data(), workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.lattice.size())).norm(), 0);
+    }
+  });
+}
+
+// A block whose rows name more columns than short places can tell apart is refused.
+TEST(Rows, RefuseTooManyColumnsInOnePlace) {
+  Workers workers(1);
+  for (const Index columns : {65000, 66000}) {
+    WrittenMatrix matrix(2, std::size_t(columns));
+    const auto writer = [&] {
+      return [columns](Index row, RowBuilder& builder) {
+        for (Index c = row; c < columns; c += 2) builder.add(c, 1.0);
+      };
+    };
+    EXPECT_EQ(matrix.build(workers, writer), columns == 65000);
   }
 }
 
