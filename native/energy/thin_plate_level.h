@@ -82,7 +82,10 @@ class ThinPlateLevel final : public LevelOperator {
       for (std::size_t i = 0; i < 3 * count; ++i) y[3 * first + i] -= image[i];
     });
   }
-  bool does_with_single() const override { return lattice_.n() <= most_of_single; }
+  // Control vertices that move leave waves longer than a face.
+  bool does_with_single() const override {
+    return lattice_.n() <= most_of_single && !shared_.unknowns.any_vertex;
+  }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
     return assemble_thin_plate(lattice_, shared_.stencils, shared_.unknowns, shared_.weights);

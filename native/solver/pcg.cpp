@@ -14,12 +14,23 @@ constexpr double replaced_below = 1e-2;  // of the residual at the last replacem
 constexpr double most_ratio = 0.9;       // of gains that an estimate of the error believes
 constexpr double first_ratio = 0.5;
 
-// What is left of the error in the energy norm, from what the last two steps have gained of its square [Hestenes and
-// Stiefel 1952]: the latest gain, and the ratio at which gains fall.
-double error_left(double gain, double last_gain) {
-  const double ratio = last_gain > 0 ? std::min(gain / last_gain, most_ratio) : first_ratio;
-  return std::sqrt(std::max(0.0, gain * ratio / (1 - ratio)));
-}
+// What is left of the error in the energy norm, from what the latest steps have gained of its square [Hestenes and Stiefel
+// 1952]: the last gain, and the ratio at which gains fall, the worse of two.
+class ErrorLeft {
+ public:
+  void gained(double square) {
+    before_ = last_ > 0 ? ratio_ : 0;
+    ratio_ = last_ > 0 ? std::min(square / last_, most_ratio) : first_ratio;
+    last_ = square;
+  }
+  double estimate() const {
+    const double ratio = std::max(ratio_, before_);
+    return std::sqrt(std::max(0.0, last_ * ratio / (1 - ratio)));
+  }
+
+ private:
+  double last_ = 0, ratio_ = first_ratio, before_ = 0;
+};
 
 template <class T>
 T* room(Array<T>& a, std::size_t size) {
@@ -79,7 +90,7 @@ class Iteration {
   double relative(double length) const { return residual_scale_ > 0 ? length / residual_scale_ : 0.0; }
 
   bool small_enough() {
-    const double error = error_left(gain_, last_gain_);
+    const double error = error_left_.estimate();
     result_.residual = relative(length_);
     result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
     return length_ <= limits_.noise ||
@@ -129,8 +140,7 @@ class Iteration {
     }
     length_of_step_ = pr / pq;
     go(T(length_of_step_));
-    last_gain_ = gain_;
-    gain_ = unit_ * unit_ * length_of_step_ * pr;
+    error_left_.gained(unit_ * unit_ * length_of_step_ * pr);
     ++result_.iterations;
     result_.converged = small_enough();
     if (is_single && (result_.converged || length_ < replaced_below * unit_)) {
@@ -191,7 +201,8 @@ class Iteration {
   PcgResult result_;
   double residual_scale_ = 0, energy_scale_ = 0;
   double length_ = 0, unit_ = 1, z_unit_ = 1;  // length: of the residual, in the caller's unit
-  double rz_ = 0, length_of_step_ = 0, gain_ = 0, last_gain_ = 0;
+  double rz_ = 0, length_of_step_ = 0;
+  ErrorLeft error_left_;
   int degree_ = 0;
   bool drifted_ = false;  // since the residual was computed from x
 };

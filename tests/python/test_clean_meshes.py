@@ -21,7 +21,6 @@ STEPS, ITERATIONS = 10, 40
 SLOW = {  # damped steps, short ones: how many to convergence
     "cages/opensubdiv-shapes__catmark_lefthanded": "12 steps",
     "cages/opensubdiv-shapes__catmark_righthanded": "13 steps",
-    "creases/opensubdiv-shapes__catmark_bishop": "more than the 20 that it may take",
     "creases/opensubdiv-shapes__catmark_car": "11 steps",
     "creases/opensubdiv-shapes__catmark_car, creases": "12 steps",
 }
@@ -30,7 +29,6 @@ FOLDED = {  # edges, before the cure and after it
     "cages/opensubdiv-shapes__catmark_lefthanded": "125, 29 left",
     "cages/opensubdiv-shapes__catmark_righthanded": "80, 25 left",
     "cages/trimesh__mirror": "10, and every filling has several times the energy",
-    "creases/opensubdiv-shapes__catmark_bishop": "10, none of them cured, as the steps do not converge",
     "creases/opensubdiv-shapes__catmark_car": "260, 28 left",
     "creases/opensubdiv-shapes__catmark_car, creases": "226, 26 left",
     "mechanical/trimesh__fandisk": "3, none of them cured",
