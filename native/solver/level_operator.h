@@ -43,7 +43,7 @@ class LevelOperator {
   // Both may be overridden by something faster than one application, and then passes over the vectors.
   virtual void relax(const SmoothingStep& step, Workers& workers);
   virtual void subtract_image(const float* x, float* room, float* y, Workers& workers);  // y -= K x
-  virtual AssembledSystem assemble() const = 0;  // small levels only
+  virtual AssembledSystem assemble() const = 0;                                          // small levels only
 };
 
 // Moves vectors between a level and the next coarser one; the two are transposes of one another.
