@@ -53,12 +53,14 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
     weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
 }
 
-Array<float> PlateMatrix::inverse_diagonal() const {
+Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
   Array<float> inverse(points_);
-  for (std::size_t p = 0; p < points_; ++p) {
-    const float diagonal = rows_.diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
-    inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
-  }
+  workers.for_parts(points_, chunk_rows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const float diagonal = rows_.diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+      inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
+    }
+  });
   return inverse;
 }
 

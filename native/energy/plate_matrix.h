@@ -20,7 +20,7 @@ class PlateMatrix {
   // Of control vertices: what is added to their diagonal.
   void set_weights(const VertexWeights& weights);
 
-  Array<float> inverse_diagonal() const;  // one number a point; 1 where it is no unknown
+  Array<float> inverse_diagonal(Workers& workers) const;  // one number a point; 1 where it is no unknown
 
   // Calls finish(point, count, image) with K x on so many points, 3 numbers each; x has `vector_room` more.
   template <class Finish>

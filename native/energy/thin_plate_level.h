@@ -47,7 +47,7 @@ class ThinPlateLevel final : public LevelOperator {
   void update() {
     if (matrix_) {
       matrix_->set_weights(shared_.weights);
-      inverse_diagonal_ = matrix_->inverse_diagonal();
+      inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
       return;
     }
     inverse_diagonal_ = thin_plate_diagonal(lattice_, shared_.fine_rows, shared_.unknowns, shared_.weights,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows/matrix.h"
 
+#include "execution/cancel.h"
+
 namespace fairing {
 namespace {
 
@@ -26,15 +28,19 @@ float WrittenMatrix::diagonal(std::size_t row) const {
 WrittenMatrix::Columns WrittenMatrix::by_columns() const {
   Columns out;
   out.first.assign(columns_ + 1, 0);
-  for (const RowChunk& chunk : chunk_)
+  for (const RowChunk& chunk : chunk_) {
+    stop_if_cancelled();
     visit_numbers(chunk, [&](std::size_t, std::size_t column, float) { ++out.first[column + 1]; });
+  }
   for (std::size_t c = 0; c < columns_; ++c) out.first[c + 1] += out.first[c];
   out.entry.resize(out.first.back());
   std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
-  for (std::size_t c = 0; c < chunk_.size(); ++c)
+  for (std::size_t c = 0; c < chunk_.size(); ++c) {
+    stop_if_cancelled();
     visit_numbers(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
       out.entry[next[column]++] = {Index(c * chunk_rows + row), number};
     });
+  }
   return out;
 }
 

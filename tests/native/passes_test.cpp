@@ -568,7 +568,7 @@ void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers
       std::copy_n(part, 3 * count, image.data() + 3 * first);
     });
     EXPECT_LT((image.cast<double>() - expected).norm(), 1e-6 * k.norm() * x.norm() + 1e-300);
-    const Array<float> inverse = rows->inverse_diagonal();
+    const Array<float> inverse = rows->inverse_diagonal(workers);
     for (std::size_t p = 0; p < diagonal.size(); ++p)
       EXPECT_NEAR(inverse[p], diagonal[p], 1e-5 * diagonal[p]);
   }
