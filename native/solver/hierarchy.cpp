@@ -131,7 +131,8 @@ void Hierarchy::estimate_eigenvalues(std::size_t top) {
   for (std::size_t l = top; l >= lowest && l <= top; --l) {
     Array<float>& start = cycle_.levels[l].state.residual;
     if (l == top)
-      for_each_index(workers_, start.size(), [&](std::size_t i) { start[i] = float(pcg_.residual[i]); });
+      for_each_index(workers_, cycle_.levels[l].op->size(),
+                     [&](std::size_t i) { start[i] = float(pcg_.residual[i]); });
     else
       cycle_.levels[l + 1].transfer->restrict_to(cycle_.levels[l + 1].state.residual.data(), start.data());
     if (l == 0) break;
