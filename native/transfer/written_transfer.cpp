@@ -3,14 +3,10 @@
 
 #include "lattice/ring.h"
 #include "rows/limits.h"
+#include "transfer/half_way.h"
 
 namespace fairing {
 namespace {
-
-// What a fit's value half-way to a neighbour counts for: half of an edge's midpoint, a quarter of a quad's centre.
-constexpr double of_midpoint = 0.5, of_centre = 0.25;
-// The parabola through three points in a row, half-way.
-constexpr double ahead = 0.375, behind = -0.125;
 
 class HalfWay {
  public:
