@@ -3,19 +3,11 @@
 
 #include <cmath>
 
+#include "control_mesh/ring_size.h"
 #include "execution/cancel.h"
 
 namespace fairing {
 namespace {
-
-Index ring_size(const ControlMesh& mesh, Index v) {
-  Index n = 0;
-  for (const Spoke& spoke : mesh.ring(v)) {
-    ++n;
-    if (spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad()) ++n;
-  }
-  return n;
-}
 
 void fill_vertex(const ControlMesh& mesh, const ChartMaker& charts, Index v, Stencils& s) {
   const auto first = std::size_t(s.ring_offset[std::size_t(v)]);

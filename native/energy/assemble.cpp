@@ -2,26 +2,16 @@
 #include "energy/assemble.h"
 
 #include "execution/cancel.h"
+#include "rows/rings.h"
 
 namespace fairing {
 
 std::vector<Index> number_unknowns(const Lattice& lattice, const Unknowns& unknowns) {
-  const ControlMesh& mesh = lattice.mesh();
-  std::vector<Index> number(lattice.size(), -1);
+  const std::vector<std::uint8_t> unknown = unknown_points(lattice, unknowns);
+  std::vector<Index> number(unknown.size(), -1);
   Index next = 0;
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (unknowns.vertex[std::size_t(v)]) number[std::size_t(v)] = next++;
-  std::size_t point = std::size_t(mesh.vertex_count());
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    stop_if_cancelled(e);
-    for (int k = 1; k < lattice.n(); ++k, ++point)
-      if (unknowns.edge[e]) number[point] = next++;
-  }
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    stop_if_cancelled(f);
-    for (auto k = interior_size(mesh.faces[f].quad(), lattice.n()); k > 0; --k, ++point)
-      if (unknowns.has_face(f)) number[point] = next++;
-  }
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (unknown[p]) number[p] = next++;
   return number;
 }
 

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows/rings.h"
 
+#include "control_mesh/ring_size.h"
 #include "lattice/ring.h"
 
 namespace fairing {
-namespace {
-
-std::size_t ring_length(const ControlMesh& mesh, Index v) {
-  std::size_t length = 0;
-  for (const Spoke& spoke : mesh.ring(v))
-    length += spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad() ? 2 : 1;
-  return length;
-}
-
-}  // namespace
 
 WrittenRings::WrittenRings(const Lattice& lattice, const Unknowns& unknowns, Workers& workers)
     : lattice_(lattice) {
@@ -31,9 +22,14 @@ std::vector<std::uint8_t> unknown_points(const Lattice& lattice, const Unknowns&
     to = std::fill_n(to, count, std::uint8_t(unknown));
   };
   for (Index v = 0; v < mesh.vertex_count(); ++v) put(1, unknowns.vertex[std::size_t(v)]);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) put(lattice.n() - 1, unknowns.edge[e]);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    stop_if_cancelled(e);
+    put(lattice.n() - 1, unknowns.edge[e]);
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    stop_if_cancelled(f);
     put(interior_size(mesh.faces[f].quad(), lattice.n()), unknowns.has_face(f));
+  }
   return out;
 }
 
@@ -47,7 +43,7 @@ void WrittenRings::write_vertices() {
   const ControlMesh& mesh = lattice_.mesh();
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
-    ring_.push_back({member_.size(), std::uint32_t(ring_length(mesh, v) + 1), v});
+    ring_.push_back({member_.size(), std::uint32_t(ring_size(mesh, v) + 1), v});
     member_.push_back(coded_[std::size_t(v)]);
     visit_ring(lattice_, v, [&](Index point, std::size_t) { member_.push_back(coded_[std::size_t(point)]); });
   }
