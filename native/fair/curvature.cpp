@@ -68,7 +68,7 @@ CurvatureSystem::CurvatureSystem(const ControlMesh& mesh, const std::vector<Curv
       epsilon_(epsilon),
       mirrors_(std::move(mirrors)),
       shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
-      hierarchy_(workers, monitor, hierarchy_options(unknowns, options)) {
+      hierarchy_(workers, hierarchy_options(unknowns, options)) {
   for (const CurvedOn& level : levels) lattices_.push_back(level.lattice);
   for (int l = base; l < int(lattices_.size()); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, lattice(l)));

@@ -55,7 +55,7 @@ SurfaceSystem::SurfaceSystem(const ControlMesh& mesh, const FeatureCurves& curve
       workers_(workers),
       monitor_(monitor),
       base_(unknowns.any_vertex ? 0 : std::min(1, options.levels)),
-      hierarchy_(workers, monitor, hierarchy_options(unknowns, options)),
+      hierarchy_(workers, hierarchy_options(unknowns, options)),
       shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers) {
   for (int l = 0; l <= options.levels; ++l) lattices_.push_back(std::make_unique<Lattice>(mesh, l));
   for (int l = base_; l <= top(); ++l) {

@@ -30,8 +30,8 @@ int degree_of_hard(std::size_t unknowns, std::size_t cheap, std::size_t price) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(Workers& workers, Monitor& monitor, const HierarchyOptions& options)
-    : workers_(workers), options_(options), cycle_(workers, monitor) {
+Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options)
+    : workers_(workers), options_(options), cycle_(workers) {
   if (options.smoother_degree > 0) cycle_.degree = options.smoother_degree;
 }
 

@@ -30,7 +30,7 @@ struct LevelSolve {
 
 class Hierarchy {
  public:
-  Hierarchy(Workers& workers, Monitor& monitor, const HierarchyOptions& options);
+  Hierarchy(Workers& workers, const HierarchyOptions& options);
 
   // Coarsest first; `to_coarser` is null for the first. All must outlive the hierarchy.
   void add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns);

@@ -5,7 +5,6 @@ namespace fairing {
 
 void VCycle::run(std::size_t top) {
   CycleLevel& level = levels[top];
-  monitor_.check_cancelled();
   if (top == base) {
     coarse->solve(level.largest_eigenvalue, degree, level.state);
     return;
@@ -15,7 +14,6 @@ void VCycle::run(std::size_t top) {
   level.transfer->restrict_to(s.residual.data(), levels[top - 1].state.residual.data());
   run(top - 1);
   level.transfer->prolong(levels[top - 1].state.x.data(), s.step.data());
-  monitor_.check_cancelled();
   smooth(*level.op, workers_, level.largest_eigenvalue, degree, SmoothFrom::correction, false, s);
 }
 

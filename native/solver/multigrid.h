@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "execution/monitor.h"
 #include "solver/coarse.h"
 
 namespace fairing {
@@ -20,7 +19,7 @@ struct CycleLevel {
 // The V-cycle as a preconditioner, in single precision: one linear, symmetric positive definite map.
 class VCycle {
  public:
-  VCycle(Workers& workers, Monitor& monitor) : workers_(workers), monitor_(monitor) {}
+  explicit VCycle(Workers& workers) : workers_(workers) {}
 
   std::vector<CycleLevel> levels;  // coarsest first
   CoarseSolver* coarse = nullptr;  // of levels[base]
@@ -32,7 +31,6 @@ class VCycle {
 
  private:
   Workers& workers_;
-  Monitor& monitor_;
 };
 
 }  // namespace fairing
