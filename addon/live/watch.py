@@ -90,7 +90,7 @@ def _before_undo(*_):
 
 
 @persistent
-def _after_undo(*_):
+def _distrust_all(*_):
     for session in registry.sessions():
         session.distrust()
 
@@ -106,8 +106,7 @@ def _render_ends(*_):
     """May come on another thread: the timer does the rest."""
     global _rendering
     _rendering = False
-    for session in registry.sessions():
-        session.distrust()
+    _distrust_all()
 
 
 @persistent
@@ -134,8 +133,8 @@ _HANDLERS = {
     "depsgraph_update_post": _follow,
     "undo_pre": _before_undo,
     "redo_pre": _before_undo,
-    "undo_post": _after_undo,
-    "redo_post": _after_undo,
+    "undo_post": _distrust_all,
+    "redo_post": _distrust_all,
     "render_init": _render_begins,
     "render_complete": _render_ends,
     "render_cancel": _render_ends,
