@@ -1,51 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Discrete Fairing: the fairest surface through the vertices of a coarse mesh.
 
-The data's way through the folders: `read` → `check` → `request` → the native core → `carry` → `write`. `run` walks it,
-`settings` and `interface` ask for it, `inspection` shows what came of it.
+The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer` → `mesh` (write).
+`settings` has what is asked for, `memory` what surfaces remember; `check` looks at meshes before,
+`inspection` at surfaces afterwards, `live` follows edits. `ui` shows it, `cli` does it without a
+window.
 """
 
-from . import preferences, translations
-from .check import operators as check_operators
-from .command_line import command
-from .inspection import freshness
-from .inspection import operators as inspection_operators
-from .inspection import properties as inspection_properties
-from .interface import check as check_panel
-from .interface import inspection as inspection_panel
-from .interface import panel
-from .live import operator as live_operator
-from .live import properties as live_properties
-from .live import watch as live_watch
-from .run import operator, show_source
-from .settings import presets, properties
+from . import cli, memory, preferences, settings
+from .inspection import settings as inspection_settings
+from .live import handlers, switch
+from .mesh import mesh_changes
+from .operators import check, fair, inspect, live, presets
+from .ui import check as check_panel
+from .ui import inspect as inspect_panel
+from .ui import main as main_panel
 
 _MODULES = (
-    properties,
+    settings,
+    memory,
     preferences,
+    inspection_settings,
+    mesh_changes,
+    switch,
+    handlers,
+    fair,
+    live,
+    check,
+    inspect,
     presets,
-    inspection_properties,
-    freshness,
-    operator,
-    show_source,
-    live_properties,
-    live_watch,
-    live_operator,
-    check_operators,
-    inspection_operators,
-    panel,
+    main_panel,
     check_panel,
-    inspection_panel,
-    translations,
-    command,
+    inspect_panel,
+    cli,
 )
 
 
-def register():
+def register() -> None:
     for module in _MODULES:
         module.register()
 
 
-def unregister():
+def unregister() -> None:
     for module in reversed(_MODULES):
         module.unregister()

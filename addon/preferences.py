@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on's preferences: what holds for all files of a user."""
 
+from typing import Any, TypeAlias
+
 import bpy
 from bpy.app.handlers import persistent
 from bpy.props import IntProperty
+
+from .blender import Context, all_scenes, current_context
 
 
 class Defaults:
@@ -41,39 +45,47 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
         max=1024,
     )
 
-    def draw(self, _context):
+    def draw(self, _context: Context) -> None:
         layout = self.layout
         layout.use_property_split = True
         for name in ("levels", "memory_limit", "threads"):
             layout.prop(self, name)
 
 
-def preferences():
+Preferences: TypeAlias = DiscreteFairingPreferences | type[Defaults]
+
+
+def preferences() -> Preferences:
     """The user's preferences, or the defaults."""
-    entry = bpy.context.preferences.addons.get(__package__)
+    entry = current_context().preferences.addons.get(__package__)
     return entry.preferences if entry is not None and entry.preferences is not None else Defaults
 
 
 @persistent
-def give_scenes_default_levels(*_):
+def give_scenes_default_levels(*_: Any) -> None:
     """Scenes whose levels nobody has chosen get the user's default."""
     levels = preferences().levels
-    for scene in bpy.data.scenes:
+    for scene in all_scenes():
         settings = scene.discrete_fairing
-        if scene.library is None and not settings.is_property_set("levels") and settings.levels != levels:
+        if (
+            scene.library is None
+            and not settings.is_property_set("levels")
+            and settings.levels != levels
+        ):
             settings.levels = levels
 
 
-def register():
+def register() -> None:
     bpy.utils.register_class(DiscreteFairingPreferences)
     bpy.app.handlers.load_post.append(give_scenes_default_levels)
-    # the file that is open now: bpy.data may not be touched while add-ons are being enabled. Without a window no timer
+    # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
+    # Without a window no timer
     # ever runs, and one that waits would keep the bpy module from ending.
     if not bpy.app.background:
         bpy.app.timers.register(give_scenes_default_levels, first_interval=0.0)
 
 
-def unregister():
+def unregister() -> None:
     if bpy.app.timers.is_registered(give_scenes_default_levels):
         bpy.app.timers.unregister(give_scenes_default_levels)
     bpy.app.handlers.load_post.remove(give_scenes_default_levels)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From cancelling a run to the error on the caller's side: the delay at moments spread over the whole run.
+"""From cancelling a run to the error on the caller's side: the delay at moments spread over the
+whole run.
 
-A million triangles each, of few large and of many small control faces. BENCH_HUNDRED=1 adds a hundred million, which
-take the memory for it. Delays are of the wall clock, where other work on the machine is in them, and of the processor,
-all threads together, where it is not.
+A million triangles each, of few large and of many small control faces. BENCH_HUNDRED=1 adds a
+hundred million, which take the memory for it. Delays are of the wall clock, where other work on the
+machine is in them, and of the processor, all threads together, where it is not.
 """
 
 import os
@@ -52,7 +53,8 @@ class Run:
         self.over = clocks()
 
     def cancel_after(self, seconds: float) -> tuple[str, float, float]:
-        """The phase in which it was cancelled, and the seconds until the error came: wall, processor."""
+        """The phase in which it was cancelled, and the seconds until the error came: wall,
+        processor."""
         self._thread.join(seconds)
         phase, (wall, processor) = self.monitor.phase, clocks()
         self.monitor.cancel()
@@ -61,7 +63,8 @@ class Run:
 
 
 def delays(job: Callable[[df.Monitor], Any]) -> list[tuple[str, float, float]]:
-    """Phases and seconds (wall, processor), for moments at equal distances; runs that were faster than the moment are left out."""
+    """Phases and seconds (wall, processor), for moments at equal distances; runs that were faster
+    than the moment are left out."""
     start = time.perf_counter()
     job(df.Monitor())
     whole = time.perf_counter() - start

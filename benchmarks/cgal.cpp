@@ -3,8 +3,9 @@
 //
 // fairing_bench_cgal MESH FIXED REPEATS
 //
-// MESH as in cholesky.cpp. Continuity C1 is the bi-Laplacian; weights and solver are CGAL's own choice (Eigen's
-// SparseLU). Prints one JSON object; what is timed is the call alone, neither reading nor connecting the mesh.
+// MESH as in cholesky.cpp. Continuity C1 is the bi-Laplacian; weights and solver are CGAL's own
+// choice (Eigen's SparseLU). Prints one JSON object; what is timed is the call alone, neither
+// reading nor connecting the mesh.
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

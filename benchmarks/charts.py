@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Iterations on the finest level against the metric exponent: skew in the metric is what a smoother suffers from."""
+"""Iterations on the finest level against the metric exponent: skew in the metric is what a smoother
+suffers from."""
 
 from typing import Any
 
@@ -35,7 +36,9 @@ def run() -> dict[str, Any]:
     for name, (mesh, levels) in MESHES.items():
         for degree in (DEGREE, 0):
             reports = [
-                runs.fair(mesh, levels=levels, metric_exponent=b, smoother_degree=degree, measure=False)
+                runs.fair(
+                    mesh, levels=levels, metric_exponent=b, smoother_degree=degree, measure=False
+                )
                 for b in EXPONENTS
             ]
             result[f"{name}, degree {degree or 'chosen'}"] = [runs.finest(r) for r in reports]

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Our solver beside sparse Cholesky factorizations of the very same system, in one process, in turns.
+// Our solver beside sparse Cholesky factorizations of the very same system, in one process, in
+// turns.
 //
 // fairing_bench_cholesky MESH LEVELS THREADS REPEATS [ldlt]
 //
-// MESH is a text file: vertices and faces counted, three coordinates a vertex, then a face a line, corners counted
-// first. Prints one JSON object. Seconds are of the wall clock and of the processor, lists in the order of the runs.
+// MESH is a text file: vertices and faces counted, three coordinates a vertex, then a face a line,
+// corners counted first. Prints one JSON object. Seconds are of the wall clock and of the
+// processor, lists in the order of the runs.
 //
 // What is timed on either side starts from the stencils and ends with all three coordinates:
-//   ours      levels, diagonals, full multigrid from the control polyhedron to a relative residual of 1e-8
-//   cholesky  ordering, factorization, three right-hand sides; the assembly of the matrix apart, and CHOLMOD's
+//   ours      levels, diagonals, full multigrid from the control polyhedron to a relative residual
+//   of 1e-8 cholesky  ordering, factorization, three right-hand sides; the assembly of the matrix
+//   apart, and CHOLMOD's
 //             ordering and symbolic analysis once more by itself
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
@@ -20,11 +23,12 @@
 #include <memory>
 #include <string>
 
-#include "check/check.h"
-#include "curve/feature_curves.h"
-#include "fair/frame.h"
-#include "fair/surface.h"
-#include "lattice/linear.h"
+#include "curves/feature_curves.h"
+#include "fairing/control_positions.h"
+#include "fairing/options.h"
+#include "grid/linear.h"
+#include "mesh/validate/check.h"
+#include "thin_plate/solver.h"
 
 namespace {
 
@@ -89,35 +93,39 @@ class Race {
   Race(const OwnedPolygonMesh& input, int levels, int threads) : workers_(threads) {
     options_.levels = levels;
     mesh_ = make_control_mesh(input.view(), options_.features, {});
-    const Frame frame = frame_of(mesh_);
+    const Frame frame = working_frame(mesh_, mesh_.positions);
     for (Vec3& p : mesh_.positions) p = frame.to_working(p);
     curves_ = refine_feature_edges(mesh_, 1 << levels, options_.chart.exponent);
     stencils_ = make_stencils(mesh_, options_.chart, workers_);
     unknowns_.vertex.assign(std::size_t(mesh_.vertex_count()), 0);
     for (const auto feature : mesh_.feature_edge) unknowns_.edge.push_back(!feature);
-    lattice_ = std::make_unique<Lattice>(mesh_, levels);
+    grid_ = std::make_unique<GridLevel>(mesh_, levels);
   }
 
-  const Lattice& lattice() const { return *lattice_; }
+  const GridLevel& grid() const { return *grid_; }
 
   // Ours; returns the iterations on the finest level.
   int multigrid(Array<double>& x) {
-    SurfaceSystem system(mesh_, curves_, stencils_, unknowns_, {}, options_, workers_, monitor_);
+    ThinPlateOptions options;
+    options.levels = options_.levels;
+    ThinPlateSolver system(mesh_, curves_, stencils_, unknowns_, {}, options, workers_, monitor_);
     std::vector<LevelReport> reports;
     system.solve_nested(mesh_.positions, x, reports, {}, [](int, Array<double>&) {});
     return reports.back().iterations;
   }
 
-  AssembledSystem assemble() const { return assemble_thin_plate(*lattice_, stencils_, unknowns_, {}); }
+  AssembledSystem assemble() {
+    return assemble_thin_plate(*grid_, stencils_, unknowns_, {}, workers_);
+  }
 
   // The right-hand side of a correction to the control polyhedron, which goes into x.
   Three right_hand_side(const AssembledSystem& system, Array<double>& x) {
-    x.resize(3 * lattice_->size());
+    x.resize(3 * grid_->size());
     Array<double> image(x.size());
-    refine_linearly(*lattice_, mesh_.positions, x.data());
+    refine_linearly(*grid_, mesh_.positions, x.data());
     const ThinPlateRows<double> rows(mesh_, stencils_);
-    Exchange<double> exchange;
-    apply_thin_plate(*lattice_, rows, unknowns_, {}, workers_, exchange, x.data(), image.data());
+    ElementSlots<double> slots;
+    apply_thin_plate(*grid_, rows, unknowns_, {}, workers_, slots, x.data(), image.data());
     Three b(Eigen::Index(system.unknown_points.size()), 3);
     for (std::size_t i = 0; i < system.unknown_points.size(); ++i)
       for (std::size_t a = 0; a < 3; ++a)
@@ -133,7 +141,7 @@ class Race {
   FeatureCurves curves_;
   Stencils stencils_;
   Unknowns unknowns_;
-  std::unique_ptr<Lattice> lattice_;
+  std::unique_ptr<GridLevel> grid_;
 };
 
 template <class Solver>
@@ -145,14 +153,14 @@ Three factor_and_solve(const SparseMatrix& matrix, const Three& b) {
 }
 
 // The largest distance between two solutions: ours, and a start with its correction.
-double distance(const Array<double>& ours, const Array<double>& start, const AssembledSystem& system,
-                const Three& correction) {
+double distance(const Array<double>& ours, const Array<double>& start,
+                const AssembledSystem& system, const Three& correction) {
   double largest = 0;
   for (std::size_t i = 0; i < system.unknown_points.size(); ++i)
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t at = 3 * std::size_t(system.unknown_points[i]) + a;
-      largest =
-          std::max(largest, std::abs(ours[at] - start[at] - correction(Eigen::Index(i), Eigen::Index(a))));
+      largest = std::max(
+          largest, std::abs(ours[at] - start[at] - correction(Eigen::Index(i), Eigen::Index(a))));
     }
   return largest;
 }
@@ -175,8 +183,8 @@ void race(const char* path, int levels, int threads, int repeats, bool with_ldlt
     // a factorization warms or cools everything for the next run: ours goes before and after it
     multigrid.run([&] { iterations = race.multigrid(ours); });
     cholmod.run([&] {
-      correction =
-          factor_and_solve<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
+      correction = factor_and_solve<Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>>(
+          system.matrix, b);
     });
   }
   const double cholmod_distance = distance(ours, start, system, correction);
@@ -184,13 +192,16 @@ void race(const char* path, int levels, int threads, int repeats, bool with_ldlt
   double ldlt_distance = -1;
   if (with_ldlt) {
     ldlt.run([&] {
-      correction = factor_and_solve<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
+      correction =
+          factor_and_solve<Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>>(system.matrix, b);
     });
     ldlt_distance = distance(ours, start, system, correction);
   }
-  std::printf("{\"points\": %zu, \"unknowns\": %zu, \"nonzeros\": %lld, \"iterations\": %d, \"threads\": %d",
-              race.lattice().size(), system.unknown_points.size(), (long long)system.matrix.nonZeros(),
-              iterations, threads);
+  std::printf(
+      "{\"points\": %zu, \"unknowns\": %zu, \"nonzeros\": %lld, \"iterations\": %d, \"threads\": "
+      "%d",
+      race.grid().size(), system.unknown_points.size(), (long long)system.matrix.nonZeros(),
+      iterations, threads);
   std::printf(", \"cholmod_distance\": %.3g, \"cholmod_residual\": %.3g, \"ldlt_distance\": %.3g",
               cholmod_distance, residual, ldlt_distance);
   print("ours", multigrid);

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Our solver against sparse Cholesky on the very same system (cholesky.cpp): CHOLMOD, and Eigen's SimplicialLDLT.
+"""Our solver against sparse Cholesky on the very same system (cholesky.cpp): CHOLMOD, and Eigen's
+SimplicialLDLT.
 
-CHOLMOD's speed is that of the BLAS it finds at run time: Debian's reference BLAS is several times slower than
-OpenBLAS (package libopenblas0-pthread). Which one it was is written beside the figures. Set BENCH_LDLT=1 for Eigen's
-LDLT at 800 K triangles as well: it takes minutes there.
+CHOLMOD's speed is that of the BLAS it finds at run time: Debian's reference BLAS is several times
+slower than OpenBLAS (package libopenblas0-pthread). Which one it was is written beside the figures.
+Set BENCH_LDLT=1 for Eigen's LDLT at 800 K triangles as well: it takes minutes there.
 """
 
 import ctypes.util
@@ -19,7 +20,13 @@ import control_meshes
 import numpy as np
 import table
 
-PROGRAM = Path(__file__).resolve().parent.parent / "build" / "bench" / "benchmarks" / "fairing_bench_cholesky"
+PROGRAM = (
+    Path(__file__).resolve().parent.parent
+    / "build"
+    / "bench"
+    / "benchmarks"
+    / "fairing_bench_cholesky"
+)
 TARGETS = {50: 3, 800: 10}  # thousands of triangles -> times faster than CHOLMOD
 CASES = [
     ("50 K triangles, L = 3", control_meshes.sphere, 6, 3, 7, True),
@@ -45,7 +52,11 @@ def write_mesh(mesh: tuple[np.ndarray, np.ndarray], path: Path) -> None:
 def blas() -> str:
     """The BLAS that CHOLMOD loads."""
     listing = subprocess.run(["ldd", str(PROGRAM)], capture_output=True, text=True).stdout
-    paths = [line.split("=>")[1].split("(")[0].strip() for line in listing.splitlines() if "libblas" in line]
+    paths = [
+        line.split("=>")[1].split("(")[0].strip()
+        for line in listing.splitlines()
+        if "libblas" in line
+    ]
     if not paths:
         return ctypes.util.find_library("blas") or "unknown"
     resolved = str(Path(paths[0]).resolve())
@@ -60,7 +71,9 @@ def blas() -> str:
 
 def race(mesh: Path, levels: int, threads: int, repeats: int, ldlt: bool) -> dict[str, Any]:
     """One run of the program: all its repeats in one process."""
-    words = [str(PROGRAM), str(mesh), str(levels), str(threads), str(repeats)] + (["ldlt"] if ldlt else [])
+    words = [str(PROGRAM), str(mesh), str(levels), str(threads), str(repeats)] + (
+        ["ldlt"] if ldlt else []
+    )
     environment = {**os.environ}
     if threads:
         environment["OPENBLAS_NUM_THREADS"] = environment["OMP_NUM_THREADS"] = str(threads)

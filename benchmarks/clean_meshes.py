@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection that may lie beside the project: what it reaches, and how soon.
+"""Total curvature on every clean mesh of the collection that may lie beside the project: what it
+reaches, and how soon.
 
-Energies of the thin plate's and of its own surface as the core measures them, and these with the butterfly's by
-surface_measures.py, which is independent of it. Where creases are listed beside a mesh it is run with them as well, and
-measured by the core alone: it knows where the creases are.
+Energies of the thin plate's and of its own surface as the core measures them, and these with the
+butterfly's by surface_measures.py, which is independent of it. Where creases are listed beside a
+mesh it is run with them as well, and measured by the core alone: it knows where the creases are.
 """
 
 from collections.abc import Iterator
@@ -18,7 +19,9 @@ import surface_measures as measures
 import table
 
 LEVELS, FEWER, MANY = 3, 2, 600  # levels; those of meshes with more faces
-DECREMENT = 1e-3**0.5  # converged: the squared decrement, a share of the energy, is below a thousandth
+DECREMENT = (
+    1e-3**0.5
+)  # converged: the squared decrement, a share of the energy, is below a thousandth
 STEPS, ITERATIONS = 10, 40  # at most
 SHARP = 90.0  # degrees; on creases there may be such angles by right
 HEADS = (
@@ -76,7 +79,9 @@ def one(vertices: np.ndarray, faces: list[list[int]], options: dict[str, Any]) -
     """The figures of one mesh."""
     levels = FEWER if len(faces) > MANY else LEVELS
     plate = df.fair(vertices, faces, levels=levels, measure=False, **options)
-    result = df.fair(vertices, faces, levels=levels, energy="total_curvature", measure=False, **options)
+    result = df.fair(
+        vertices, faces, levels=levels, energy="total_curvature", measure=False, **options
+    )
     entries = result.report["curvature"]
     steps = entries[-1]["steps"]
     near = [k for k, step in enumerate(steps, 1) if step["decrement"] <= DECREMENT]
@@ -100,7 +105,9 @@ def one(vertices: np.ndarray, faces: list[list[int]], options: dict[str, Any]) -
 
 def shortfalls(entry: dict[str, Any]) -> list[str]:
     """What of the demands is not met; folds are counted only."""
-    over_butterfly = entry["butterfly"] is not None and entry["energy_measured"] > entry["butterfly"]
+    over_butterfly = (
+        entry["butterfly"] is not None and entry["energy_measured"] > entry["butterfly"]
+    )
     iterated = [n for n in entry["iterations"] if n]  # 0: solved directly
     missed = {
         "finite": not entry["finite"],
@@ -152,5 +159,7 @@ def run() -> dict[str, Any]:
     )
     short = [name for name, entry in result.items() if entry["short_of"]]
     folded = sum(entry["folds"] > 0 for entry in result.values())
-    print(f"{len(result)} runs; short of something: {', '.join(short) or 'none'}; with folds: {folded}")
+    print(
+        f"{len(result)} runs; short of something: {', '.join(short) or 'none'}; with folds: {folded}"
+    )
     return result

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes of any size to race on: spheres and tori of triangles or quads, roughened like drawn ones.
+"""Control meshes of any size to race on: spheres and tori of triangles or quads, roughened like
+drawn ones.
 
-Each function returns (vertices (n, 3) float64, faces (m, 3) or (m, 4) int64), counter-clockwise from outside.
+Each function returns (vertices (n, 3) float64, faces (m, 3) or (m, 4) int64), counter-clockwise
+from outside.
 """
 
 import numpy as np
@@ -54,7 +56,9 @@ def sphere(m: int, rough: float = 0.15) -> tuple[np.ndarray, np.ndarray]:
     place = {(a, b): k for k, (a, b) in enumerate(zip(i.tolist(), j.tolist()))}
     up = [(place[a, b], place[a + 1, b], place[a, b + 1]) for b in range(m) for a in range(m - b)]
     down = [
-        (place[a + 1, b], place[a + 1, b + 1], place[a, b + 1]) for b in range(m) for a in range(m - b - 1)
+        (place[a + 1, b], place[a + 1, b + 1], place[a, b + 1])
+        for b in range(m)
+        for a in range(m - b - 1)
     ]
     cells = np.array(up + down)
     weights = np.stack([m - i - j, i, j], axis=1) / m
@@ -72,7 +76,10 @@ def quad_sphere(m: int, rough: float = 0.15) -> tuple[np.ndarray, np.ndarray]:
     one = np.ones_like(u)
     i, j = (a.reshape(-1) for a in np.meshgrid(np.arange(m), np.arange(m)))
     cell = np.stack([i, i + 1, i + m + 2, i + m + 1], axis=1) + (j * (m + 1))[:, None]
-    side = {1: [(one, u, v), (v, one, u), (u, v, one)], -1: [(-one, v, u), (u, -one, v), (v, u, -one)]}
+    side = {
+        1: [(one, u, v), (v, one, u), (u, v, one)],
+        -1: [(-one, v, u), (u, -one, v), (v, u, -one)],
+    }
     points = np.concatenate([np.stack(s, axis=1) for s in side[1] + side[-1]])
     faces = np.concatenate([cell + k * len(u) for k in range(6)])
     vertices, faces = welded(points, faces)

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Is there a peak of curvature at the control vertices? Its size there over that one ring away, for each energy.
+"""Is there a peak of curvature at the control vertices? Its size there over that one ring away, for
+each energy.
 
-One is none; vertices on boundaries, and next to them, are left out. "exact sphere" is what the measure itself says of a
-surface without peaks. Real meshes are read from the collection that may lie beside the project.
+One is none; vertices on boundaries, and next to them, are left out. "exact sphere" is what the
+measure itself says of a surface without peaks. Real meshes are read from the collection that may
+lie beside the project.
 """
 
 from collections.abc import Iterator
@@ -16,7 +18,11 @@ import table
 from fitted_curvature import FittedCurvature
 
 ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
-COLLECTED = {"bob": ("bob_small.ply", 3), "cat's head": ("cat_head.obj", 3), "hand": ("hand_lowres.obj", 2)}
+COLLECTED = {
+    "bob": ("bob_small.ply", 3),
+    "cat's head": ("cat_head.obj", 3),
+    "hand": ("hand_lowres.obj", 2),
+}
 COLLECTED |= {"cow": ("spot_low_resolution.obj", 2)}
 HEADS = (
     "over the ring's mean: median",
@@ -43,7 +49,8 @@ def control_meshes() -> Iterator[tuple[str, np.ndarray, Any, int]]:
 
 
 def ratios(points: np.ndarray, triangles: np.ndarray, count: int) -> np.ndarray:
-    """(k, 2): at the first `count` vertices, the curvature over the mean and over the largest of their rings."""
+    """(k, 2): at the first `count` vertices, the curvature over the mean and over the largest of
+    their rings."""
     fitted = FittedCurvature(points, triangles)
     on_rim = np.zeros(len(points), bool)
     on_rim[measures.rim(triangles)] = True
@@ -60,7 +67,11 @@ def summary(found: np.ndarray) -> dict[str, Any]:
     """Median, 95th percentile and largest of both, and how many are peaks."""
     entry = {"vertices": len(found), "peaks": int((found[:, 0] > PEAK).sum())}
     for key, values in zip(("over_mean", "over_largest"), found.T):
-        entry[key] = [float(np.median(values)), float(np.percentile(values, 95)), float(values.max())]
+        entry[key] = [
+            float(np.median(values)),
+            float(np.percentile(values, 95)),
+            float(values.max()),
+        ]
     return entry
 
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature at single vertices, by polynomials fitted to two rings [Cazals, Pouget 2003]; nothing of the core's.
+"""Curvature at single vertices, by polynomials fitted to two rings [Cazals, Pouget 2003]; nothing
+of the core's.
 
-Cotangent weights and angle defects are right in sums (surface_measures.py), but not at single vertices of uncommon
-valence, which is what control vertices are: on an exact sphere, the refined hull of 20 points, they say up to 2.8 times
-what they say around, and fits up to 1.01 times.
+Cotangent weights and angle defects are right in sums (surface_measures.py), but not at single
+vertices of uncommon valence, which is what control vertices are: on an exact sphere, the refined
+hull of 20 points, they say up to 2.8 times what they say around, and fits up to 1.01 times.
 """
 
 from collections.abc import Sequence

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modules of the tests that benchmarks use: small control meshes, and readers of the collection beside the project."""
+"""Modules of the tests that benchmarks use: small control meshes, and readers of the collection
+beside the project."""
 
 import importlib.util
 import sys
@@ -11,7 +12,9 @@ TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
 
 def small_meshes() -> ModuleType:
     """tests/python/control_meshes.py; benchmarks has a module of the same name."""
-    spec = importlib.util.spec_from_file_location("small_control_meshes", TESTS / "control_meshes.py")
+    spec = importlib.util.spec_from_file_location(
+        "small_control_meshes", TESTS / "control_meshes.py"
+    )
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long Live takes for a moved vertex, part by part: the add-on in Blender as a Python module, in Edit Mode.
+"""How long Live takes for a moved vertex, part by part: the add-on in Blender as a Python module,
+in Edit Mode.
 
-What Blender does to draw the surface comes on top; tests/blender/window_live.py prints updates in a window.
+What Blender does to draw the surface comes on top; tests/blender/window_live.py prints updates in a
+window.
 """
 
 import sys
@@ -32,7 +34,9 @@ def run() -> dict[str, Any]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon.register()
     try:
-        result = {f"{mesh}, {energy}": _measure(mesh, energy) for mesh in MESHES for energy in ENERGIES}
+        result = {
+            f"{mesh}, {energy}": _measure(mesh, energy) for mesh in MESHES for energy in ENERGIES
+        }
     finally:
         addon.unregister()
     rows = [
@@ -52,7 +56,7 @@ def _measure(mesh: str, energy: str) -> dict[str, float]:
 
     source = _add(mesh)
     bpy.context.scene.discrete_fairing.energy = energy
-    bpy.ops.object.fair_live(state="ON")
+    bpy.ops.object.fairing_live(state="ON")
     session = registry.sessions()[0]
     bpy.ops.object.mode_set(mode="EDIT")
     edit = bmesh.from_edit_mesh(source.data)
@@ -65,12 +69,17 @@ def _measure(mesh: str, energy: str) -> dict[str, float]:
         start = perf_counter()
         bpy.context.view_layer.update()
         whole = 1e3 * (perf_counter() - start)
-        updates.append(dict(session.parts) | {"whole": whole, "graph": whole - sum(session.parts.values())})
+        updates.append(
+            dict(session.parts) | {"whole": whole, "graph": whole - sum(session.parts.values())}
+        )
     bpy.ops.object.mode_set(mode="OBJECT")
     registry.remove(session)
     warm = updates[2:]
     middle = {name: median(update[name] for update in warm) for name in warm[0]}
-    return middle | {"triangles": session.triangles, "worst": max(update["whole"] for update in warm)}
+    return middle | {
+        "triangles": session.triangles,
+        "worst": max(update["whole"] for update in warm),
+    }
 
 
 def _add(mesh: str) -> Any:

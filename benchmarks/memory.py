@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predicted against actual peak memory, over sizes and shapes: by the run's own ledger and by the system's."""
+"""Predicted against actual peak memory, over sizes and shapes: by the run's own ledger and by the
+system's."""
 
 from typing import Any
 
@@ -36,7 +37,15 @@ def run() -> dict[str, Any]:
         )
     table.show(
         f"Peak memory in bytes a triangle (target {TARGET_BYTES})",
-        ["mesh", "triangles", "predicted", "ledger", "resident", "predicted/ledger", "predicted/resident"],
+        [
+            "mesh",
+            "triangles",
+            "predicted",
+            "ledger",
+            "resident",
+            "predicted/ledger",
+            "predicted/resident",
+        ],
         rows,
     )
     return result

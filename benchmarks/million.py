@@ -35,9 +35,13 @@ def child(kind: str, size: int, levels: int, threads: int) -> dict[str, Any]:
 
     unit = 1 if sys.platform == "darwin" else 1024
     mesh = getattr(control_meshes, kind)(size)
-    runs.fair(control_meshes.sphere(1), levels=1, threads=threads)  # libraries loaded, threads tried
+    runs.fair(
+        control_meshes.sphere(1), levels=1, threads=threads
+    )  # libraries loaded, threads tried
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
-    result, wall, processor = timing.measured(lambda: df.fair(*mesh, levels=levels, threads=threads))
+    result, wall, processor = timing.measured(
+        lambda: df.fair(*mesh, levels=levels, threads=threads)
+    )
     after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
     report, (triangles, quads) = result.report, result.faces
     return {
@@ -66,7 +70,9 @@ def run(cases: dict[str, tuple[str, int, int]] = CASES) -> dict[str, Any]:
     for _ in range(REPEATS):
         for name, case in cases.items():
             for threads in (1, 0):
-                result.setdefault(f"{name}, threads {threads or 'all'}", []).append(spawn(case, threads))
+                result.setdefault(f"{name}, threads {threads or 'all'}", []).append(
+                    spawn(case, threads)
+                )
     rows = []
     for name, entries in result.items():
         best = min(entries, key=lambda e: e["processor"])

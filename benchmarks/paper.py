@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""50 K triangles, the size of [Kobbelt 1997a]'s own figure: 10 seconds, in 1997, on a workstation of then.
+"""50 K triangles, the size of [Kobbelt 1997a]'s own figure: 10 seconds, in 1997, on a workstation
+of then.
 
-Multigrid to the solution of the linear system beside the paper's refine-and-smooth, which stops wherever its sweeps
-have got to: so the energy that each reaches stands beside its time.
+Multigrid to the solution of the linear system beside the paper's refine-and-smooth, which stops
+wherever its sweeps have got to: so the energy that each reaches stands beside its time.
 """
 
 from functools import partial

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same job by us and by other programs: a control mesh refined, its vertices fixed, all others faired.
+"""The same job by us and by other programs: a control mesh refined, its vertices fixed, all others
+faired.
 
-Two kinds of peers. Those that solve the very same system: CHOLMOD, and Eigen's LDLT where it is small (cholesky.cpp);
-their time is from the assembled matrix to the solution, the assembly apart. And those that fair in their own way: CGAL
-and libigl by their own bi-Laplacians, on a mesh that has been refined for them beforehand; Manifold by patches, for
-which nothing is solved. Ours is everything, from plain arrays to plain arrays.
+Two kinds of peers. Those that solve the very same system: CHOLMOD, and Eigen's LDLT where it is
+small (cholesky.cpp); their time is from the assembled matrix to the solution, the assembly apart.
+And those that fair in their own way: CGAL and libigl by their own bi-Laplacians, on a mesh that has
+been refined for them beforehand; Manifold by patches, for which nothing is solved. Ours is
+everything, from plain arrays to plain arrays.
 
-A process for each; one that takes more than LIMIT seconds is ended, and left out at the larger sizes.
+A process for each; one that takes more than LIMIT seconds is ended, and left out at the larger
+sizes.
 """
 
 import json
@@ -38,7 +41,9 @@ TOLERANCE = 1e-6
 CGAL = cholesky.PROGRAM.with_name("fairing_bench_cgal")
 
 
-def refined(points: np.ndarray, triangles: np.ndarray, levels: int) -> tuple[np.ndarray, np.ndarray]:
+def refined(
+    points: np.ndarray, triangles: np.ndarray, levels: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Flat faces 1-to-4, again and again; the control vertices stay in front."""
     for _ in range(levels):
         sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
@@ -69,7 +74,9 @@ def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
     mesh = control_meshes.sphere(size)
 
     def body() -> dict[str, Any]:
-        report = runs.fair(mesh, levels=levels, relative_residual=TOLERANCE, measure=False, threads=threads)
+        report = runs.fair(
+            mesh, levels=levels, relative_residual=TOLERANCE, measure=False, threads=threads
+        )
         return {"iterations": [level["iterations"] for level in report["levels"]]}
 
     return timed(body, repeats)
@@ -95,7 +102,8 @@ def warm(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
 
 
 def libigl(size: int, levels: int, repeats: int) -> dict[str, Any]:
-    """harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's LDLT."""
+    """harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's
+    LDLT."""
     import rivals
 
     igl = rivals.installed("igl", "libigl")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What else makes a smooth surface of a control mesh today, each called in the way that its own documents advise.
+"""What else makes a smooth surface of a control mesh today, each called in the way that its own
+documents advise.
 
-Every maker takes (vertices, polygons, levels) and gives (points (n, 3), triangles (m, 3)); it raises Missing where its
-package is not installed and Refused where it cannot take the mesh.
+Every maker takes (vertices, polygons, levels) and gives (points (n, 3), triangles (m, 3)); it
+raises Missing where its package is not installed and Refused where it cannot take the mesh.
 """
 
 import sys
@@ -44,7 +45,9 @@ def installed(name: str, package: str) -> ModuleType:
         return import_module(name)
     except ImportError as error:
         # without dependencies: NumPy has to stay as the module bpy wants it
-        raise Missing(f"{package} is not installed: .venv/bin/pip install --no-deps {package}") from error
+        raise Missing(
+            f"{package} is not installed: .venv/bin/pip install --no-deps {package}"
+        ) from error
 
 
 def load_early() -> None:
@@ -112,7 +115,8 @@ def manifold(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surf
 
 
 def biharmonic(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
-    """The flat faces refined, then libigl's biharmonic positions with the control vertices fixed."""
+    """The flat faces refined, then libigl's biharmonic positions with the control vertices
+    fixed."""
     igl = installed("igl", "libigl")
     vertices, triangles = igl.upsample(points, triangulate(points, polygons), levels)
     fixed = np.arange(len(points))
@@ -171,12 +175,36 @@ def mesh_arrays(mesh: Any) -> Surface:
 
 
 ALL = (
-    Rival("thin plate", fairing("thin_plate"), True, 'Discrete Fairing, `energy="thin_plate"`: the paper\'s'),
-    Rival("total curvature", fairing("total_curvature"), True, "Discrete Fairing, ∫ κ₁² + κ₂² itself"),
-    Rival("minimum variation", fairing("minimum_variation"), True, "Discrete Fairing, change of curvature"),
-    Rival("Manifold", manifold, True, "manifold3d, `smooth` then `refine`: one patch for each triangle"),
-    Rival("biharmonic", biharmonic, True, "libigl, `harmonic` with k = 2 on the refined flat faces"),
-    Rival("butterfly", modified_butterfly, True, "modified butterfly subdivision, a NumPy version of ours"),
+    Rival(
+        "thin plate",
+        fairing("thin_plate"),
+        True,
+        'Discrete Fairing, `energy="thin_plate"`: the paper\'s',
+    ),
+    Rival(
+        "total curvature", fairing("total_curvature"), True, "Discrete Fairing, ∫ κ₁² + κ₂² itself"
+    ),
+    Rival(
+        "minimum variation",
+        fairing("minimum_variation"),
+        True,
+        "Discrete Fairing, change of curvature",
+    ),
+    Rival(
+        "Manifold",
+        manifold,
+        True,
+        "manifold3d, `smooth` then `refine`: one patch for each triangle",
+    ),
+    Rival(
+        "biharmonic", biharmonic, True, "libigl, `harmonic` with k = 2 on the refined flat faces"
+    ),
+    Rival(
+        "butterfly",
+        modified_butterfly,
+        True,
+        "modified butterfly subdivision, a NumPy version of ours",
+    ),
     Rival("Catmull-Clark", catmull_clark, False, "Blender's Subdivision Surface, default settings"),
     Rival("Loop", loop, False, "libigl, `loop`"),
 )

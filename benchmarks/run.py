@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The benchmarks: python3 build_tools/dev.py bench [NAME…]. Each prints a table and writes out/bench/NAME.json."""
+"""The benchmarks: python3 build_tools/dev.py bench [NAME…]. Each prints a table and writes
+out/bench/NAME.json."""
 
 import argparse
 import json
@@ -16,6 +17,7 @@ import curvature_peaks
 import live
 import memory
 import million
+import pads
 import paper
 import peers
 import scaling
@@ -37,6 +39,7 @@ BENCHMARKS = {
     "shared": shared.run,
     "side_by_side": side_by_side.run,
     "peaks": curvature_peaks.run,
+    "pads": pads.run,
     "clean": clean_meshes.run,
     "live": live.run,
 }
@@ -46,7 +49,11 @@ def circumstances() -> dict:
     """What the figures depend on besides the program."""
     cpu = Path("/proc/cpuinfo")
     names = (
-        [line.split(":")[1].strip() for line in cpu.read_text().splitlines() if "model name" in line]
+        [
+            line.split(":")[1].strip()
+            for line in cpu.read_text().splitlines()
+            if "model name" in line
+        ]
         if (cpu.exists())
         else []
     )

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seconds against size, 50 K to 3 M triangles: the exponent of n, by a straight line through the logarithms.
+"""Seconds against size, 50 K to 3 M triangles: the exponent of n, by a straight line through the
+logarithms.
 
-Four ways to grow, triangles and quads each: one control mesh with more levels; at three and at two levels a larger
-control mesh. Iterations are reported beside, since they are what a time exponent over one would come from.
+Four ways to grow, triangles and quads each: one control mesh with more levels; at three and at two
+levels a larger control mesh. Iterations are reported beside, since they are what a time exponent
+over one would come from.
 """
 
 from functools import partial
@@ -44,7 +46,11 @@ def measure(series: list, threads: int) -> list[dict[str, Any]]:
     for times in timing.in_turns(bodies, REPEATS).values():
         report = times.pop("last")
         points.append(
-            {**times, "triangles": report["triangles"], "iterations": runs.finest(report)["iterations"]}
+            {
+                **times,
+                "triangles": report["triangles"],
+                "iterations": runs.finest(report)["iterations"],
+            }
         )
     return points
 
@@ -75,7 +81,15 @@ def run() -> dict[str, Any]:
             )
     table.show(
         f"Time exponent (target {TARGET})",
-        ["series", "threads", "triangles", "wall", "processor", "µs of processor a triangle", "iterations"],
+        [
+            "series",
+            "threads",
+            "triangles",
+            "wall",
+            "processor",
+            "µs of processor a triangle",
+            "iterations",
+        ],
         rows,
     )
     return result

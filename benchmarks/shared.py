@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every clean mesh of the collection that may lie beside the project, at L = 3: does the solver converge, how soon?"""
+"""Every clean mesh of the collection that may lie beside the project, at L = 3: does the solver
+converge, how soon?"""
 
 import time
 from pathlib import Path
@@ -63,7 +64,9 @@ def run() -> dict[str, Any]:
         except (df.FairingError, ValueError) as error:
             entry = {"error": getattr(error, "code", str(error)[:40])}
         result[name] = entry
-        rows.append([name, *(list(entry.values()) if "error" not in entry else [entry["error"], *[""] * 6])])
+        rows.append(
+            [name, *(list(entry.values()) if "error" not in entry else [entry["error"], *[""] * 6])]
+        )
     table.show(
         f"The shared meshes (at most {LIMIT} iterations)",
         ["mesh", "levels", "triangles", "iterations", "degree", "residual", "converged", "seconds"],
@@ -71,7 +74,9 @@ def run() -> dict[str, Any]:
     )
     clean = [e for e in result.values() if "error" not in e]
     over = [
-        n for n, e in result.items() if "error" not in e and (e["iterations"] > LIMIT or not e["converged"])
+        n
+        for n, e in result.items()
+        if "error" not in e and (e["iterations"] > LIMIT or not e["converged"])
     ]
     print(
         f"{len(clean)} meshes ran, {len(result) - len(clean)} refused; over the limit: {', '.join(over) or 'none'}"

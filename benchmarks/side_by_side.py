@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Discrete Fairing beside what its users have today: the same control meshes, the same measures for all.
+"""Discrete Fairing beside what its users have today: the same control meshes, the same measures for
+all.
 
-    python3 build_tools/dev.py bench side_by_side
-    .venv/bin/python benchmarks/side_by_side.py --markdown    also prints the tables of docs/comparison.md
+    python3 build_tools/dev.py bench side_by_side .venv/bin/python benchmarks/side_by_side.py
+    --markdown    also prints the tables of docs/comparison.md
 
 A tool that is not installed, or does not take a mesh, leaves a line that says so.
 """
@@ -21,9 +22,15 @@ import table
 import timing
 
 ROOT = Path(__file__).resolve().parent.parent
-LEVELS, FREE_FORM_LEVELS = 5, 3  # fewer for meshes of hundreds of faces, whose surfaces would have a million
+LEVELS, FREE_FORM_LEVELS = (
+    5,
+    3,
+)  # fewer for meshes of hundreds of faces, whose surfaces would have a million
 SPHERE = 8 * np.pi  # ∫ κ₁² + κ₂² of any sphere; no closed surface without handles has less
-REPEATS, ENOUGH = 3, 1.0  # runs, of which the shortest counts; processor seconds after which one will do
+REPEATS, ENOUGH = (
+    3,
+    1.0,
+)  # runs, of which the shortest counts; processor seconds after which one will do
 # seconds are the processor's, of all threads together: other work on the machine hardly moves them
 HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "seconds")
 BOLD = (3, 4)  # of these, in Markdown
@@ -64,7 +71,8 @@ def suzanne() -> tuple[np.ndarray, list[list[int]]]:
 
 
 def projected(points: np.ndarray, polygons: list[list[int]], levels: int) -> rivals.Surface:
-    """The flat faces refined and pushed out to the sphere: what the measures say of a perfect answer."""
+    """The flat faces refined and pushed out to the sphere: what the measures say of a perfect
+    answer."""
     triangles = rivals.triangulate(points, polygons)
     for _ in range(levels):
         points, triangles = halved(points, triangles)
@@ -78,7 +86,9 @@ def halved(points: np.ndarray, triangles: np.ndarray) -> rivals.Surface:
     ab, bc, ca = (inverse.reshape(-1, 3) + len(points)).T
     a, b, c = triangles.T
     parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return np.concatenate([points, points[edges].mean(1)]), np.concatenate([np.stack(p, -1) for p in parts])
+    return np.concatenate([points, points[edges].mean(1)]), np.concatenate(
+        [np.stack(p, -1) for p in parts]
+    )
 
 
 def measured(control: np.ndarray, surface: rivals.Surface, inscribed: bool) -> dict[str, Any]:
@@ -98,7 +108,9 @@ def measured(control: np.ndarray, surface: rivals.Surface, inscribed: bool) -> d
     }
 
 
-def entry(rival: rivals.Rival, points: np.ndarray, polygons: Any, levels: int, inscribed: bool) -> Any:
+def entry(
+    rival: rivals.Rival, points: np.ndarray, polygons: Any, levels: int, inscribed: bool
+) -> Any:
     """The figures of one tool on one mesh, or {"absent": why}."""
     try:
         surface, *times = timing.measured(lambda: rival.make(points, polygons, levels))
@@ -113,7 +125,7 @@ def entry(rival: rivals.Rival, points: np.ndarray, polygons: Any, levels: int, i
     if not np.isfinite(surface[0]).all():
         return {"absent": "gives positions that are not finite"}
     if surface[1].min() < 0 or surface[1].max() >= len(surface[0]):
-        return {"absent": "gives triangles of vertices that there are not"}
+        return {"absent": "gives triangles with vertices that do not exist"}
     return measured(points, surface, inscribed) | {"wall": times[0], "seconds": times[1]}
 
 
@@ -121,7 +133,9 @@ def cells(found: dict[str, Any]) -> list[str]:
     """One row."""
     if "absent" in found:
         return [found["absent"], *[""] * (len(HEADS) - 1)]
-    radii = ["" if found[k] is None else f"{found[k]:.5f}" for k in ("least_radius", "largest_radius")]
+    radii = [
+        "" if found[k] is None else f"{found[k]:.5f}" for k in ("least_radius", "largest_radius")
+    ]
     return [
         *radii,
         "0" if found["off"] < 5e-7 else f"{found['off']:.3f}",
@@ -158,14 +172,26 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
 
 
 def markdown(result: dict[str, Any]) -> str:
-    """The same tables as docs/comparison.md has them; bold is the best printed figure of those that keep the vertices."""
+    """The same tables as docs/comparison.md has them; bold is the best printed figure of those that
+    keep the vertices."""
     keeps = {rival.name for rival in rivals.ALL if rival.interpolates}
     text = []
     for name, found in result["meshes"].items():
-        ours_and_theirs = [cells(f) for tool, f in found.items() if tool in keeps and "absent" not in f]
+        ours_and_theirs = [
+            cells(f) for tool, f in found.items() if tool in keeps and "absent" not in f
+        ]
         best = {place: min((row[place] for row in ours_and_theirs), key=float) for place in BOLD}
         text += [f"### {name[0].upper()}{name[1:]}, {result['levels'][name]} levels", ""]
-        heads = ["", "least radius", "largest radius", "off", "dihedral", "E / 8π", "triangles", "seconds"]
+        heads = [
+            "",
+            "least radius",
+            "largest radius",
+            "off",
+            "dihedral",
+            "E / 8π",
+            "triangles",
+            "seconds",
+        ]
         inscribed = "(exact sphere)" in found
         columns = range(len(heads)) if inscribed else [0, *range(3, len(heads))]
         text += ["| " + " | ".join(heads[k] for k in columns) + " |"]
@@ -186,9 +212,13 @@ def markdown(result: dict[str, Any]) -> str:
 
 def main() -> None:
     """The same without the other benchmarks."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--markdown", action="store_true", help="print the tables as Markdown, too")
-    parser.add_argument("--without", action="append", default=[], metavar="TOOL", help="may be repeated")
+    parser.add_argument(
+        "--without", action="append", default=[], metavar="TOOL", help="may be repeated"
+    )
     options = parser.parse_args()
     result = run(options.without)
     out = ROOT / "out" / "bench"

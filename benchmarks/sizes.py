@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From 50 thousand to 10 million triangles, everything included: seconds, memory, the second core, the same bits.
+"""From 50 thousand to 10 million triangles, everything included: seconds, memory, the second core,
+the same bits.
 
-BENCH_HUNDRED=1 adds a hundred million, which take some 20 GB and minutes. Each run has a process of its own, so that its
-peak of resident memory is its own.
+BENCH_HUNDRED=1 adds a hundred million, which take some 20 GB and minutes. Each run has a process of
+its own, so that its peak of resident memory is its own.
 """
 
 import os
@@ -61,7 +62,9 @@ def run() -> dict[str, Any]:
     result: dict[str, Any] = {}
     rows, exponents = [], []
     for name, cases in SERIES.items():
-        points = [measure(case) for case in [*cases, HUNDRED_MILLIONS[name]][: None if hundred else -1]]
+        points = [
+            measure(case) for case in [*cases, HUNDRED_MILLIONS[name]][: None if hundred else -1]
+        ]
         sizes = [p["triangles"] for p in points]
         slopes = {
             "one thread": scaling.exponent(sizes, [p["wall"][1] for p in points]),
@@ -92,6 +95,8 @@ def run() -> dict[str, Any]:
         rows,
     )
     table.show(
-        f"Time exponents (target {scaling.TARGET})", ["series", "one thread", "two", "processor"], exponents
+        f"Time exponents (target {scaling.TARGET})",
+        ["series", "one thread", "two", "processor"],
+        exponents,
     )
     return result

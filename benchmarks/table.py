@@ -21,7 +21,8 @@ def show(title: str, heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> Non
     print(f"\n{title}\n")
     for line in lines:
         first, *others = (
-            text.ljust(w) if not k else text.rjust(w) for k, (text, w) in enumerate(zip(line, widths))
+            text.ljust(w) if not k else text.rjust(w)
+            for k, (text, w) in enumerate(zip(line, widths))
         )
         print("  ".join([first, *others]))
         if line is lines[0]:

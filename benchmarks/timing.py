@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Competitors in turns (A B A B …), by the wall clock and by the processor's.
 
-On a machine that does other work as well the wall clock tells little; processor seconds of a run on one thread are
-then the steadier figure, and on all threads they bound the wall time of an idle machine from above.
+On a machine that does other work as well the wall clock tells little; processor seconds of a run on
+one thread are then the steadier figure, and on all threads they bound the wall time of an idle
+machine from above.
 """
 
 import statistics
@@ -45,6 +46,10 @@ def in_turns(competitors: dict[str, Callable[[], Any]], repeats: int) -> dict[st
         if repeats == 1:
             break
     return {
-        name: {"wall": summary(walls[name]), "processor": summary(processors[name]), "last": last[name]}
+        name: {
+            "wall": summary(walls[name]),
+            "processor": summary(processors[name]),
+            "last": last[name],
+        }
         for name in competitors
     }

@@ -52,8 +52,18 @@ class DebianRoot:
 
     def command(self, *words: str | Path, **extra: str) -> list[str]:
         """The command line that runs `words` inside, as root, with the project read-only at /project."""
-        variables = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": "/root", "LC_ALL": "C.UTF-8", **extra}
-        inner = ["env", "-i", *(f"{name}={value}" for name, value in variables.items()), *map(str, words)]
+        variables = {
+            "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
+            "HOME": "/root",
+            "LC_ALL": "C.UTF-8",
+            **extra,
+        }
+        inner = [
+            "env",
+            "-i",
+            *(f"{name}={value}" for name, value in variables.items()),
+            *map(str, words),
+        ]
         return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, *inner)
 
     def make(self) -> None:
@@ -90,7 +100,9 @@ class DebianRoot:
         folder = self.outside / "wheels"
         with alone(f"wheel-{self.suite}"):
             stamp = CACHE / f"wheel-{self.suite}.stamp"
-            value = fingerprint(inputs(), self.stamp.read_text(), local_version(), str(self.repairable))
+            value = fingerprint(
+                inputs(), self.stamp.read_text(), local_version(), str(self.repairable)
+            )
             if not (is_fresh(stamp, value) and folder.is_dir()):
                 say(f"native build for Debian {self.suite}")
                 self._build_wheel(folder)
@@ -100,7 +112,14 @@ class DebianRoot:
     def _build_wheel(self, folder: Path) -> None:
         raw = self.outside / "unrepaired"
         run(*as_root("rm", "-rf", folder, raw))
-        pip = ["python3", "-m", "pip", "--quiet", *PIP_WHEEL, f"--config-settings=build-dir={INSIDE}/build"]
+        pip = [
+            "python3",
+            "-m",
+            "pip",
+            "--quiet",
+            *PIP_WHEEL,
+            f"--config-settings=build-dir={INSIDE}/build",
+        ]
         if not self.repairable:
             pip.append("--config-settings=cmake.define.DF_CARRY_OPENMESH=ON")
         pip += ["--wheel-dir", INSIDE / raw.name, "/project"]

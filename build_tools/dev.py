@@ -91,9 +91,13 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("command", choices=["setup", "test", "demo", "bench", "extension", "format"])
     parser.add_argument(
-        "names", nargs="*", help="bench, demo, test: only these; test blender:TEXT: its scripts named so"
+        "command", choices=["setup", "test", "demo", "bench", "extension", "format"]
+    )
+    parser.add_argument(
+        "names",
+        nargs="*",
+        help="bench, demo, test: only these; test blender:TEXT: its scripts named so",
     )
     parser.add_argument(
         "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"

@@ -43,10 +43,15 @@ def platform(wheel: Path) -> str:
     """Blender's name of the platform that a wheel is for, "linux-x64"."""
     tags = wheel.stem.split("-")[-1].split(".")  # auditwheel may give several
     found = {
-        name for tag in tags for pattern, name in PLATFORMS.items() if re.fullmatch(pattern, tag, re.ASCII)
+        name
+        for tag in tags
+        for pattern, name in PLATFORMS.items()
+        if re.fullmatch(pattern, tag, re.ASCII)
     }
     if len(found) != 1:
-        raise DevError(f"{wheel.name} is for no platform, or for more than one, that Blender knows.")
+        raise DevError(
+            f"{wheel.name} is for no platform, or for more than one, that Blender knows."
+        )
     return found.pop()
 
 
@@ -72,7 +77,9 @@ def staged_manifest(wheel: Path) -> str:
 def stage(wheel: Path, folder: Path) -> None:
     """Lays the extension out in a folder that is not there yet."""
     if wheel_version(wheel) != manifest_version():
-        raise DevError(f"{wheel.name} is not of version {manifest_version()}, which the manifest gives.")
+        raise DevError(
+            f"{wheel.name} is not of version {manifest_version()}, which the manifest gives."
+        )
     shutil.copytree(ADDON, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "wheels").mkdir()
     shutil.copy(wheel, folder / "wheels")
@@ -92,12 +99,18 @@ def faults(path: Path) -> list[str]:
     checks = {
         "the version is not the project's": manifest["version"] == manifest_version(),
         "not exactly one wheel": len(wheels) == 1 and carried == wheels,
-        "the wheel has another version": all(wheel_version(Path(w)) == manifest["version"] for w in wheels),
-        "the wheel is for another platform": [platform(Path(w)) for w in wheels] == manifest["platforms"],
+        "the wheel has another version": all(
+            wheel_version(Path(w)) == manifest["version"] for w in wheels
+        ),
+        "the wheel is for another platform": [platform(Path(w)) for w in wheels]
+        == manifest["platforms"],
         "a permission that is not used": "permissions" not in manifest,
-        "the tagline is too long or ends in a period": len(tagline) <= 64 and not tagline.endswith("."),
+        "the tagline is too long or ends in a period": len(tagline) <= 64
+        and not tagline.endswith("."),
         "no licence": names.issuperset(LICENCES),
-        "compiled Python": not any("__pycache__" in entry or entry.endswith(".pyc") for entry in names),
+        "compiled Python": not any(
+            "__pycache__" in entry or entry.endswith(".pyc") for entry in names
+        ),
     }
     return [fault for fault, fine in checks.items() if not fine]
 

@@ -24,7 +24,14 @@ PIP_WHEEL = [
 
 def inputs() -> list[Path]:
     """Every file that the wheel is made of."""
-    names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE", "THIRD_PARTY_LICENSES.txt"]
+    names = [
+        "native",
+        "cmake",
+        "CMakeLists.txt",
+        "pyproject.toml",
+        "LICENSE",
+        "THIRD_PARTY_LICENSES.txt",
+    ]
     names += ["build_tools/wheel_version.py", "build_tools/repair.py"]
     return files_under(MANIFEST, *(ROOT / name for name in names))
 

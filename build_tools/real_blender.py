@@ -78,7 +78,9 @@ class RealBlender:
 
 def venv_tag() -> str:
     """The tag of .venv's Python, "cp311"."""
-    return output(VENV_PYTHON, "-c", "import sys; print('cp%d%d' % sys.version_info[:2])")[1].strip()
+    return output(VENV_PYTHON, "-c", "import sys; print('cp%d%d' % sys.version_info[:2])")[
+        1
+    ].strip()
 
 
 def ask(command: list[str]) -> tuple[tuple[str, str] | None, str]:
@@ -118,6 +120,8 @@ def of_debian(root: DebianRoot) -> RealBlender:
 
 def places() -> dict[str, Callable[[], RealBlender]]:
     """How to get at each Blender at hand, by the name of its place; those of Debian always are."""
-    found: dict[str, Callable[[], RealBlender]] = {root.suite: partial(of_debian, root) for root in ROOTS}
+    found: dict[str, Callable[[], RealBlender]] = {
+        root.suite: partial(of_debian, root) for root in ROOTS
+    }
     own = on_path()
     return {"path": lambda: own, **found} if own else found

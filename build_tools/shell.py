@@ -41,7 +41,12 @@ def output(*command: str | Path, **extra: str) -> tuple[int, str]:
     if shutil.which(words[0], path=environment()["PATH"]) is None:
         return 127, ""
     done = subprocess.run(
-        words, cwd=ROOT, env=environment(**extra), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        words,
+        cwd=ROOT,
+        env=environment(**extra),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
     )
     return done.returncode, done.stdout
 

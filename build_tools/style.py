@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The form of the sources: clang-format and ruff."""
+"""The form of the sources: clang-format and ruff; the types of the add-on: mypy."""
 
 from pathlib import Path
 
@@ -23,6 +23,7 @@ def checks() -> dict[str, list]:
         "clang-format": ["clang-format", "--dry-run", "--Werror", *cpp_files()],
         "ruff check": ["ruff", "check", *PYTHON_FOLDERS],
         "ruff format": ["ruff", "format", "--check", *PYTHON_FOLDERS],
+        "mypy": ["mypy"],  # of what pyproject.toml names
     }
 
 

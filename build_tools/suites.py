@@ -52,7 +52,9 @@ def native_suite(preset: str) -> Tally:
     run("cmake", "--preset", preset)
     run("cmake", "--build", "--preset", preset)
     jobs = str(os.cpu_count() or 1)
-    code = run("ctest", "--preset", preset, "--parallel", jobs, "--output-junit", report, check=False)
+    code = run(
+        "ctest", "--preset", preset, "--parallel", jobs, "--output-junit", report, check=False
+    )
     return with_exit_code(read_junit(report), code)
 
 
@@ -60,14 +62,18 @@ def pytest_suite(name: str) -> Tally:
     """pytest on one folder below tests/."""
     native_wheel.install()
     report = fresh_report(name)
-    code = run(VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}", check=False)
+    code = run(
+        VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}", check=False
+    )
     return with_exit_code(read_junit(report), code)
 
 
 def addon_suite() -> Tally:
     """The add-on in the bpy module."""
     if not has_bpy():
-        return Tally(note="bpy exists for Python 3.11 only: the add-on is tested in the real Blender alone")
+        return Tally(
+            note="bpy exists for Python 3.11 only: the add-on is tested in the real Blender alone"
+        )
     return pytest_suite("addon")
 
 
@@ -121,7 +127,9 @@ def run_all(names: list[str]) -> int:
         whole = sum(parts.values(), Tally()) if parts else result
         total += whole
         # the notes of a whole stand beside its parts
-        rows.append(table_line(name, replace(whole, note="") if parts else whole, monotonic() - start))
+        rows.append(
+            table_line(name, replace(whole, note="") if parts else whole, monotonic() - start)
+        )
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]
     print("\n" + "\n".join(rows) + f"\n\n{total.passed} passed, {total.failed} failed", flush=True)
     return 1 if total.failed else 0

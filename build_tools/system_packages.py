@@ -19,7 +19,16 @@ BPY = [
     "libxfixes3",
     "libxi6",
 ]
-BPY += ["libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1", "libuuid1", "libopengl0", "libgomp1", "xvfb"]
+BPY += [
+    "libxkbcommon0",
+    "libxrender1",
+    "libxt6",
+    "libxxf86vm1",
+    "libuuid1",
+    "libopengl0",
+    "libgomp1",
+    "xvfb",
+]
 REAL_BLENDER = ["mmdebstrap"]
 
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
@@ -31,7 +40,9 @@ def missing(packages: list[str]) -> list[str]:
     """Those of the packages that are not installed, nor provided by another one (libxt6 by trixie's libxt6t64)."""
     _, listing = output("dpkg-query", "-W", "-f", "${db:Status-Status} ${Package}, ${Provides}\n")
     lines = [
-        line.removeprefix("installed ") for line in listing.splitlines() if line.startswith("installed ")
+        line.removeprefix("installed ")
+        for line in listing.splitlines()
+        if line.startswith("installed ")
     ]
     installed = {entry.split()[0] for line in lines for entry in line.split(",") if entry.strip()}
     return [package for package in packages if package not in installed]
@@ -40,7 +51,9 @@ def missing(packages: list[str]) -> list[str]:
 def install(packages: list[str] = ALL) -> None:
     """Installs what is missing; returns at once when nothing is."""
     if shutil.which("dpkg-query") is None:
-        raise DevError("this is no Debian: install " + " ".join(packages) + " or what they are called here.")
+        raise DevError(
+            "this is no Debian: install " + " ".join(packages) + " or what they are called here."
+        )
     wanted = missing(packages)
     if not wanted:
         return

@@ -91,7 +91,9 @@ def hull():
     for i, x in enumerate(stations):
         for j, (y, z) in enumerate(_section(x)):
             _place(builder, i, j, x - 0.12 * z * (x == 0.0), y, z)  # a raked transom
-    for j, (x, z) in enumerate(((8.25, 0.30), (8.42, 0.58), (8.58, 0.86), (8.79, 1.22), (9.02, 1.615))):
+    for j, (x, z) in enumerate(
+        ((8.25, 0.30), (8.42, 0.58), (8.58, 0.86), (8.79, 1.22), (9.02, 1.615))
+    ):
         _place(builder, bow, j, x, 0.0, z)
     _transom_inside(builder)
 
@@ -99,7 +101,9 @@ def hull():
         for i, j in product((*rows,), range(6)):
             if i < bow - 1 or j < 4:
                 _quad(builder, side, (i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
-        _quad(builder, side, (bow - 1, 4), (bow, 4), (bow - 1, 6), (bow - 1, 5))  # the tip of the deck
+        _quad(
+            builder, side, (bow - 1, 4), (bow, 4), (bow - 1, 6), (bow - 1, 5)
+        )  # the tip of the deck
         inside, middle = "inside", "middle"
         _quad(builder, side, (0, 0), (0, 1), inside, middle)
         _quad(builder, side, (0, 1), (0, 2), (0, 3), inside)
@@ -108,7 +112,9 @@ def hull():
         for line in (2, 4):  # chine and sheer
             builder.crease(*(_name((i, line), side) for i in range(bow + 1)))
         builder.crease(*(_name((0, j), side) for j in range(7)))
-    builder.crease(*(_name((i, 0), 1) for i in range(bow + 1)), *(_name((bow, j), 1) for j in range(1, 5)))
+    builder.crease(
+        *(_name((i, 0), 1) for i in range(bow + 1)), *(_name((bow, j), 1) for j in range(1, 5))
+    )
     return builder.mesh()
 
 
@@ -118,11 +124,22 @@ def _section(x):
     forward = np.clip((t - 0.40) / 0.60, 0, 1)
     aft = np.clip((0.40 - t) / 0.40, 0, 1)
     keel = 0.02 + 0.06 * aft**2 + 0.20 * forward**5
-    chine = (1.22 * (1 - forward**1.75) * (1 - 0.10 * aft**2), 0.40 + 0.46 * forward**1.8 - 0.04 * aft)
-    sheer = (1.50 * (1 - forward**2.4) * (1 - 0.13 * aft**2), 1.18 + 0.42 * forward**1.7 + 0.05 * aft**2)
+    chine = (
+        1.22 * (1 - forward**1.75) * (1 - 0.10 * aft**2),
+        0.40 + 0.46 * forward**1.8 - 0.04 * aft,
+    )
+    sheer = (
+        1.50 * (1 - forward**2.4) * (1 - 0.13 * aft**2),
+        1.18 + 0.42 * forward**1.7 + 0.05 * aft**2,
+    )
     bottom = (0.52 * chine[0], keel + 0.47 * (chine[1] - keel))
-    flare = 0.5 - 0.16 * forward * (1 - forward) * 4 * 0.5 + 0.06 * (1 - forward)  # hollow forward, round aft
-    topside = (chine[0] + flare * (sheer[0] - chine[0]) + 0.03 * (1 - forward), 0.5 * (chine[1] + sheer[1]))
+    flare = (
+        0.5 - 0.16 * forward * (1 - forward) * 4 * 0.5 + 0.06 * (1 - forward)
+    )  # hollow forward, round aft
+    topside = (
+        chine[0] + flare * (sheer[0] - chine[0]) + 0.03 * (1 - forward),
+        0.5 * (chine[1] + sheer[1]),
+    )
     crown = 0.075 * sheer[0]
     return (
         (0.0, keel),
@@ -188,20 +205,26 @@ def _hub(builder, hub, height, turn):
     for level, dz, radius in (("bottom", -0.24, 0.44), ("top", 0.24, 0.44)):
         for k in range(6):
             angle = turn + np.pi / 3 * k - np.pi / 6
-            builder.vertex((hub, level, k), (radius * np.cos(angle), radius * np.sin(angle), height + dz))
+            builder.vertex(
+                (hub, level, k), (radius * np.cos(angle), radius * np.sin(angle), height + dz)
+            )
     for level, dz in ((outside, 0.36), (inside, 0.20)):
         builder.vertex((hub, level, "centre"), (0, 0, height + (dz if level == "top" else -dz)))
     for k in (0, 2, 4):
         k1, k2, k3 = k + 1, (k + 2) % 6, (k + 3) % 6
         builder.face((hub, "bottom", k1), (hub, "bottom", k2), (hub, "top", k2), (hub, "top", k1))
         builder.face((hub, "top", "centre"), (hub, "top", k1), (hub, "top", k2), (hub, "top", k3))
-        builder.face((hub, "bottom", "centre"), (hub, "bottom", k3), (hub, "bottom", k2), (hub, "bottom", k1))
+        builder.face(
+            (hub, "bottom", "centre"), (hub, "bottom", k3), (hub, "bottom", k2), (hub, "bottom", k1)
+        )
 
 
 def _arm(builder, arm):
     """Rings of four from the low hub's open side number `arm` out and up to the high hub's."""
     k = 2 * arm
-    rings = [[("low", "bottom", k), ("low", "bottom", k + 1), ("low", "top", k + 1), ("low", "top", k)]]
+    rings = [
+        [("low", "bottom", k), ("low", "bottom", k + 1), ("low", "top", k + 1), ("low", "top", k)]
+    ]
     for r in range(1, _ARM_RINGS + 1):
         t = r / (_ARM_RINGS + 1)
         turn = TWIST * t + 2 * np.pi / 3 * arm
@@ -211,14 +234,21 @@ def _arm(builder, arm):
         rise = -np.sin(tilt) * out + np.cos(tilt) * (up * 0.92 + across * 0.39)
         lean = np.cos(tilt) * out + np.sin(tilt) * up
         side = np.cross(rise, lean)
-        centre = (0.44 + 1.16 * np.sin(np.pi * t) ** 0.8) * out + (1.5 - 1.62 * np.cos(np.pi * t)) * up
+        centre = (0.44 + 1.16 * np.sin(np.pi * t) ** 0.8) * out + (
+            1.5 - 1.62 * np.cos(np.pi * t)
+        ) * up
         ring = []
         for c, (s, w) in enumerate(((-1, 1), (1, 1), (1, -1), (-1, -1))):
             builder.vertex((arm, r, c), centre + 0.25 * (1.15 * s * side + 0.9 * w * lean))
             ring.append((arm, r, c))
         rings.append(ring)
     rings.append(
-        [("high", "top", k), ("high", "top", k + 1), ("high", "bottom", k + 1), ("high", "bottom", k)]
+        [
+            ("high", "top", k),
+            ("high", "top", k + 1),
+            ("high", "bottom", k + 1),
+            ("high", "bottom", k),
+        ]
     )
     for low, high in pairwise(rings):
         for c in range(4):

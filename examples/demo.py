@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The main job on real input: Fair Surface, headless, on Suzanne and on three control meshes of our own.
 
-Writes for each an OBJ and a .blend of the result and one picture of all under out/, and prints what it did.
-Needs the modules `bpy` and `discrete_fairing`: `python3 build_tools/dev.py demo` sees to that.
+    .venv/bin/python examples/demo.py            all four
+    .venv/bin/python examples/demo.py hull       only those named
+
+Writes an OBJ and a .blend of each result and one picture of all of them to out/, and prints what it did. Needs the
+modules `bpy` and `discrete_fairing`; `python3 build_tools/dev.py demo` installs them first.
 """
 
 import json
@@ -20,6 +23,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 import control_meshes  # noqa: E402
 from demo_table import print_table, table_row  # noqa: E402
+from quiet import quiet  # noqa: E402
 from render_picture import compose, render_pair  # noqa: E402
 
 import addon  # noqa: E402
@@ -44,14 +48,21 @@ EXHIBITS = (
 )
 
 
-def main():
+def main(names):
+    known = [exhibit.name.lower() for exhibit in EXHIBITS]
+    unknown = {name.lower() for name in names} - {*known}
+    if unknown:
+        sys.exit(f"No such shape: {', '.join(sorted(unknown))}. There are {', '.join(known)}.")
+    chosen = {name.lower() for name in names or known}
+    exhibits = [exhibit for exhibit in EXHIBITS if exhibit.name.lower() in chosen]
     OUT.mkdir(exist_ok=True)
     bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside a .blend
     addon.register()
     try:
         with TemporaryDirectory() as tiles:
-            rows, pairs = zip(*(show(exhibit, tiles) for exhibit in EXHIBITS), strict=True)
-            compose(pairs, OUT / "demo.png")
+            rows, pairs = zip(*(show(exhibit, tiles) for exhibit in exhibits), strict=True)
+            with quiet():
+                compose(pairs, OUT / "demo.png")
     finally:
         addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
     print_table(rows)
@@ -66,11 +77,13 @@ def show(exhibit, tiles):
     bpy.ops.object.fair_surface(shade_smooth=True, **exhibit.settings)
     seconds = time.perf_counter() - start
     result = bpy.context.active_object
-    save(exhibit.name.lower())
+    with quiet():
+        save(exhibit.name.lower())
     row = figures(control, result, exhibit.settings["levels"], seconds)
     print(f"{exhibit.name}: faired in {seconds:.2f} s, rendering …", flush=True)
     turn, tip = radians(exhibit.turn), radians(exhibit.tip)
-    return row, render_pair(control, result, tiles, turn, tip, exhibit.stripes)
+    with quiet():
+        return row, render_pair(control, result, tiles, turn, tip, exhibit.stripes)
 
 
 def make(name):
@@ -97,16 +110,18 @@ def save(name):
     bpy.ops.wm.obj_export(
         filepath=str(OUT / f"{name}.obj"), export_selected_objects=True, export_materials=False
     )
-    bpy.ops.wm.save_as_mainfile(filepath=str(OUT / f"{name}.blend"), copy=True, check_existing=False)
+    bpy.ops.wm.save_as_mainfile(
+        filepath=str(OUT / f"{name}.blend"), copy=True, check_existing=False
+    )
 
 
 def figures(control, result, levels, seconds):
     """One row of the table."""
     result.data.calc_loop_triangles()
     triangles = len(result.data.loop_triangles)
-    report = json.loads(result["fairing_report"])
+    report = json.loads(result.discrete_fairing.report)
     return table_row(control.name, len(control.data.polygons), levels, triangles, report, seconds)
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

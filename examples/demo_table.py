@@ -36,4 +36,7 @@ def print_table(rows):
     print()
     for row in (headings, *rows):
         first, *others = COLUMNS
-        print(f"{row[first[0]]:<{first[1]}}" + "".join(f"{row[name]:>{width}}" for name, width in others))
+        print(
+            f"{row[first[0]]:<{first[1]}}"
+            + "".join(f"{row[name]:>{width}}" for name, width in others)
+        )

@@ -34,13 +34,23 @@ HERO = "sphere_from_four_points"
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join([HERO, *SHAPES]))
-    parser.add_argument("--meshes", type=Path, help="the folder with the meshes that are not the project's")
-    parser.add_argument(
-        "--energies", nargs="+", default=[*ENERGIES], choices=ENERGIES, help="the columns; all by default"
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
-    parser.add_argument("--samples", type=float, default=1.0, help="of each picture, times the usual")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join([HERO, *SHAPES]))
+    parser.add_argument(
+        "--meshes", type=Path, help="the folder with the meshes that are not the project's"
+    )
+    parser.add_argument(
+        "--energies",
+        nargs="+",
+        default=[*ENERGIES],
+        choices=ENERGIES,
+        help="the columns; all by default",
+    )
+    parser.add_argument(
+        "--samples", type=float, default=1.0, help="of each picture, times the usual"
+    )
     options = parser.parse_args()
     unknown = {*options.names} - {HERO, *SHAPES}
     if unknown:
@@ -60,7 +70,11 @@ def picture(name, options):
         print(f"{name}: left out, {why}")
         return
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    columns = [Column("control mesh", control.vertices, control.faces, control.crease_edges, is_control=True)]
+    columns = [
+        Column(
+            "control mesh", control.vertices, control.faces, control.crease_edges, is_control=True
+        )
+    ]
     for energy in options.energies:
         if hero and energy == "minimum_variation":
             continue
@@ -69,11 +83,18 @@ def picture(name, options):
             triangles, quads = result.faces
             faces = triangles.tolist() + quads.tolist()
             columns.append(
-                Column(ENERGIES[energy], result.vertices, faces, creased=bool(len(control.crease_edges)))
+                Column(
+                    ENERGIES[energy],
+                    result.vertices,
+                    faces,
+                    creased=bool(len(control.crease_edges)),
+                )
             )
     path = IMAGES / (f"{name}.png" if hero else f"gallery/{name}.png")
     with TemporaryDirectory() as folder:
-        draw(path, folder, columns, shape.view, ("clay", "zebra") if hero else None, options.samples)
+        draw(
+            path, folder, columns, shape.view, ("clay", "zebra") if hero else None, options.samples
+        )
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
 
 
@@ -82,7 +103,12 @@ def fair(control, levels, energy):
     creases = control.crease_edges if len(control.crease_edges) else None
     try:
         return df.fair(
-            control.vertices, control.faces, levels=levels, energy=energy, crease_edges=creases, measure=False
+            control.vertices,
+            control.faces,
+            levels=levels,
+            energy=energy,
+            crease_edges=creases,
+            measure=False,
         )
     except (ValueError, df.FairingError) as error:
         if energy == "thin_plate":

@@ -15,8 +15,8 @@ from render_picture import PAPER, load_pixels
 from render_studio import DISTANCE, build_studio, dress, render
 from render_zebra import dress_in_zebra
 
-from addon.inspection import attributes, colours
-from addon.inspection.curvature_material import curvature_material
+from addon.inspection import display, measures
+from addon.inspection.materials import curvature_material
 
 TILE = 264, 250  # pixels in the picture; rendered twice as large
 COLOURS = 256  # of the palette
@@ -70,7 +70,9 @@ def draw(path, folder, columns, view, looks, samples=1.0):
     overlay = _rendered_text(labels, sheet.shape, Path(folder) / "text.png")
     sheet = overlay[..., 3:] * overlay[..., :3] + (1 - overlay[..., 3:]) * sheet
     height, width, _ = sheet.shape
-    write_indexed_png(path, sheet.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3)), COLOURS)
+    write_indexed_png(
+        path, sheet.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3)), COLOURS
+    )
 
 
 def _object(column):
@@ -90,15 +92,15 @@ def _measure(columns, targets, view):
     """Curvature colours on all surfaces, by one range, which is returned."""
     surfaces = [t for c, t in zip(columns, targets, strict=True) if not c.is_control]
     for target in surfaces:
-        attributes.write_values(target.data)
+        display.write_values(target.data)
     judge = surfaces[min(1, len(surfaces) - 1)].data
     mean = np.empty(len(judge.vertices), np.float32)
-    judge.attributes[attributes.VALUES["MEAN"]].data.foreach_get("value", mean)
+    judge.attributes[display.VALUES["MEAN"]].data.foreach_get("value", mean)
     limit = view.contrast * float(np.percentile(np.abs(mean), 90))
     limit = float(f"{limit:.2g}")
     for target in surfaces:
         settings = SimpleNamespace(use_fixed_range=True, fixed_range=limit)
-        attributes.write_colours(target.data, "MEAN", settings)
+        display.write_colours(target.data, "MEAN", settings)
     return limit
 
 
@@ -157,7 +159,10 @@ def _plain(name, colour):
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
-    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    emission, output = (
+        tree.nodes.new("ShaderNodeEmission"),
+        tree.nodes.new("ShaderNodeOutputMaterial"),
+    )
     emission.inputs["Color"].default_value = (*colour, 1)
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
     return material
@@ -196,7 +201,7 @@ def _bar_box(rows):
 
 def _bar(sheet, rows):
     left, top, right, bottom = _bar_box(rows)
-    linear = colours.colours(np.linspace(-1, 1, right - left), (-1.0, 1.0), True)[:, :3]
+    linear = measures.colours_of(np.linspace(-1, 1, right - left), (-1.0, 1.0), True)[:, :3]
     sheet[top:bottom, left:right] = np.where(
         linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055
     )

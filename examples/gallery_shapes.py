@@ -20,7 +20,9 @@ class View:
     turn: float = 0.0  # degrees about the vertical
     elevation: float = 17.0  # degrees, of the camera
     stripes: int = 7
-    contrast: float = 1.25  # the end of the colours over the 90th percentile of total curvature's surface
+    contrast: float = (
+        1.25  # the end of the colours over the 90th percentile of total curvature's surface
+    )
     dots: bool = False  # on the control vertices
 
 
@@ -49,7 +51,9 @@ def octahedron(_folder):
 def torus(_folder, around=8, across=6):
     """The Clifford torus: of all tori the one that bends least."""
     a, b = np.meshgrid(
-        2 * np.pi * np.arange(around) / around, 2 * np.pi * np.arange(across) / across, indexing="ij"
+        2 * np.pi * np.arange(around) / around,
+        2 * np.pi * np.arange(across) / across,
+        indexing="ij",
     )
     ring = 2**0.5 + np.cos(b)
     points = np.stack([ring * np.cos(a), ring * np.sin(a), np.sin(b)], -1).reshape(-1, 3)
@@ -121,7 +125,9 @@ SHAPES = {
     "torus": Shape(torus, 4, View(turn=10, elevation=38, stripes=6)),
     "suzanne": Shape(suzanne, 3, View(turn=24, stripes=3)),
     "hull": Shape(
-        tipped(lambda _folder: control_meshes.hull(), -30), 4, View(turn=-65, stripes=12, contrast=1)
+        tipped(lambda _folder: control_meshes.hull(), -30),
+        4,
+        View(turn=-65, stripes=12, contrast=1),
     ),
     "bob": Shape(from_file("bob_small.ply"), 3, View(turn=150, elevation=25, stripes=5)),
     "cat_head": Shape(from_file("cat_head.obj"), 3, View(turn=20, stripes=5)),

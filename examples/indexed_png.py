@@ -57,7 +57,9 @@ def _median_cut(points, counts, colours):
         share = np.cumsum(counts[box])
         cut = int(np.clip(np.searchsorted(share, share[-1] / 2), 1, len(box) - 1))
         boxes += [box[:cut], box[cut:]]
-    return np.array([np.average(points[box], axis=0, weights=counts[box]) for box in boxes], np.float32)
+    return np.array(
+        [np.average(points[box], axis=0, weights=counts[box]) for box in boxes], np.float32
+    )
 
 
 def _nearest(points, palette):

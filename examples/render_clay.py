@@ -27,7 +27,9 @@ def clay():
 def creased_edges(mesh):
     """Ids of the edges with a crease weight, in ascending order."""
     creases = mesh.attributes.get("crease_edge")
-    return [] if creases is None else [i for i, crease in enumerate(creases.data) if crease.value > 0]
+    return (
+        [] if creases is None else [i for i, crease in enumerate(creases.data) if crease.value > 0]
+    )
 
 
 def _matte(name, colour, roughness):

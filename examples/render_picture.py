@@ -40,7 +40,9 @@ def compose(pairs, path):
         row, column = divmod(i, COLUMNS)
         for below, tile in enumerate(pair):
             top = (2 * row + below) * height
-            _lay(sheet[top : top + height, column * width : (column + 1) * width], load_pixels(tile))
+            _lay(
+                sheet[top : top + height, column * width : (column + 1) * width], load_pixels(tile)
+            )
     _save(sheet, path)
 
 

@@ -114,7 +114,10 @@ def _ink():
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
-    emission, output = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeOutputMaterial")
+    emission, output = (
+        tree.nodes.new("ShaderNodeEmission"),
+        tree.nodes.new("ShaderNodeOutputMaterial"),
+    )
     emission.inputs["Color"].default_value = (*INK, 1)
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
     return material

@@ -64,7 +64,10 @@ FIGURES = {
             Variant("Control mesh", as_it_is=True),
             *(
                 Variant(name, {"energy": key})
-                for key, name in (("THIN_PLATE", "Thin Plate"), ("TOTAL_CURVATURE", "Total Curvature"))
+                for key, name in (
+                    ("THIN_PLATE", "Thin Plate"),
+                    ("TOTAL_CURVATURE", "Total Curvature"),
+                )
             ),
         ),
         SMOOTH | {"levels": 5},

@@ -119,7 +119,9 @@ def _light(name, location, size, watts, colour, shadow=True):
     lamp = bpy.data.objects.new(name, light)
     bpy.context.scene.collection.objects.link(lamp)
     lamp.location = location
-    lamp.rotation_euler = (Vector(location) - Vector((0, 0, 0.8))).to_track_quat("Z", "Y").to_euler()
+    lamp.rotation_euler = (
+        (Vector(location) - Vector((0, 0, 0.8))).to_track_quat("Z", "Y").to_euler()
+    )
 
 
 def _camera(scene):

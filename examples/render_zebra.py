@@ -50,7 +50,9 @@ def _zebra(stripes):
 
     emission = graph.node("ShaderNodeEmission")
     graph.link(colour.outputs["Result"], emission.inputs["Color"])
-    grey = graph.node("ShaderNodeBsdfDiffuse")  # what the floor sees: stripes shall not light the room
+    grey = graph.node(
+        "ShaderNodeBsdfDiffuse"
+    )  # what the floor sees: stripes shall not light the room
     seen = graph.node("ShaderNodeLightPath")
     mix = graph.node("ShaderNodeMixShader")
     graph.link(seen.outputs["Is Camera Ray"], mix.inputs[0])

@@ -149,7 +149,8 @@ def _lathe(profile, sides):
     vertices = [(0, 0, profile[0][1]), (0, 0, profile[-1][1])]
     for radius, height in profile:
         vertices += [
-            (radius * cos(2 * pi * k / sides), radius * sin(2 * pi * k / sides), height) for k in range(sides)
+            (radius * cos(2 * pi * k / sides), radius * sin(2 * pi * k / sides), height)
+            for k in range(sides)
         ]
     faces = []
     last = 2 + (len(profile) - 1) * sides

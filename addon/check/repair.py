@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Repairs of the user's own mesh, each on its own button: through BMesh, so that UV maps, weights and the like stay."""
+"""Repairs of the user's own mesh, each on a button, by BMesh: UV maps and weights stay."""
+
+from collections.abc import Callable
+from typing import Any
 
 import bmesh
 
-from .selection import elements_of
+from ..blender import Object
+from .defects import elements_of
 
 
-def repair(target, defect):
-    """Mends one `defect` (a dict of record.check_object) of `target`, which is in Edit Mode and unchanged since the check."""
+def repair(target: Object, defect: dict[str, Any]) -> None:
+    """Mends one `defect` (a dict of defects.check_object) of `target`, which is in Edit Mode and
+    unchanged since the check.
+    """
     bm = bmesh.from_edit_mesh(target.data)
     chosen = elements_of(bm, defect["kind"], defect["elements"])
     _REPAIRS[defect["code"]][1](bm, chosen)
@@ -15,31 +21,31 @@ def repair(target, defect):
     target.update_from_editmode()
 
 
-def label(code):
+def label(code: str) -> str | None:
     """What the button says, or None if no command truly mends this."""
     return _REPAIRS[code][0] if code in _REPAIRS else None
 
 
-def _flip(bm, faces):
+def _flip(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -> None:
     # those that the core would turn over: the fewer ones of each part
     bmesh.ops.reverse_faces(bm, faces=faces)
 
 
-def _merge(bm, vertices):
+def _merge(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
     bmesh.ops.remove_doubles(bm, verts=vertices, dist=_tiny(bm))
 
 
-def _dissolve(bm, faces):
+def _dissolve(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -> None:
     edges = list({edge for face in faces for edge in face.edges})
     bmesh.ops.dissolve_degenerate(bm, dist=_tiny(bm), edges=edges)
 
 
-def _delete_loose(bm, vertices):
+def _delete_loose(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
     loose = [vertex for vertex in vertices if not vertex.link_faces]
     bmesh.ops.delete(bm, geom=loose, context="VERTS")
 
 
-def _delete_duplicates(bm, faces):
+def _delete_duplicates(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -> None:
     seen, extra = set(), []
     for face in faces:
         key = frozenset(face.verts)
@@ -47,15 +53,17 @@ def _delete_duplicates(bm, faces):
     bmesh.ops.delete(bm, geom=extra, context="FACES_ONLY")
 
 
-def _tiny(bm):
+def _tiny(bm: bmesh.types.BMesh) -> float:
     """A distance that no one can see: a millionth of the mesh's size."""
-    points = [v.co for v in bm.verts if all(abs(x) < 1e30 for x in v.co)]
+    points: list[Any] = [v.co for v in bm.verts if all(abs(x) < 1e30 for x in v.co[:])]
     if not points:
         return 1e-6
-    return 1e-6 * max(max(p[i] for p in points) - min(p[i] for p in points) for i in range(3)) or 1e-6
+    return (
+        1e-6 * max(max(p[i] for p in points) - min(p[i] for p in points) for i in range(3)) or 1e-6
+    )
 
 
-_REPAIRS = {
+_REPAIRS: dict[str, tuple[str, Callable[[bmesh.types.BMesh, list[Any]], None]]] = {
     "INCONSISTENT_ORIENTATION": ("Turn Faces Over", _flip),
     "COINCIDENT_VERTICES": ("Merge by Distance", _merge),
     "REPEATED_VERTEX": ("Degenerate Dissolve", _dissolve),

@@ -1,74 +1,154 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switches what an object shows: itself, zebra stripes, or its curvature."""
+"""Switches what an object shows: itself, zebra stripes, or curvature as colours of its mesh."""
 
-import bpy
+from typing import Any
 
-from . import attributes, override
-from .curvature_material import MODE as CURVATURE
-from .curvature_material import curvature_material
-from .zebra import zebra_material
+from ..blender import Mesh, Object, all_objects
+from ..mesh.layers import fill_layer, layer_values, make_layer
+from ..mesh.modifiers import inspection_modifier
+from ..mesh.read import read_mesh
+from . import measures, viewport_material
+from .curvature import curvature
+from .materials import COLOUR, CURVATURE_MODE, ZEBRA_MODE, curvature_material, zebra_material
 
-CURVATURES = tuple(attributes.VALUES)
+VALUES = {
+    "MEAN": "fair_mean_curvature",
+    "GAUSS": "fair_gauss_curvature",
+    "TOTAL": "fair_total_curvature",
+}
+# false at borders and sharp edges, whose values come from the neighbours
+INNER = "fair_curvature_measured"
+
+CURVATURES = tuple(VALUES)
 
 
-def show(target, mode, settings):
-    """Makes `target` (a mesh object) show `mode`: NONE, ZEBRA, MEAN, GAUSS or TOTAL. Its own materials are not touched.
+def write_values(mesh: Mesh) -> None:
+    """Measures `mesh` (bpy.types.Mesh, not in Edit Mode) and stores all three curvatures at its
+    vertices.
+    """
+    bent = curvature(read_mesh(mesh))
+    for name, values in zip(VALUES.values(), (bent.mean, bent.gauss, bent.total), strict=True):
+        fill_layer(make_layer(mesh, name, "FLOAT", "POINT"), values)
+    fill_layer(make_layer(mesh, INNER, "BOOLEAN", "POINT"), bent.inner)
+
+
+def have_values(mesh: Mesh) -> bool:
+    """Whether write_values ran on this mesh."""
+    return all(name in mesh.attributes for name in (*VALUES.values(), INNER))
+
+
+def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
+    """Colours of one of the stored curvatures.
+
+    `settings`: range_low, range_high, use_fixed_range, fixed_range.
+    """
+    values = layer_values(mesh.attributes[VALUES[mode]])
+    inner = layer_values(mesh.attributes[INNER])
+    signed = mode != "TOTAL"
+    if settings.use_fixed_range:
+        limits = (-settings.fixed_range if signed else 0.0, settings.fixed_range)
+    else:
+        limits = measures.value_range(
+            values, inner, signed, settings.range_low, settings.range_high
+        )
+    _remember_active(mesh)
+    rgba = measures.colours_of(values, limits, signed)
+    fill_layer(make_layer(mesh, COLOUR, "FLOAT_COLOR", "POINT"), rgba)
+    mesh.color_attributes.active_color = mesh.color_attributes[COLOUR]  # what Solid shading shows
+    mesh.discrete_fairing.curvature_range = limits
+    mesh.update()
+
+
+def remove_values(mesh: Mesh) -> None:
+    """Takes all of it off the mesh again and makes the colours active that were."""
+    for name in (*VALUES.values(), INNER, COLOUR):
+        attribute = mesh.attributes.get(name)
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+    before = mesh.color_attributes.get(mesh.discrete_fairing.active_colour)
+    if before is not None:
+        mesh.color_attributes.active_color = before
+    for name in ("active_colour", "curvature_range"):
+        mesh.discrete_fairing.property_unset(name)
+
+
+def legend(mesh: Mesh) -> tuple[float, ...] | None:
+    """(lowest, highest) of the measures, or None."""
+    known = mesh.discrete_fairing
+    return tuple(known.curvature_range) if known.is_property_set("curvature_range") else None
+
+
+def _remember_active(mesh: Mesh) -> None:
+    active = mesh.color_attributes.active_color
+    if active is not None and active.name != COLOUR:
+        mesh.discrete_fairing.active_colour = active.name
+
+
+def show(target: Object, mode: str, settings: Any) -> None:
+    """Makes `target` (a mesh object) show `mode`: NONE, ZEBRA, MEAN, GAUSS or TOTAL. Its own
+    materials are not touched.
 
     In Edit Mode no curvature is measured: call `refresh` afterwards.
     """
     if mode not in CURVATURES:
         _clear_attributes(target)
     if mode == "NONE":
-        override.take_off(target)
+        viewport_material.take_off(target)
     elif mode == "ZEBRA":
-        override.put_on(target, "ZEBRA", zebra_material(settings), settings.smooth)
+        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings.smooth)
     else:
         if target.mode != "EDIT":
-            attributes.write_values(target.data)
-            attributes.write_colours(target.data, mode, settings)
-        override.put_on(target, CURVATURE, curvature_material(), settings.smooth)
+            write_values(target.data)
+            write_colours(target.data, mode, settings)
+        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings.smooth)
 
 
-def refresh(target, settings):
-    """Measures anew what `target` shows; for after its mesh was changed or replaced. Nothing to do if it shows itself."""
+def refresh(target: Object, settings: Any) -> None:
+    """Measures anew what `target` shows; for after its mesh was changed or replaced.
+
+    Nothing to do if it shows itself.
+    """
     mode = target.discrete_fairing_inspection.mode
     if mode != "NONE":
         show(target, mode, settings)
 
 
-def remeasure(target, settings):
-    """Measures anew the curvature that `target` shows; for after its points have moved. Nothing to do if it shows none."""
+def remeasure(target: Object, settings: Any) -> None:
+    """Measures anew the curvature that `target` shows; for after its points have moved.
+
+    Nothing to do if it shows none.
+    """
     mode = target.discrete_fairing_inspection.mode
     if mode in CURVATURES:
-        attributes.write_values(target.data)
-        attributes.write_colours(target.data, mode, settings)
+        write_values(target.data)
+        write_colours(target.data, mode, settings)
 
 
-def recolour(target, settings):
+def recolour(target: Object, settings: Any) -> None:
     """Colours by other limits what was measured before."""
     mode = target.discrete_fairing_inspection.mode
     if mode in CURVATURES and target.mode != "EDIT":
-        if not attributes.have_values(target.data):
-            attributes.write_values(target.data)
-        attributes.write_colours(target.data, mode, settings)
+        if not have_values(target.data):
+            write_values(target.data)
+        write_colours(target.data, mode, settings)
 
 
-def set_smooth(target, settings):
+def set_smooth(target: Object, settings: Any) -> None:
     """Shades `target` smooth or not while it is inspected."""
-    modifier = override.find(target)
+    modifier = inspection_modifier(target)
     if modifier is not None:
-        override.set_smooth(modifier.node_group, settings.smooth)
+        viewport_material.set_smooth(modifier.node_group, settings.smooth)
 
 
-def _clear_attributes(target):
+def _clear_attributes(target: Object) -> None:
     if target.mode != "EDIT" and not _shared_with_others(target):
-        attributes.remove(target.data)
+        remove_values(target.data)
 
 
-def _shared_with_others(target):
+def _shared_with_others(target: Object) -> bool:
     """Whether another object shows the curvature of the same mesh."""
     return target.data.users > 1 and any(
         other.discrete_fairing_inspection.mode in CURVATURES
-        for other in bpy.data.objects
+        for other in all_objects()
         if other.data == target.data and other != target
     )

@@ -1,14 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers of the read-out: plain arrays, no Blender."""
+"""The numbers of the read-out, and the colours of curvature: plain arrays, no Blender."""
+
+from typing import Any
 
 import numpy as np
 
-from .curvature import curvature
-from .polygons import face_normals, faces_of_edges, uses
+from ..core import ControlArrays
+from .curvature import Curvature, curvature, face_normals, faces_of_edges, uses
+
+# even steps from the lowest value to the highest, sRGB
+_SIGNED = (
+    (18, 44, 128),
+    (52, 118, 196),
+    (142, 196, 226),
+    (236, 236, 230),
+    (246, 182, 112),
+    (220, 86, 52),
+    (128, 12, 38),
+)
+_AMOUNT = (
+    (238, 238, 230),
+    (196, 222, 214),
+    (128, 190, 190),
+    (240, 206, 110),
+    (236, 128, 60),
+    (196, 44, 50),
+    (96, 8, 54),
+)
 
 
-def measure(arrays):
-    """What can be said of one mesh (see polygons) in numbers, as plain floats and ints; angles in degrees.
+def measure(arrays: ControlArrays) -> dict[str, Any]:
+    """What can be said of one mesh in numbers, as plain floats and ints; angles in
+    degrees.
 
     Curvature is left out at borders and edges marked sharp, where it is not defined.
     """
@@ -26,20 +49,23 @@ def measure(arrays):
     }
 
 
-def total_curvature(bent):
+def total_curvature(bent: Curvature) -> float:
     """∫ κ₁² + κ₂² as a sum over the vertices where it is measured."""
     return float((bent.total * bent.area)[bent.inner].sum())
 
 
-def worst_folds(arrays):
-    """The largest angles between two faces that share an edge, in degrees: (over smooth edges, over all edges)."""
+def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
+    """The largest angles between two faces that share an edge, in degrees: (over smooth edges, over
+    all edges).
+    """
     angles, inside = fold_angles(arrays)
     smooth = inside if arrays.sharp_edge is None else inside & ~arrays.sharp_edge
     return float(angles[smooth].max(initial=0.0)), float(angles[inside].max(initial=0.0))
 
 
-def fold_angles(arrays):
-    """(e,) angles in degrees between the normals of each edge's two faces, and (e,) bool where there are two.
+def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
+    """(e,) angles in degrees between the normals of each edge's two faces, and (e,) bool where
+    there are two.
 
     Two faces that run the wrong way round along their edge are compared as if one were turned over.
     """
@@ -57,21 +83,60 @@ def fold_angles(arrays):
     return np.degrees(2.0 * np.arctan2(apart, together)), inside
 
 
-def percentiles(values, *ranks):
+def percentiles(values: np.ndarray, *ranks: float) -> list[float]:
     """Floats at the `ranks` (0 to 100) of the finite `values`; zeros if there are none."""
     values = values[np.isfinite(values)]
     return [float(v) for v in np.percentile(values, ranks)] if len(values) else [0.0] * len(ranks)
 
 
-def largest_deviation(control, result):
-    """How far the first vertices of `result` (N, 3), which stand for those of `control` (n, 3), are from them; None if fewer."""
+def largest_deviation(control: np.ndarray, result: np.ndarray) -> float | None:
+    """How far the first vertices of `result` (N, 3), which stand for those of `control` (n, 3), are
+    from them; None if fewer.
+    """
     if len(result) < len(control) or not len(control):
         return None
     return float(np.linalg.norm(result[: len(control)] - control, axis=1).max())
 
 
-def _same_way(arrays):
+def _same_way(arrays: ControlArrays) -> np.ndarray:
     """(e,) bool: edges that their faces run along in the same direction."""
     forward = arrays.edges[arrays.corner_edges, 0] == arrays.corners
     total = np.bincount(arrays.corner_edges, weights=forward, minlength=len(arrays.edges))
     return total != 1
+
+
+def value_range(
+    values: np.ndarray, inner: np.ndarray, signed: bool, low: float, high: float
+) -> tuple[float, float]:
+    """(lowest, highest) value that gets a colour of its own: the percentiles `low` and `high` of
+    `values` where `inner`.
+
+    `signed`: as far below zero as above, so that flat is always the middle colour.
+    """
+    below, above = percentiles(values[inner], low, high)
+    if signed:
+        above = max(abs(below), abs(above))
+        below = -above
+    elif below >= above:
+        below = min(below, 0.0)
+    return (below, above) if above > below else (below, below + 1.0)
+
+
+def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
+    """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; beyond them the end
+    colours.
+    """
+    stops = np.array(_SIGNED if signed else _AMOUNT) / 255.0
+    low, high = limits
+    at = np.clip((values - low) / (high - low), 0.0, 1.0)
+    if not signed:  # a sum of squares: its root has even steps
+        at = np.sqrt(at)
+    at *= len(stops) - 1
+    rgba = np.ones((len(values), 4), np.float32)
+    for channel in range(3):
+        rgba[:, channel] = _linear(np.interp(at, np.arange(len(stops)), stops[:, channel]))
+    return rgba
+
+
+def _linear(srgb: np.ndarray) -> np.ndarray:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

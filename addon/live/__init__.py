@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces that follow while their sources are edited: `watch` hears of edits, a `session` follows them."""
+"""Surfaces that follow their sources while these are edited."""

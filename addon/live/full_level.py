@@ -1,89 +1,94 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surface at all its levels, once edits pause: computed on a thread, so that the next edit can begin."""
+"""The surface at all its levels, once edits pause: on a thread, so that the next edit can begin."""
 
-from .. import native
-from ..check import messages
-from ..run.job import Job
-from ..run.job_error import JobCancelled, JobError
-from ..run.progress import phase_text
-from ..run.queue import Queue
+from typing import Any
+
+import numpy as np
+
+from .. import core, errors
+from ..blender import Context, Object
+from ..job import Job
+from ..queue import Queue, phase_text
 
 PAUSE = 0.3  # seconds without an edit
-_EDITING = (
-    "TRANSFORM_OT_",
-    "MESH_OT_",
-    "SCULPT_OT_",
-    "VIEW3D_OT_edit_mesh_",
-)  # modal operators of these are edits
+# modal operators of these are edits
+_EDITING = ("TRANSFORM_OT_", "MESH_OT_", "SCULPT_OT_", "VIEW3D_OT_edit_mesh_")
 
 
 class FreshSolver:
-    """A solver about the shape that the mesh has now, with its first surface: what the next edit starts from.
+    """A solver about the shape that the mesh has now, with its first surface: what the next edit
+    starts from.
 
     The one in use keeps the charts of the shape that it was made for, and may be needed meanwhile.
     """
 
     triangles = 0  # for the bar: little beside the full level
 
-    def __init__(self, name, arguments):
+    def __init__(self, name: str, arguments: dict[str, Any]) -> None:
         self.name = name
         self._arguments = arguments
         self.solver = None
 
-    def compute(self, monitor=None):
-        core = native.core()
-        try:
-            solver = core.Solver(**self._arguments)
+    def compute(self, monitor: Any = None) -> None:
+        with errors.explained(self.name):
+            solver = core.module().Solver(**self._arguments)
             solver.solve(monitor=monitor)
-        except core.FairingError as error:
-            kind = JobCancelled if error.code == "CANCELLED" else JobError
-            raise kind(messages.error_text(self.name, error), error.code) from error
         self.solver = solver
 
 
 class FullLevel:
     """A run of the job that Recompute does, and then of a fresh solver."""
 
-    def __init__(self, context, source, target, region, arguments):
-        """Reads; raises JobError. Then `start` or `compute`. `arguments`: of the live solver, for `region` or all faces."""
+    def __init__(
+        self,
+        context: Context,
+        source: Object,
+        target: Object,
+        region: np.ndarray | None,
+        arguments: dict[str, Any],
+    ) -> None:
+        """Reads; raises JobError. Then `start` or `compute`.
+
+        `arguments`: of the live solver, for `region` or all faces.
+        """
         self.job = Job(context, source, target.discrete_fairing, target, region)
         self._fresh = FreshSolver(source.name, {**arguments, "vertices": self.job.arrays.positions})
-        self._queue = Queue([self.job, self._fresh], native.core().Monitor)
+        self._queue = Queue([self.job, self._fresh], core.module().Monitor)
 
-    def start(self):
+    def start(self) -> None:
         """Computes on a thread."""
         self._queue.start()
 
-    def compute(self):
+    def compute(self) -> None:
         """The surface alone, at once; raises JobError."""
         self.job.compute()
 
     @property
-    def finished(self):
+    def finished(self) -> bool:
         return self._queue.finished
 
     @property
-    def solver(self):
+    def solver(self) -> Any:
         """The fresh solver, None if there is none."""
         return self._fresh.solver
 
     @property
-    def error(self):
+    def error(self) -> str | None:
         """Why there is no surface, a sentence; None if there is one."""
         return self._queue.error
 
     @property
-    def text(self):
+    def text(self) -> str:
         """How far it is: `Fairing, 45 %`."""
         return f"{phase_text(self._queue.phase)}, {100 * self._queue.fraction:.0f} %"
 
-    def cancel(self, wait=False):
+    def cancel(self, wait: bool = False) -> None:
         self._queue.cancel()
         if wait:
             self._queue.join()
 
 
-def is_editing(context):
+def is_editing(context: Context) -> bool:
     """Whether an edit is still going on: a mouse that drags, an animation that plays."""
     for window in context.window_manager.windows:
         if window.screen.is_animation_playing:

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which level and energy can be kept up with: those chosen, or less where updates would be slow. No Blender."""
+"""Which level and energy can be kept up with: those chosen, or less where updates would be slow.
+
+No Blender.
+"""
 
 from time import monotonic
 
-MOST = 250_000  # triangles; beyond them the level is lowered from the start
+MAX_TRIANGLES = 250_000  # triangles; beyond them the level is lowered from the start
 SLOW = 0.25  # seconds; updates that take longer lower the level by one
 IN_A_ROW = 2  # so many of them: one alone may be the machine's doing
 LIMIT = 1.5  # seconds; a solve that takes longer is broken off
@@ -13,31 +16,34 @@ FAST = "thin_plate"
 class Pace:
     """The live level and energy of one surface."""
 
-    def __init__(self):
-        self._too_slow = None  # the lowest level that was
+    def __init__(self) -> None:
+        self._too_slow: int | None = None  # the lowest level that was
         self._slow_ones = 0  # in a row
         self.is_plain = False  # whether the fastest energy has to stand in
 
-    def level(self, chosen, coarse_triangles):
+    def level(self, chosen: int, coarse_triangles: int) -> int:
         """The highest level up to `chosen` that can be kept up with; 1 whatever it takes."""
         level = chosen
-        while level > 1 and coarse_triangles * 4**level > MOST:
+        while level > 1 and coarse_triangles * 4**level > MAX_TRIANGLES:
             level -= 1
         return level if self._too_slow is None else max(1, min(level, self._too_slow - 1))
 
-    def energy(self, chosen):
+    def energy(self, chosen: str) -> str:
         """`chosen`, or the fastest where that has been too slow."""
         return FAST if self.is_plain else chosen
 
-    def note(self, level, energy, seconds):
+    def note(self, level: int, energy: str, seconds: float) -> None:
         """Learns how long an update took."""
         self._slow_ones = self._slow_ones + 1 if seconds > SLOW else 0
         if self._slow_ones == IN_A_ROW:
             self._slow_ones = 0
             self.slow_down(level, energy, hopeless=False)
 
-    def slow_down(self, level, energy, hopeless):
-        """Less from now on: the fastest energy where levels will not help, else one level. Whether there is less."""
+    def slow_down(self, level: int, energy: str, hopeless: bool) -> bool:
+        """Less from now on: the fastest energy where levels will not help, else one level.
+
+        Whether there is less.
+        """
         if energy != FAST and (hopeless or level == 1):
             self.is_plain, self._too_slow = True, None
             return True
@@ -48,10 +54,10 @@ class Pace:
 class Deadline:
     """The core's `progress`: breaks a solve off that takes too long."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._end = monotonic() + LIMIT
         self.is_over = False
 
-    def __call__(self, _fraction, _phase):
+    def __call__(self, _fraction: float, _phase: str) -> bool:
         self.is_over = monotonic() > self._end
         return not self.is_over

@@ -1,31 +1,66 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces that are live. It exists while Blender runs: files do not keep it."""
+"""The surfaces that are live. It exists while Blender runs: files do not keep it.
 
+Objects are remembered so that undo and deleting, which leave pointers to nowhere, do no harm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING, cast
 
-from .reference import key
+import bpy
 
-_sessions = {}  # target key: Session
-_endings = {}  # target key: why it ended by itself, a sentence
+from ..blender import Object, all_objects
+from ..mesh.object import session_key
+
+if TYPE_CHECKING:
+    from .session import Session
+
+
+_sessions: dict[int | str, Session] = {}  # target key: Session
+_endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sentence
 _quiet = 0
 
 
-def sessions():
+class Reference:
+    """Finds its object again; None once that is gone."""
+
+    def __init__(self, target: Object) -> None:
+        self.key = session_key(target)
+        self._name = target.name
+
+    def find(self) -> Object | None:
+        target = cast(Object | None, bpy.data.objects.get(self._name))
+        if target is None or session_key(target) != self.key:
+            target = next((o for o in all_objects() if session_key(o) == self.key), None)
+        if target is not None:
+            self._name = target.name
+        return target
+
+
+def is_in_a_scene(target: Object) -> bool:
+    """Deleting takes an object out of its scenes; it goes itself only if nobody else refers to it."""
+    return any(scene.objects.get(target.name) == target for scene in bpy.data.scenes)
+
+
+def sessions() -> list[Session]:
     """All of them, as a list that may be changed behind."""
     return list(_sessions.values())
 
 
-def session_of(target):
+def session_of(target: Object) -> Session | None:
     """The Session of a faired object, or None."""
-    return _sessions.get(key(target))
+    return _sessions.get(session_key(target))
 
 
-def add(session):
+def add(session: Session) -> None:
     _sessions[session.key] = session
     _endings.pop(session.key, None)
 
 
-def remove(session, reason=""):
+def remove(session: Session, reason: str = "") -> None:
     """Ends a session; `reason` if it was not switched off."""
     session.cancel_full(wait=True)
     _sessions.pop(session.key, None)
@@ -33,20 +68,20 @@ def remove(session, reason=""):
         _endings[session.key] = reason
 
 
-def clear():
+def clear() -> None:
     """Ends all."""
     for session in sessions():
         remove(session)
     _endings.clear()
 
 
-def why_ended(target):
+def why_ended(target: Object) -> str:
     """Why the surface is not live any more, a sentence; empty if it never was or was switched off."""
-    return _endings.get(key(target), "")
+    return _endings.get(session_key(target), "")
 
 
 @contextmanager
-def quiet():
+def quiet() -> Iterator[None]:
     """Inside the `with`, what changes is our own doing."""
     global _quiet
     _quiet += 1
@@ -56,5 +91,5 @@ def quiet():
         _quiet -= 1
 
 
-def is_quiet():
+def is_quiet() -> bool:
     return _quiet > 0

@@ -1,27 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One live surface: its source, its solver, its mesh. Called by `watch`, on Blender's main thread."""
+"""One live surface: its source, its solver, its mesh.
 
+Called by `handlers`, on Blender's main thread.
+"""
+
+from collections.abc import Collection
+from contextlib import AbstractContextManager
 from time import monotonic, perf_counter
+from typing import Any
 
 import bpy
 import numpy as np
 
-from .. import native
-from ..check import messages
+from .. import core, errors, size
+from ..blender import Context, Mesh, Object, current_context
+from ..core import ControlArrays, are_equal, fair_arguments, without_vertices
+from ..errors import JobError
 from ..inspection import display
+from ..mesh.layers import read_data
+from ..mesh.object import session_key
+from ..mesh.read import control_mesh, read_mesh, selected_faces
+from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
-from ..request import size
-from ..request.arguments import fair_arguments
-from ..run.job_error import JobError
-from ..settings.properties import snapshot
-from . import update
+from ..settings import is_evaluated, snapshot
 from .full_level import PAUSE, FullLevel, is_editing
-from .geometry import read_arrays, read_region, read_surface_data
-from .inputs import fixed, same
 from .pace import Deadline, Pace
-from .reference import Reference, is_in_a_scene, key
+from .registry import Reference, is_in_a_scene
 
-# what is enough to look at, and mostly one step an update; the full level has the core's own accuracy
+# what is enough to look at, and mostly one step an update; the full level has the core's own
+# accuracy
 _RESIDUAL = 1e-3
 _STEP = 1e-2
 
@@ -31,72 +38,92 @@ SURFACE_EDITED = "The surface itself is being edited: Live waits"
 
 
 class Session:
-    """Follows the source of one faired object. `trouble`: why it cannot at this moment, a sentence; empty if it can."""
+    """Follows the source of one faired object.
 
-    def __init__(self, target):
+    `trouble`: why it cannot at this moment, a sentence; empty if it can.
+    """
+
+    def __init__(self, target: Object) -> None:
         self._target = Reference(target)
         self.key = self._target.key
         self.ending = False  # switched off, but the full level is still to come
         self.trouble = ""
         self.level = 0  # of the surface shown last
         self.triangles = 0
-        self.parts = {}  # milliseconds of the last update: read, build, solve, write
+        self.parts: dict[
+            str, float
+        ] = {}  # milliseconds of the last update: read, build, solve, write
         self.updates = 0
-        self.solver = None
         self._stale = True  # the mesh may not be what was written
-        self._mesh = None  # key of the mesh that was built
-        self._due = None  # when the full level may begin
-        self._full = None
+        self._mesh: int | str | None = None  # key of the mesh that was built
+        self._due: float | None = None  # when the full level may begin
+        self._full: FullLevel | None = None
         self._forget()
 
-    def _forget(self):
+    def _forget(self) -> None:
         """Everything that was made for other settings."""
-        self.solver = self._arguments = self._arrays = self._region = self._settings = self._chosen = None
+        self.solver: Any = None
+        self._arguments: Any = None
+        self._arrays: Any = None
+        self._settings: Any = None
+        self._region: np.ndarray | None = None
+        self._chosen = 0
         self._pace = Pace()
 
-    def objects(self):
+    def objects(self) -> tuple[Object | None, Object | None]:
         """(source, target), None for what is gone."""
         target = self._target.find()
         return (target.discrete_fairing.source if target is not None else None), target
 
-    def why_gone(self):
+    def _present(self) -> tuple[Object, Object]:
+        """(source, target), which are there: nothing is asked of a session before `why_gone`."""
+        source, target = self.objects()
+        assert source is not None and target is not None
+        return source, target
+
+    def why_gone(self) -> str:
         """Why there is nothing to follow any more, a sentence; empty if there is."""
         source, target = self.objects()
         if target is None or not is_in_a_scene(target):
             return SURFACE_GONE
         return SOURCE_GONE if source is None or not is_in_a_scene(source) else ""
 
-    def needs_look(self, reshaped=()):
-        """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose geometry has changed."""
-        source, target = self.objects()
-        if self._stale or key(source) in reshaped or key(source.data) in reshaped:
+    def needs_look(self, reshaped: Collection[int | str] = ()) -> bool:
+        """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose
+        geometry has changed.
+        """
+        source, target = self._present()
+        if self._stale or session_key(source) in reshaped or session_key(source.data) in reshaped:
             return True
         return not self._has_settings_of(target)
 
-    def distrust(self):
+    def distrust(self) -> None:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
         self._stale, self._mesh = True, None
 
-    def follow(self, depsgraph):
-        """Brings the surface up to date with source and settings, at the live level. True if anything had changed."""
-        source, target = self.objects()
+    def follow(self, depsgraph: bpy.types.Depsgraph) -> bool:
+        """Brings the surface up to date with source and settings, at the live level.
+
+        True if anything had changed.
+        """
+        source, target = self._present()
         if target.mode == "EDIT":
             self.trouble, self._stale = SURFACE_EDITED, True
             return False
         try:
-            return self._follow(source, target, depsgraph)
+            with errors.explained(source.name):
+                return self._follow(source, target, depsgraph)
         except JobError as error:
             self._fail(str(error))
-        except native.core().FairingError as error:
-            self._fail(messages.error_text(source.name, error))
         return True
 
-    def _follow(self, source, target, depsgraph):
+    def _follow(self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph) -> bool:
         clock = _Clock()
         if not self._has_settings_of(target):
             self._forget()
             self._settings, self._chosen = snapshot(target.discrete_fairing), _chosen_level(target)
-        arrays = read_arrays(source, self._settings, depsgraph)
+        with self._mesh_now(source, depsgraph) as mesh:
+            arrays = read_mesh(mesh)
         clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
@@ -117,124 +144,162 @@ class Session:
         self._due = monotonic() + PAUSE
         return True
 
-    def _solve(self, source, arrays, depsgraph):
-        """The surface at a level and by an energy that can be kept up with; found out by trying, where need be."""
+    def _mesh_now(
+        self, source: Object, depsgraph: bpy.types.Depsgraph
+    ) -> AbstractContextManager[Mesh]:
+        """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
+        edit; it is only read.
+        """
+        return control_mesh(current_context(), source, is_evaluated(self._settings), depsgraph)
+
+    def _solve(self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph) -> Any:
+        """The surface at a level and by an energy that can be kept up with; found out by trying,
+        where need be.
+        """
         while True:
             deadline = Deadline()
             try:
                 return self.solver.solve(arrays.positions, progress=deadline)
-            except native.core().FairingError:
+            except core.module().FairingError:
                 if not deadline.is_over:
                     raise
                 if not self._pace.slow_down(self._level, self._arguments["energy"], hopeless=True):
                     raise
             self._prepare(source, arrays, depsgraph)
 
-    def _prepare(self, source, arrays, depsgraph):
+    def _prepare(
+        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph
+    ) -> bool:
         """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
-        if self._settings.use_selection and (self._region is None or not _same_faces(arrays, self._arrays)):
-            self._region = read_region(source, self._settings, depsgraph)
+        if self._settings.use_selection and (
+            self._region is None or not _same_faces(arrays, self._arrays)
+        ):
+            with self._mesh_now(source, depsgraph) as mesh:
+                self._region = selected_faces(mesh, source.name)
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
         arguments = fair_arguments(arrays, self._settings, preferences(), self._region)
-        arguments |= {"levels": self._level, "relative_residual": _RESIDUAL, "step_tolerance": _STEP}
+        arguments |= {
+            "levels": self._level,
+            "relative_residual": _RESIDUAL,
+            "step_tolerance": _STEP,
+        }
         arguments["energy"] = self._pace.energy(arguments["energy"])
-        if self.solver is not None and same(fixed(arguments), fixed(self._arguments)):
+        if self.solver is not None and are_equal(
+            without_vertices(arguments), without_vertices(self._arguments)
+        ):
             return False
         self.solver = self._mesh = None
-        self.solver = native.core().Solver(**arguments)
+        self.solver = core.module().Solver(**arguments)
         self._arguments = arguments
         return True
 
-    def _write(self, source, target, result, depsgraph):
-        if self._mesh != key(target.data) or not update.fits(target.data, result):
-            data = read_surface_data(source, self._settings, depsgraph)
-            update.build(target, result, self._arrays, data, self._settings, self._level)
-            self._mesh = key(target.data)
+    def _write(
+        self,
+        source: Object,
+        target: Object,
+        result: Any,
+        depsgraph: bpy.types.Depsgraph,
+    ) -> None:
+        if self._mesh != session_key(target.data) or not has_faces_of(target.data, result):
+            with self._mesh_now(source, depsgraph) as mesh:
+                data = read_data(source, mesh, is_evaluated(self._settings))
+            rebuild_mesh(target, result, self._arrays, data, self._settings, self._level)
+            self._mesh = session_key(target.data)
         else:
-            update.move(target, result)
-        display.remeasure(target, bpy.context.scene.discrete_fairing_inspection)
+            write_positions(target.data, result.vertices)
+        display.remeasure(target, current_context().scene.discrete_fairing_inspection)
         self.level = self._level
         self.triangles = len(result.faces[0]) + 2 * len(result.faces[1])
         self._stale = False
 
-    def _fail(self, sentence):
+    def _fail(self, sentence: str) -> None:
         """The last good surface stays, until the source is fine again."""
         self.cancel_full()
         self.trouble = sentence
         self._stale = False
         self._due = None
 
-    def _has_settings_of(self, target):
-        return self._settings == snapshot(target.discrete_fairing) and self._chosen == _chosen_level(target)
+    def _has_settings_of(self, target: Object) -> bool:
+        return self._settings == snapshot(
+            target.discrete_fairing
+        ) and self._chosen == _chosen_level(target)
 
     # --- the full level
 
     @property
-    def is_waiting(self):
+    def is_waiting(self) -> bool:
         """Whether the full level is still to come."""
         return self._due is not None or self._full is not None
 
-    def cancel_full(self, wait=False):
+    def cancel_full(self, wait: bool = False) -> None:
         """An edit makes the run worthless; the full level is due again."""
         if self._full is not None:
             self._full.cancel(wait)
             self._full, self._due = None, monotonic() + PAUSE
 
-    def advance(self, context):
+    def advance(self, context: Context) -> None:
         """Begins the full level when edits have paused, and writes it when it is there."""
         if self._full is not None and self._full.finished:
             self._finish(context)
-        elif self._is_due(context) and self._begin(context):
-            self._full.start()
+        elif self._is_due(context):
+            full = self._begin(context)
+            if full is not None:
+                full.start()
 
-    def _is_due(self, context):
-        return self._due is not None and (self.ending or monotonic() >= self._due) and not is_editing(context)
+    def _is_due(self, context: Context) -> bool:
+        return (
+            self._due is not None
+            and (self.ending or monotonic() >= self._due)
+            and not is_editing(context)
+        )
 
-    def complete(self, context):
+    def complete(self, context: Context) -> None:
         """The full level now, if it is due: for scripts, and where there is no window."""
-        if self._due is None or not self._begin(context):
+        full = self._begin(context) if self._due is not None else None
+        if full is None:
             return
         try:
-            self._full.compute()
+            full.compute()
         except JobError as error:
             self._full = None
             self._fail(str(error))
             return
         self._finish(context)
 
-    def _begin(self, context):
-        source, target = self.objects()
+    def _begin(self, context: Context) -> FullLevel | None:
+        source, target = self._present()
         if target.mode == "EDIT":
-            return False
+            return None
         self._due = None
         try:
             self._full = FullLevel(context, source, target, self._region, self._arguments)
         except JobError as error:
             self._fail(str(error))
-        return self._full is not None
+        return self._full
 
-    def _finish(self, context):
+    def _finish(self, context: Context) -> None:
         full, self._full = self._full, None
+        assert full is not None
         if full.error is not None:
             self._fail(full.error)
             return
-        if self.objects()[1].mode == "EDIT":
+        if self._present()[1].mode == "EDIT":
             self._due = monotonic() + PAUSE
             return
         target = full.job.write(context)
         job = full.job
         self.level, self.triangles = job.settings.levels, job.triangles
         # the same faces: the next edit need only move them
-        self._mesh = key(target.data) if job.settings.levels == self._level else None
+        self._mesh = session_key(target.data) if job.settings.levels == self._level else None
         self.solver = full.solver or self.solver
 
     @property
-    def full_text(self):
+    def full_text(self) -> str:
         """How far the full level is, in words; empty while none is computed."""
         return self._full.text if self._full is not None else ""
 
     @property
-    def slower(self):
+    def slower(self) -> list[str]:
         """What is less than chosen during edits, a line each."""
         if self._settings is None or not self.updates:
             return []
@@ -247,23 +312,23 @@ class Session:
 class _Clock:
     """Milliseconds of the parts of an update."""
 
-    def __init__(self):
-        self.parts = {}
+    def __init__(self) -> None:
+        self.parts: dict[str, float] = {}
         self._last = perf_counter()
 
-    def lap(self, name):
+    def lap(self, name: str) -> None:
         now = perf_counter()
         self.parts[name] = 1e3 * (now - self._last)
         self._last = now
 
     @property
-    def total(self):
+    def total(self) -> float:
         return sum(self.parts.values())
 
 
-def _chosen_level(target):
+def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
 
 
-def _same_faces(a, b):
-    return b is not None and same((a.corners, a.offsets), (b.corners, b.offsets))
+def _same_faces(a: ControlArrays, b: ControlArrays | None) -> bool:
+    return b is not None and are_equal((a.corners, a.offsets), (b.corners, b.offsets))

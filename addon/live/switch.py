@@ -1,18 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live on and off, and which surfaces are meant."""
+"""Live on and off for button and scripts, which surfaces are meant, and what is said of them."""
+
+from typing import Any
 
 import bpy
+from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
-from .. import native
-from . import registry, watch
-from .reference import is_in_a_scene, key
+from .. import core
+from ..blender import Context, Object, all_objects, attach, current_context, detach
+from ..mesh.object import session_key
+from ..size import count_text
+from . import handlers, registry
+from .registry import is_in_a_scene
 from .session import Session
 
+DEFAULT_LEVELS = 3
 
-def why_not(target):
+
+def poll_reason(target: Object) -> str:
     """Why this object cannot be live, in one sentence; empty if it can."""
-    if native.why_missing():
-        return native.why_missing()
+    if core.why_missing():
+        return core.why_missing()
     source = target.discrete_fairing.source if target.type == "MESH" else None
     if source is None:
         return "Select a faired surface whose source still exists"
@@ -23,37 +31,39 @@ def why_not(target):
     return ""
 
 
-def is_on(target):
+def is_on(target: Object) -> bool:
     session = registry.session_of(target)
     return session is not None and not session.ending
 
 
-def switch_on(target):
+def switch_on(target: Object) -> None:
     """Makes a faired object follow its source; nothing happens if it does, or cannot."""
     session = registry.session_of(target)
     if session is not None:
         session.ending = False
         return
-    if why_not(target):
+    if poll_reason(target):
         return
     session = Session(target)
     registry.add(session)
-    watch.look_at(session)
-    watch.wake()
+    handlers.look_at(session)
+    handlers.start_timer()
 
 
-def switch_off(target, context):
+def switch_off(target: Object, context: Context) -> None:
     """Ends it once the full level is there: in a window that comes by itself, otherwise at once."""
     session = registry.session_of(target)
     if session is None:
         return
     session.ending = True
     if bpy.app.background:
-        watch.complete(session, context)
+        handlers.complete(session, context)
 
 
-def surfaces_at_hand(context):
-    """The faired objects that the active object stands for: itself, or what is made of it (all live ones, else the last)."""
+def surfaces_at_hand(context: Context) -> list[Object]:
+    """The faired objects that the active object stands for: itself, or what is made of it (all live
+    ones, else the last).
+    """
     active = context.active_object
     if active is None or active.type != "MESH":
         return []
@@ -62,17 +72,98 @@ def surfaces_at_hand(context):
     return live_surfaces_of(active) or _surfaces_of(active)[-1:]
 
 
-def live_surfaces_of(source):
+def live_surfaces_of(source: Object) -> list[Object]:
     """The live surfaces that follow `source`."""
     pairs = [session.objects() for session in registry.sessions() if not session.ending]
     return [target for its, target in pairs if target is not None and its == source]
 
 
-def _surfaces_of(source):
-    made = [o for o in bpy.data.objects if o.type == "MESH" and o.discrete_fairing.source == source]
-    return sorted((o for o in made if not why_not(o) and is_in_a_scene(o)), key=lambda o: _age(key(o)))
+def _surfaces_of(source: Object) -> list[Object]:
+    made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
+    return sorted(
+        (o for o in made if not poll_reason(o) and is_in_a_scene(o)),
+        key=lambda o: _age(session_key(o)),
+    )
 
 
-def _age(identity):
+def _age(identity: int | str) -> int:
     """Session ids grow with time; names do not."""
     return identity if isinstance(identity, int) else 0
+
+
+def lines(target: Object) -> list[str]:
+    """A few short lines; empty if `target` is not live."""
+    session = registry.session_of(target)
+    if session is None:
+        return []
+    found = []
+    if session.triangles:
+        found.append(f"Level {session.level}: {count_text(session.triangles)}")
+        found.append(f"Last update: {sum(session.parts.values()):.1f} ms")
+    found += session.slower
+    if session.full_text:
+        found.append(f"Full level: {session.full_text}")
+    return found
+
+
+def problem(target: Object) -> str:
+    """Why `target` does not follow, or does not any more, a sentence; empty if all is well."""
+    session = registry.session_of(target)
+    return session.trouble if session is not None else registry.why_ended(target)
+
+
+def _is_on(group: Any) -> bool:
+    return is_on(group.id_data)
+
+
+def _switch(group: Any, value: Any) -> None:
+    if value:
+        switch_on(group.id_data)
+    else:
+        switch_off(group.id_data, current_context())
+
+
+def _status(group: Any) -> str:
+    said = problem(group.id_data)
+    return "\n".join([*lines(group.id_data), *([said] if said else [])])
+
+
+def _milliseconds(group: Any) -> float:
+    session = registry.session_of(group.id_data)
+    return sum(session.parts.values()) if session is not None else 0.0
+
+
+class FAIRING_PG_live(bpy.types.PropertyGroup):
+    """How a faired object follows its source. Only `levels` is kept in files."""
+
+    on: BoolProperty(
+        name="Live",
+        description="The surface follows while its source is edited. Off again after loading a file",
+        get=_is_on,
+        set=_switch,
+    )
+    levels: IntProperty(
+        name="Live Levels",
+        description="The level shown during an edit, at most the surface's own. The full level comes when the edit pauses. "
+        "Lowered automatically where updates would be slow",
+        default=DEFAULT_LEVELS,
+        min=1,
+        max=10,
+        soft_max=5,
+    )
+    status: StringProperty(
+        name="Status", description="What Live is doing, or why it has ended", get=_status
+    )
+    milliseconds: FloatProperty(
+        name="Last Update",
+        description="How long the last update took, in milliseconds",
+        get=_milliseconds,
+    )
+
+
+def register() -> None:
+    attach(bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live)
+
+
+def unregister() -> None:
+    detach(bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live)

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "execution/memory.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 

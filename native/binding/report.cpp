@@ -3,23 +3,12 @@
 
 #include <pybind11/stl.h>
 
+#include "binding/arrays.h"
+
 namespace py = pybind11;
 
 namespace fairing {
 namespace {
-
-py::list to_python(const std::vector<Warning>& warnings) {
-  py::list list;
-  for (const Warning& w : warnings) {
-    py::dict entry;
-    entry["code"] = w.code;
-    entry["message"] = w.message;
-    entry["elements"] = w.elements;
-    entry["kind"] = name(w.kind);
-    list.append(entry);
-  }
-  return list;
-}
 
 py::dict to_python(const SurfaceEnergies& e) {
   py::dict d;
@@ -41,6 +30,8 @@ py::dict to_python(const LevelReport& l) {
   d["direct"] = l.direct;
   d["converged"] = l.converged;
   d["residuals"] = l.residuals;
+  d["pad_corrections"] = l.pad_corrections;
+  d["pad_force"] = l.pad_force;
   return d;
 }
 
@@ -83,6 +74,35 @@ py::dict to_python(const ShapeReport& s) {
   return d;
 }
 
+py::dict to_python(const PadReport& p) {
+  py::dict d;
+  d["narrower"] = p.narrower;
+  d["gone"] = p.gone;
+  d["widths"] = p.widths;
+  return d;
+}
+
+py::list to_python(const std::vector<Warning>& warnings) {
+  py::list list;
+  for (const Warning& w : warnings) {
+    py::dict entry;
+    entry["code"] = w.code;
+    entry["message"] = w.message;
+    entry["elements"] = w.elements;
+    entry["kind"] = name(w.kind);
+    list.append(entry);
+  }
+  return list;
+}
+
+using VertexPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+VertexPairs in_pairs(const std::vector<std::int64_t>& ids) {
+  VertexPairs pairs;
+  for (std::size_t i = 0; i + 1 < ids.size(); i += 2) pairs.emplace_back(ids[i], ids[i + 1]);
+  return pairs;
+}
+
 }  // namespace
 
 py::dict to_python(const Report& r) {
@@ -90,8 +110,7 @@ py::dict to_python(const Report& r) {
   energy["result"] = to_python(r.result);
   energy["polyhedron"] = to_python(r.polyhedron);
   energy["prediction"] = to_python(r.prediction);
-  for (const PhaseSeconds& s : r.seconds) seconds[py::str(s.phase)] = s.seconds;
-  py::list levels, iterations, residuals;
+  py::list levels, iterations, residuals, curvature, shapes;
   bool converged = true;
   for (const LevelReport& l : r.levels) {
     levels.append(to_python(l));
@@ -99,20 +118,19 @@ py::dict to_python(const Report& r) {
     residuals.append(l.residual);
     converged &= l.converged;
   }
-  d["energy"] = energy;
-  d["levels"] = levels;
-  py::list curvature;
   for (const CurvatureLevelReport& l : r.curvature) curvature.append(to_python(l));
-  d["curvature"] = curvature;
-  d["iterations"] = iterations;
-  d["residuals"] = residuals;
-  py::list shapes;
   for (const ShapeReport& s : r.shapes) {
     shapes.append(to_python(s));
     converged &= s.finest.converged;
   }
-  d["warm"] = r.warm;
+  for (const PhaseSeconds& s : r.seconds) seconds[py::str(s.phase)] = s.seconds;
+  d["energy"] = energy;
+  d["levels"] = levels;
+  d["iterations"] = iterations;
+  d["residuals"] = residuals;
   d["converged"] = converged;
+  d["curvature"] = curvature;
+  d["warm"] = r.warm;
   d["shapes"] = shapes;
   d["seconds"] = seconds;
   d["predicted_bytes"] = r.predicted_bytes;
@@ -120,10 +138,46 @@ py::dict to_python(const Report& r) {
   d["largest_deviation"] = r.largest_deviation;
   d["constraint_rounds"] = r.constraint_rounds;
   d["constraint_gap"] = r.constraint_gap;
+  d["pads"] = to_python(r.pads);
   d["threads"] = r.threads;
   d["warnings"] = to_python(r.warnings);
   d["flipped_faces"] = r.flipped_faces;
   return d;
+}
+
+py::dict to_python(const RunSize& size) {
+  py::dict d;
+  d["vertices"] = size.points;
+  d["triangles"] = size.triangles;
+  d["bytes"] = size.bytes;
+  return d;
+}
+
+py::list to_python(const Defects& defects) {
+  py::list list;
+  for (const Defect& defect : defects) {
+    py::dict entry;
+    entry["code"] = name(defect.code);
+    entry["message"] = defect.message;
+    if (defect.kind == ElementKind::edge)
+      entry["elements"] = in_pairs(defect.elements);
+    else
+      entry["elements"] = defect.elements;
+    entry["kind"] = name(defect.kind);
+    entry["severity"] = defect.severity == Severity::error ? "error" : "warning";
+    entry["repair"] =
+        defect.repairable() ? py::object(py::str("orientation")) : py::object(py::none());
+    list.append(entry);
+  }
+  return list;
+}
+
+void add_faces(py::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_edges) {
+  to["triangles"] = to_numpy(std::move(faces.triangles), 3);
+  to["quads"] = to_numpy(std::move(faces.quads), 4);
+  to["triangle_polygon"] = to_numpy(std::move(faces.triangle_polygon), 1);
+  to["quad_polygon"] = to_numpy(std::move(faces.quad_polygon), 1);
+  to["crease_edges"] = to_numpy(std::move(crease_edges), 2);
 }
 
 }  // namespace fairing

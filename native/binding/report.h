@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run reports, as dicts and lists.
+// What the core returns, as dicts, lists and NumPy arrays: all names that the package reads stand
+// in report.cpp, and docs/numpy-api.md describes them.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include "fair/report.h"
+#include "fairing/memory_plan.h"
+#include "fairing/output.h"
+#include "fairing/report.h"
+#include "mesh/validate/check.h"
 
 namespace fairing {
 
+// Needs Python's lock; the arrays move without a copy.
 pybind11::dict to_python(const Report& report);
+pybind11::dict to_python(const RunSize& size);
+pybind11::list to_python(const Defects& defects);
+
+// Adds "triangles" (T, 3), "quads" (Q, 4), "triangle_polygon" (T,), "quad_polygon" (Q,) and
+// "crease_edges" (k, 2), all int32, to `to`.
+void add_faces(pybind11::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_edges);
 
 }  // namespace fairing

@@ -8,11 +8,13 @@
 #include <mutex>
 #include <thread>
 
-#include "execution/monitor.h"
+#include "parallel/monitor.h"
 
 namespace fairing {
 
-// A thread that runs jobs while the calling thread looks after Python: progress, Ctrl-C. It sleeps in between.
+// A thread that runs jobs, one at a time, while the calling thread looks after Python: every 25 ms
+// it reports progress and asks for Ctrl-C, and sleeps in between. The core itself never calls
+// Python.
 class Runner {
  public:
   Runner();
@@ -20,12 +22,13 @@ class Runner {
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
-  // Returns when the job is over, and throws what it has thrown. `monitor` is what the job reports to; `watcher`, the
-  // caller's own, if there is one, hears of it, and cancels it.
+  // Returns when the job is over, and throws what it has thrown, or what `progress`, a callable or
+  // None, has. `monitor` is what the job reports to. `watcher`, null or the caller's own, is told
+  // the same and passes cancels on. Call it with Python's lock held.
   void run(const std::function<void()>& job, Monitor& monitor, Monitor* watcher,
            const pybind11::object& progress);
 
-  // A job that nobody watches, such as a destructor. It must not throw.
+  // Runs a job that nobody watches, such as a destructor; it must not throw.
   void run_quietly(const std::function<void()>& job);
 
  private:

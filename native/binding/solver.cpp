@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "binding/solver.h"
-
 #include <memory>
 
 #include "binding/arrays.h"
+#include "binding/bindings.h"
 #include "binding/report.h"
 #include "binding/runner.h"
-#include "fair/fair_solver.h"
+#include "fairing/fair.h"
 
 namespace py = pybind11;
 
 namespace fairing {
 namespace {
 
-// A solver and the thread that it lives on: there its buffers stay warm.
-class KeptSolver {
+// A FairSolver and the thread that all its calls run on.
+class Solver {
  public:
-  KeptSolver(const Contiguous<double>& vertices, Contiguous<std::int64_t> corners,
-             Contiguous<std::int64_t> offsets, const FairOptions& options)
+  Solver(const Contiguous<double>& vertices, Contiguous<std::int64_t> corners,
+         Contiguous<std::int64_t> offsets, const FairOptions& options)
       : corners_(std::move(corners)), offsets_(std::move(offsets)) {
     const PolygonMesh mesh = mesh_of(vertices);
     call([&] { solver_ = std::make_unique<FairSolver>(mesh, options, monitor_); });
   }
-  ~KeptSolver() {
+  ~Solver() {
     runner_.run_quietly([&] { solver_.reset(); });
   }
 
-  // Arrays that are the same for all surfaces; read-only.
+  // The faces, which are the same for all surfaces; read-only arrays.
   py::dict constants() {
     OutputFaces faces;
     Array<std::int32_t> creases;
@@ -35,11 +34,7 @@ class KeptSolver {
       creases = solver_->creases();
     });
     py::dict d;
-    d["triangles"] = to_numpy(std::move(faces.triangles), 3);
-    d["quads"] = to_numpy(std::move(faces.quads), 4);
-    d["triangle_polygon"] = to_numpy(std::move(faces.triangle_polygon), 1);
-    d["quad_polygon"] = to_numpy(std::move(faces.quad_polygon), 1);
-    d["crease_edges"] = to_numpy(std::move(creases), 2);
+    add_faces(d, std::move(faces), std::move(creases));
     for (const auto& entry : d) entry.second.attr("setflags")(py::arg("write") = false);
     return d;
   }
@@ -67,6 +62,7 @@ class KeptSolver {
   PolygonMesh mesh_of(const Contiguous<double>& vertices) const {
     return {as_span(vertices), as_span(corners_), as_span(offsets_)};
   }
+  // A monitor serves one call: it never goes back, and stays cancelled once it is.
   template <class Job>
   void call(Job&& job, Monitor* watcher = nullptr, const py::object& progress = py::none()) {
     std::destroy_at(&monitor_);
@@ -90,16 +86,16 @@ class KeptSolver {
 }  // namespace
 
 void bind_solver(py::module_& m) {
-  py::class_<KeptSolver>(m, "Solver")
+  py::class_<Solver>(m, "Solver", "discrete_fairing.Solver on plain arrays.")
       .def(py::init<const Contiguous<double>&, Contiguous<std::int64_t>, Contiguous<std::int64_t>,
                     const FairOptions&>(),
-           py::arg("vertices").noconvert(), py::arg("corners").noconvert(), py::arg("offsets").noconvert(),
-           py::arg("options"))
-      .def("constants", &KeptSolver::constants)
-      .def("solve", &KeptSolver::solve, py::arg("vertices").noconvert(), py::arg("monitor").none(true),
+           py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
+           py::arg("offsets").noconvert(), py::arg("options"))
+      .def("constants", &Solver::constants)
+      .def("solve", &Solver::solve, py::arg("vertices").noconvert(), py::arg("monitor").none(true),
            py::arg("progress"))
-      .def("rebase", &KeptSolver::rebase, py::arg("vertices").noconvert())
-      .def_property_readonly("bytes", &KeptSolver::bytes);
+      .def("rebase", &Solver::rebase, py::arg("vertices").noconvert())
+      .def_property_readonly("bytes", &Solver::bytes);
 }
 
 }  // namespace fairing

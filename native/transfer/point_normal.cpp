@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lattice/accumulate.h"
+#include "grid/runs.h"
 
 namespace fairing {
 namespace {
@@ -22,30 +22,29 @@ void put(const Vec3& p, double* to) {
 
 }  // namespace
 
-void prolong_with_normals(const Lattice& coarse, const Lattice& fine, Workers& workers, const double* x,
-                          const double* normal, double* y) {
+void prolong_with_normals(const GridLevel& coarse, const GridLevel& fine, Workers& workers,
+                          const double* x, const double* normal, double* y) {
   const ControlMesh& mesh = coarse.mesh();
   const int n = coarse.n();
   std::copy_n(x, 3 * std::size_t(mesh.vertex_count()), y);
-  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
-                    [&](std::size_t begin, std::size_t end) {
-                      std::vector<double> run(lane_stride(n)), normals(lane_stride(n));
-                      for (Index e = Index(begin); e < Index(end); ++e) {
-                        gather_edge(coarse, x, e, run.data());
-                        gather_edge(coarse, normal, e, normals.data());
-                        double* to = y + 3 * std::size_t(fine.edge_base(e));
-                        for (int k = 1; k < 2 * n; ++k, to += 3) {
-                          const std::size_t at = 3 * std::size_t(k / 2);
-                          if (k % 2 == 0)
-                            copy_point(to, run.data() + at);
-                          else
-                            put(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
-                        }
-                      }
-                    });
-  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+  for_edge_parts(coarse, workers, [&](Index begin, Index end) {
+    std::vector<double> run(lane_stride(n)), normals(lane_stride(n));
+    for (Index e = begin; e < end; ++e) {
+      gather_edge(coarse, x, e, run.data());
+      gather_edge(coarse, normal, e, normals.data());
+      double* to = y + 3 * std::size_t(fine.edge_base(e));
+      for (int k = 1; k < 2 * n; ++k, to += 3) {
+        const std::size_t at = 3 * std::size_t(k / 2);
+        if (k % 2 == 0)
+          copy_point(to, run.data() + at);
+        else
+          put(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
+      }
+    }
+  });
+  for_face_parts(coarse, workers, [&](Index begin, Index end) {
     std::vector<double> points(3 * closed_size(true, std::size_t(n))), normals(points.size());
-    for (Index f = Index(begin); f < Index(end); ++f) {
+    for (Index f = begin; f < end; ++f) {
       const bool quad = mesh.faces[std::size_t(f)].quad();
       gather_face(coarse, x, f, points.data());
       gather_face(coarse, normal, f, normals.data());
@@ -53,7 +52,8 @@ void prolong_with_normals(const Lattice& coarse, const Lattice& fine, Workers& w
         const auto at = [&](int a, int b) {
           return 3 * (closed_row(quad, std::size_t(n), std::size_t(b)) + std::size_t(a));
         };
-        return midpoint(&points[at(i, j)], &normals[at(i, j)], &points[at(k, l)], &normals[at(k, l)]);
+        return midpoint(&points[at(i, j)], &normals[at(i, j)], &points[at(k, l)],
+                        &normals[at(k, l)]);
       };
       double* to = y + 3 * std::size_t(fine.face_base(f));
       for (int j = 1; j < 2 * n; ++j)

@@ -11,6 +11,7 @@ sys.path[:0] = [str(HERE.parents[1]), str(HERE)]
 bpy = pytest.importorskip("bpy")
 
 import addon  # noqa: E402
+from addon.live import session  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -20,3 +21,9 @@ def blender():
     addon.register()
     yield bpy
     addon.unregister()
+
+
+@pytest.fixture
+def no_pause(monkeypatch):
+    """Live begins the full level at once."""
+    monkeypatch.setattr(session, "PAUSE", 0.0)

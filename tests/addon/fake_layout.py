@@ -5,7 +5,9 @@ import bpy
 
 
 class Layout:
-    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties that do not exist."""
+    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties and
+    operators that do not exist.
+    """
 
     def __init__(self, log=None):
         self.log = log if log is not None else []
@@ -30,6 +32,8 @@ class Layout:
         self.log.append(text)
 
     def operator(self, name, **_):
+        module, function = name.split(".")
+        assert function in dir(getattr(bpy.ops, module))
         self.log.append(name)
         return self.button
 
@@ -38,7 +42,9 @@ class Layout:
 
 
 def draw(cls):
-    """What a panel class draws in the present context, as a list of labels, properties and operators."""
+    """What a panel class draws in the present context, as a list of labels, properties and
+    operators.
+    """
 
     class Instance:
         layout = Layout()

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a source file may not do, found in its syntax tree: an answer for people who ask what the extension can reach."""
+"""What a source file may not do, found in its syntax tree: what the extension can reach."""
 
 import ast
 import sys
+from pathlib import Path
+
+ADDON = Path(__file__).resolve().parents[2] / "addon"
 
 # Run code from text, load code from data, start programs, reach the network, go around Python.
 FORBIDDEN_MODULES = frozenset(
@@ -98,6 +101,32 @@ def faults(source, allow_files=False):
 def outside_imports(source):
     """Top names of all absolute imports, also of those within functions."""
     return {name for node in ast.walk(ast.parse(source)) for name in _modules(node)}
+
+
+def own_imports(source, module):
+    """Modules of the add-on that the file of `module`, itself as the parts of its name, imports; as
+    parts too.
+
+    `from . import x` names a module x. `from .x import y` names x, but a module y where x is a
+    folder. What is imported for annotations alone, below `if TYPE_CHECKING`, does not count.
+    """
+    tree = ast.parse(source)
+    unseen = {id(node) for block in _for_types(tree) for node in ast.walk(block)}
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and id(node) not in unseen:
+            above = module[: len(module) - node.level]
+            target = (*above, *(node.module or "").split(".")) if node.module else above
+            is_folder = not node.module or ADDON.joinpath(*target).is_dir()
+            found |= {(*target, alias.name) for alias in node.names} if is_folder else {target}
+    return found
+
+
+def _for_types(tree):
+    """What is read by type checkers only."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            yield from node.body
 
 
 def is_allowed_outside(name):

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests of Live share. Without a window nothing redraws: `follow` lets Blender see what has changed."""
+"""What tests of Live share. Nothing redraws here: `follow` lets Blender see what has changed."""
+
+from time import monotonic, sleep
 
 import bpy
-from scenes import activate
+from scenes import CUBE, activate, add, fair
 
-from addon.live import registry
+from addon.live import handlers, registry
+
+PATIENCE = 60.0  # seconds
 
 
 def follow():
@@ -19,7 +23,7 @@ def surface_of(source):
 def live(active):
     """Switches Live on for `active`, a source or a surface, and returns the surface."""
     activate(active)
-    assert bpy.ops.object.fair_live(state="ON") == {"FINISHED"}
+    assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
     follow()
     return active if active.discrete_fairing.source else surface_of(active)
 
@@ -27,3 +31,25 @@ def live(active):
 def session(target):
     """What keeps `target` live, or None."""
     return registry.session_of(target)
+
+
+def move(source, index=0, by=0.5):
+    source.data.vertices[index].co.z += by
+    source.data.update()
+
+
+def tick_until(done):
+    """Plays the timer that a window would have."""
+    end = monotonic() + PATIENCE
+    while not done():
+        assert monotonic() < end
+        handlers.on_timer()
+        sleep(0.005)
+
+
+def box(levels=2, live_levels=1):
+    source = add("Box", *CUBE)
+    target = fair(levels=levels)
+    target.discrete_fairing_live.levels = live_levels
+    live(target)
+    return source, target

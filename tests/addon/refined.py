@@ -7,11 +7,10 @@ import bpy
 import discrete_fairing
 import numpy as np
 
-from addon.carry.carrier import Carrier
-from addon.read.data import read_data
-from addon.read.mesh import read_mesh
-from addon.write.data import write_data
-from addon.write.mesh import write_mesh
+from addon.mesh.layers import read_data, write_data
+from addon.mesh.read import read_mesh
+from addon.mesh.write import write_mesh
+from addon.transfer.carrier import Carrier
 
 NO_PAIRS = np.empty((0, 2), np.int32)
 

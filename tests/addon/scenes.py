@@ -64,7 +64,11 @@ def snapshot(source):
             tuple(value) if hasattr(value := getattr(item, key), "__len__") else value
             for item in attribute.data
         ]
-    place = [tuple(row) for row in source.matrix_world], source.parent, tuple(source.users_collection)
+    place = (
+        [tuple(row) for row in source.matrix_world],
+        source.parent,
+        tuple(source.users_collection),
+    )
     return attributes, place, [m and m.name for m in mesh.materials], source.name, mesh.name
 
 

@@ -8,9 +8,11 @@ import bpy
 import pytest
 from scenes import CUBE, activate, add
 
-from addon.check import messages, record, repair, selection
-from addon.inspection import freshness
-from addon.interface import check as check_panel
+from addon import errors
+from addon.check import repair
+from addon.check.defects import recall_defects, select_defects
+from addon.mesh import mesh_changes
+from addon.ui import check as check_panel
 
 BAD = Path(__file__).resolve().parents[3] / "shared" / "data" / "bad"
 
@@ -26,8 +28,8 @@ FLAT_FACE = ([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)
 
 
 def check():
-    assert bpy.ops.mesh.fairing_check() == {"FINISHED"}
-    return record.recall(bpy.context.active_object)[0]
+    assert bpy.ops.object.fairing_check() == {"FINISHED"}
+    return recall_defects(bpy.context.active_object)[0]
 
 
 def codes(defects):
@@ -63,8 +65,8 @@ def test_a_flipped_face_is_selected_and_turned_over_with_its_uvs():
         corner[loop.vertex_index, loop.index // 4] = tuple(uv.vector)
     (defect,) = check()
     assert selected(box, "faces") == defect["elements"] == [0]
-    bpy.ops.mesh.fairing_repair(index=0)
-    assert record.recall(box) == ([], False)
+    bpy.ops.object.fairing_repair(index=0)
+    assert recall_defects(box) == ([], False)
     bpy.ops.object.mode_set(mode="OBJECT")
     assert sorted(box.data.polygons[0].vertices) == sorted(CUBE[1][0])
     assert check() == []
@@ -91,8 +93,8 @@ def test_repairs_mend_what_they_promise(mesh, code, mode):
     defects = check()
     assert code in codes(defects)
     assert repair.label(code)
-    bpy.ops.mesh.fairing_repair(index=codes(defects).index(code))
-    assert code not in codes(record.recall(target)[0])
+    bpy.ops.object.fairing_repair(index=codes(defects).index(code))
+    assert code not in codes(recall_defects(target)[0])
     bpy.ops.object.mode_set(mode="OBJECT")
     assert code not in codes(check())
     assert len(target.data.polygons) >= 1
@@ -112,10 +114,10 @@ def test_each_line_selects_its_own():
     target = add("Both", [*FAN[0], (9, 9, 9)], FAN[1])
     defects = check()
     assert codes(defects) == ["NONMANIFOLD_EDGE", "ISOLATED_VERTICES"]
-    bpy.ops.mesh.fairing_select_defect(index=1)
+    bpy.ops.object.fairing_select_defect(index=1)
     assert selected(target, "verts") == [5]
     assert bpy.context.tool_settings.mesh_select_mode[0]
-    assert not record.recall(target)[1]
+    assert not recall_defects(target)[1]
 
 
 def test_several_objects_only_the_bad_ones_are_opened():
@@ -124,51 +126,57 @@ def test_several_objects_only_the_bad_ones_are_opened():
         target.select_set(True)
     check()
     assert [t.mode for t in (good, one, two)] == ["OBJECT", "EDIT", "EDIT"]
-    assert codes(record.recall(one)[0]) == ["NONMANIFOLD_EDGE"]
-    assert record.recall(good) == ([], False)
+    assert codes(recall_defects(one)[0]) == ["NONMANIFOLD_EDGE"]
+    assert recall_defects(good) == ([], False)
     assert selected(two, "faces") == [0]
 
 
 def test_the_record_goes_stale_when_the_shape_changes():
     box = add("Box", *CUBE)
     check()
-    assert not record.recall(box)[1]
+    assert not recall_defects(box)[1]
     box.data.vertices[0].co.x += 1
     box.data.update()
     bpy.context.view_layer.update()
-    assert record.recall(box)[1]
+    assert recall_defects(box)[1]
     check()
-    assert not record.recall(box)[1]
-    freshness._forget()  # as after loading a file: the counts still tell
+    assert not recall_defects(box)[1]
+    mesh_changes._forget()  # as after loading a file: the counts still tell
     box.data.vertices.add(1)
-    assert record.recall(box)[1]
+    assert recall_defects(box)[1]
 
 
 def test_select_defects_for_a_failed_run():
     fan = add("Fan", *FAN)
     other = add("Other", *CUBE)
-    assert selection.select_defects(bpy.context, fan, "edge", [(1, 0)]) == 1
+    assert select_defects(bpy.context, fan, "edge", [(1, 0)]) == 1
     assert (fan.mode, other.mode) == ("EDIT", "OBJECT")
     assert len(selected(fan, "edges")) == 1
-    assert selection.select_defects(bpy.context, fan, "vertex", [2, 99]) == 1
-    assert selection.select_defects(bpy.context, fan, "mesh", []) == 0
+    assert select_defects(bpy.context, fan, "vertex", [2, 99]) == 1
+    assert select_defects(bpy.context, fan, "mesh", []) == 0
 
 
 def test_check_says_why_it_is_grey():
     activate(add("Box", *CUBE))
     bpy.context.active_object.select_set(False)
     bpy.context.view_layer.objects.active = None
-    assert not bpy.ops.mesh.fairing_check.poll()
+    assert not bpy.ops.object.fairing_check.poll()
 
 
 def test_words_count_and_every_repair_has_a_remedy():
-    assert messages.what({"code": "DEGENERATE_FACE", "elements": [3], "message": ""}) == "1 face has no area."
-    assert messages.what({"code": "DEGENERATE_FACE", "elements": [3, 4], "message": ""}).startswith(
+    assert (
+        errors.what({"code": "DEGENERATE_FACE", "elements": [3], "message": ""})
+        == "1 face has no area."
+    )
+    assert errors.what({"code": "DEGENERATE_FACE", "elements": [3, 4], "message": ""}).startswith(
         "2 faces have"
     )
-    assert messages.what({"code": "NEW", "elements": [], "message": "Something else"}) == "Something else."
-    for code in (*repair._REPAIRS, *messages._WHAT):
-        assert messages.remedy(code)
+    assert (
+        errors.what({"code": "NEW", "elements": [], "message": "Something else"})
+        == "Something else."
+    )
+    for code in (*repair._REPAIRS, *errors._WHAT):
+        assert errors.remedy(code)
 
 
 class Layout:
@@ -214,7 +222,11 @@ def files():
 def test_bad_files_never_break_it(path):
     if path.stat().st_size > 3_000_000:
         pytest.skip("large")
-    load = {".obj": bpy.ops.wm.obj_import, ".ply": bpy.ops.wm.ply_import, ".stl": bpy.ops.wm.stl_import}
+    load = {
+        ".obj": bpy.ops.wm.obj_import,
+        ".ply": bpy.ops.wm.ply_import,
+        ".stl": bpy.ops.wm.stl_import,
+    }
     try:
         load[path.suffix.lower()](filepath=str(path))
     except RuntimeError:
@@ -229,10 +241,10 @@ def test_bad_files_never_break_it(path):
         for _ in range(2):  # in Object Mode, then in Edit Mode
             defects = check()
             for index in range(len(defects)):
-                bpy.ops.mesh.fairing_select_defect(index=index)
+                bpy.ops.object.fairing_select_defect(index=index)
             if not defects:
                 break
         for index, defect in enumerate(defects):
             if repair.label(defect["code"]):
-                bpy.ops.mesh.fairing_repair(index=index)
+                bpy.ops.object.fairing_repair(index=index)
                 break

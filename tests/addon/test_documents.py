@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents keep what they say: links lead somewhere, names exist, settings are explained, examples run."""
+"""The documents keep what they say: links, names, explained settings, examples that run."""
 
+import inspect
 import re
 from functools import cache
 from pathlib import Path
 
 import bpy
+import discrete_fairing
 import pytest
 
 from addon.preferences import DiscreteFairingPreferences
-from addon.settings.properties import FairingSettings
+from addon.settings import FairingSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -22,10 +24,9 @@ FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|mesh|view3d)\.(fair(?:ing)?_\w+)")
 ANY_OPERATOR = re.compile(r"\bbpy\.ops\.(\w+)\.(\w+)")
 MACHINE = re.compile(
-    r"(?<![\w.])/(?:work|home|root|Users|tmp|usr|opt|mnt|media|var)/|\bfile://|\b[A-Z]:\\", re.IGNORECASE
+    r"(?<![\w.])/(?:work|home|root|Users|tmp|usr|opt|mnt|media|var)/|\bfile://|\b[A-Z]:\\",
+    re.IGNORECASE,
 )
-# custom properties, which look like operators where code spells them after an object
-PROPERTIES = {"fairing_report", "fairing_check", "fairing_readout"}
 
 
 def named(path):
@@ -49,7 +50,10 @@ def anchor(heading):
 
 @cache
 def anchors(path):
-    return {anchor(line) for line in re.findall(r"^#+ (.+)$", prose(path.read_text("utf-8")), re.MULTILINE)}
+    return {
+        anchor(line)
+        for line in re.findall(r"^#+ (.+)$", prose(path.read_text("utf-8")), re.MULTILINE)
+    }
 
 
 def broken_links(text, folder, own):
@@ -67,8 +71,7 @@ def broken_links(text, folder, own):
 
 def operators(text):
     """(module, name) of all operators that `text` names, ours and Blender's."""
-    ours = {(module, name) for module, name in OPERATOR.findall(text) if name not in PROPERTIES}
-    return ours | set(ANY_OPERATOR.findall(text))
+    return {*OPERATOR.findall(text), *ANY_OPERATOR.findall(text)}
 
 
 def exists(module, name):
@@ -85,11 +88,6 @@ def setting_names():
 def is_said(words, text):
     """Whether `words` stand in `text` as whole words."""
     return re.search(rf"(?<![\w-]){re.escape(words)}(?![\w-])", text) is not None
-
-
-def sections(text):
-    """What settings.md says of each setting: the headings with their text, without what is for NumPy only."""
-    return text.partition("\n## NumPy only")[0]
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=named)
@@ -109,16 +107,22 @@ def test_nothing_of_one_machine(path):
 
 @pytest.mark.parametrize(("name", "label"), list(setting_names()))
 def test_every_setting_is_explained(name, label):
-    text = sections((DOCS / "settings.md").read_text("utf-8"))
+    text = (DOCS / "settings.md").read_text("utf-8")
     assert f"`{name}`" in text, "its property"
     assert is_said(label, text), "its name in Blender"
 
 
 def test_every_choice_is_explained():
-    text = sections((DOCS / "settings.md").read_text("utf-8"))
+    text = (DOCS / "settings.md").read_text("utf-8")
     for name, declared in FairingSettings.__annotations__.items():
         for key, label, *_ in declared.keywords.get("items", ()):
             assert is_said(label, text) and f"`{key}`" in text, f"{name}: {label}"
+
+
+@pytest.mark.parametrize("name", list(inspect.signature(discrete_fairing.fair).parameters))
+def test_every_argument_of_the_core_is_explained_once(name):
+    tables = (DOCS / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1
 
 
 @pytest.mark.parametrize("path", sorted(PICTURES.glob("*.png")), ids=named)
@@ -141,27 +145,28 @@ def test_examples_run(name, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "text", ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](settings.md#nowhere)", "[x](#nowhere)"]
+    "text",
+    ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](settings.md#nowhere)", "[x](#nowhere)"],
 )
 def test_a_broken_link_is_seen(text):
     assert broken_links(text, DOCS, DOCS / "guide.md")
 
 
 def test_a_good_link_is_let_through():
-    text = (
-        "[a](settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
-    )
+    text = "[a](settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
     assert broken_links(text, DOCS, DOCS / "guide.md") == []
 
 
 @pytest.mark.parametrize(
-    "text", ["`object.fair_everything`", "bpy.ops.object.nowhere()", "bpy.ops.mesh.fairing_x"]
+    "text", ["`object.fair_everything`", "bpy.ops.object.nowhere()", "bpy.ops.object.fairing_x"]
 )
 def test_an_operator_that_does_not_exist_is_seen(text):
     assert [pair for pair in operators(text) if not exists(*pair)]
 
 
-@pytest.mark.parametrize("text", ["see /home/someone/x", "`/work/main`", "C:\\Users\\x", "file:///tmp/x"])
+@pytest.mark.parametrize(
+    "text", ["see /home/someone/x", "`/work/main`", "C:\\Users\\x", "file:///tmp/x"]
+)
 def test_a_machine_path_is_seen(text):
     assert MACHINE.search(text)
 

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The choice of energy: what it makes, where it is remembered, and what is said of a run that did not end."""
-
-import json
+"""The choice of energy: what it makes, where it is remembered, what is said of unfinished runs."""
 
 import bpy
 import numpy as np
 import pytest
 from scenes import CUBE, activate, add, fair, positions
 
-from addon.inspection import convergence
-from addon.run import operator
-from addon.run.job import Job
-from addon.settings.properties import DEFAULT_ENERGY, ENERGIES, energy_name
+from addon import core
+from addon.job import Job
+from addon.memory import recall
+from addon.operators import fair as fair_operators
+from addon.settings import DEFAULT_ENERGY, ENERGIES, energy_name
 
 KEYS = [key for key, *_ in ENERGIES]
 STEP = {"decrement": 0.25}
@@ -57,35 +56,38 @@ def test_recompute_remembers_it():
     result = fair(levels=2, energy="THIN_PLATE")
     assert result.discrete_fairing.energy == "THIN_PLATE"
     result.discrete_fairing.energy = "TOTAL_CURVATURE"
-    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
     assert result.discrete_fairing.energy == "TOTAL_CURVATURE" and np.ptp(radii(result)) < 1e-5
 
 
 def test_report_has_the_steps():
     source = add("Box", *CUBE)
-    report = json.loads(fair(levels=2, energy="TOTAL_CURVATURE")["fairing_report"])
-    assert convergence.has_converged(report)
-    assert convergence.steps(report) >= 1 and 0 <= convergence.decrement(report) < 1
-    report = json.loads(again(source, levels=2, energy="THIN_PLATE")["fairing_report"])
-    assert convergence.has_converged(report)
-    assert convergence.steps(report) is None and convergence.decrement(report) is None
+    report = recall(fair(levels=2, energy="TOTAL_CURVATURE"), "report")
+    assert core.has_converged(report)
+    assert core.step_count(report) >= 1 and 0 <= core.last_decrement(report) < 1
+    report = recall(again(source, levels=2, energy="THIN_PLATE"), "report")
+    assert core.has_converged(report)
+    assert core.step_count(report) is None and core.last_decrement(report) is None
 
 
 @pytest.mark.parametrize("report", [{}, {"curvature": []}])
 def test_no_steps_are_no_fault(report):
-    assert convergence.has_converged(report) and convergence.decrement(report) is None
+    assert core.has_converged(report) and core.last_decrement(report) is None
 
 
 def test_a_flat_surface_needs_no_step():
     report = {"curvature": [{"converged": True, "steps": []}]}
-    assert convergence.steps(report) == 0 and convergence.decrement(report) is None
+    assert core.step_count(report) == 0 and core.last_decrement(report) is None
 
 
 def job_that_stopped(warnings=(), converged=False):
     job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
     job.settings.levels, job.settings.energy = 1, "TOTAL_CURVATURE"
     job.compute()
-    levels = [{"converged": not converged, "steps": [STEP]}, {"converged": converged, "steps": [STEP]}]
+    levels = [
+        {"converged": not converged, "steps": [STEP]},
+        {"converged": converged, "steps": [STEP]},
+    ]
     job.result.report.update(curvature=levels, warnings=list(warnings))
     return job
 
@@ -100,7 +102,12 @@ def test_only_the_finest_level_counts():
 
 
 def test_it_is_told_once():
-    said = {"code": "NOT_CONVERGED", "message": "The solver stopped.", "elements": [], "kind": "mesh"}
+    said = {
+        "code": "NOT_CONVERGED",
+        "message": "The solver stopped.",
+        "elements": [],
+        "kind": "mesh",
+    }
     assert job_that_stopped([said]).warnings() == ["Box: The solver stopped."]
     other = said | {"code": "ISOLATED_VERTICES"}
     assert len(job_that_stopped([other]).warnings()) == 2
@@ -139,11 +146,13 @@ def test_shape_keys_mix_linearly_with_the_thin_plate_only():
 def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     add("Box", *CUBE)
     started = []
-    monkeypatch.setattr(operator, "IMMEDIATE", 5 * 768)
-    fake = type("Fake", (), {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"})
+    monkeypatch.setattr(fair_operators, "IMMEDIATE", 5 * 768)
+    fake = type(
+        "Fake", (), {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"}
+    )
     fake.start = lambda self, context, jobs: started.append(jobs) or "started"
     job = type("J", (), {"triangles": 768, "settings": type("S", (), {"energy": energy})})
-    answer = operator._Fairing.invoke(fake(), bpy.context, None)
+    answer = fair_operators._Fairing.invoke(fake(), bpy.context, None)
     assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")
 
 

@@ -6,8 +6,7 @@ import bpy
 import pytest
 from scenes import CUBE, add, fair
 
-from addon.check import messages
-from addon.request import size
+from addon import errors, size
 
 
 def expect_refusal(match, **settings):
@@ -77,11 +76,11 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
     class Refusal(Exception):
         code = "NO_FACES"
 
-    assert messages.error_text("Wire", Refusal("the mesh has no faces")) == (
+    assert errors.error_text("Wire", Refusal("the mesh has no faces")) == (
         "Wire: the mesh has no faces. Fill the edges with faces (F in Edit Mode)."
     )
     Refusal.code = "SOMETHING_NEW"
-    assert messages.error_text("Wire", Refusal("no")) == "Wire: no."
+    assert errors.error_text("Wire", Refusal("no")) == "Wire: no."
 
 
 def test_size_sentence():

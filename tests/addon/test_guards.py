@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""No code from text, no other programs, no network; files only where the command line needs them; layers kept apart."""
+"""No code from text, no programs, no network; files only where needed; rooms kept apart."""
 
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import guards
@@ -12,27 +13,42 @@ BINDING = ROOT / "native" / "binding" / "discrete_fairing"
 
 # What each file needs of the file system.
 MAY_USE_FILES = {
-    "addon/command_line/files.py",  # looks whether an input can be read, makes the output and its folder
-    "addon/command_line/main.py",  # `os`, to keep Blender's messages out of the report on standard output
-    "addon/command_line/places.py",  # paths, to see whether two are the same file
-    "addon/settings/presets.py",  # the name of the folder that the shipped presets lie in
+    "addon/cli/files.py",  # looks whether an input can be read, makes the output and its folder
+    "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
+    "addon/cli/places.py",  # paths, to see whether two are the same file
+    "addon/operators/presets.py",  # the name of the folder that the shipped presets lie in
 }
 
 # All their numbers can be tested, and used, without Blender.
-PURE_FOLDERS = ("carry", "request")
+PURE_FOLDERS = ("transfer",)
 PURE_FILES = (
-    "native.py",
-    "check/messages.py",
-    "command_line/places.py",
-    "command_line/progress.py",
-    "command_line/report.py",
-    "inspection/colours.py",
-    "inspection/convergence.py",
+    "core.py",
+    "errors.py",
+    "poll.py",
+    "queue.py",
+    "size.py",
+    "cli/places.py",
+    "cli/report.py",
     "inspection/curvature.py",
     "inspection/measures.py",
-    "live/inputs.py",
     "live/pace.py",
 )
+
+# The rooms from the lowest to the highest: each imports from those before it, never from those
+# behind.
+ROOMS = (
+    {"blender", "core", "poll", "size"},
+    {"errors", "preferences", "queue", "settings", "transfer"},
+    {"memory"},
+    {"mesh"},
+    {"check", "inspection"},
+    {"job"},
+    {"live"},
+    {"cli", "ui"},
+    {"operators"},
+    {"__init__"},
+)
+RANK = {room: rank for rank, rooms in enumerate(ROOMS) for room in rooms}
 
 FILES = sorted([*ADDON.rglob("*.py"), *BINDING.rglob("*.py")])
 IN_ADDON = [path for path in FILES if path.is_relative_to(ADDON)]
@@ -42,6 +58,11 @@ def named(path):
     return path.relative_to(ROOT).as_posix()
 
 
+def module_of(path):
+    """("mesh", "read") for addon/mesh/read.py, ("cli", "__init__") for addon/cli/__init__.py."""
+    return path.relative_to(ADDON).with_suffix("").parts
+
+
 def pure_files():
     folders = [path for folder in PURE_FOLDERS for path in (ADDON / folder).rglob("*.py")]
     return [*folders, *(ADDON / name for name in PURE_FILES)]
@@ -49,19 +70,41 @@ def pure_files():
 
 @pytest.mark.parametrize("path", FILES, ids=named)
 def test_nothing_dangerous(path):
-    assert not guards.faults(path.read_text(encoding="utf-8"), allow_files=named(path) in MAY_USE_FILES)
+    assert not guards.faults(
+        path.read_text(encoding="utf-8"), allow_files=named(path) in MAY_USE_FILES
+    )
 
 
 def test_whoever_may_use_files_does():
     for name in MAY_USE_FILES & {named(path) for path in FILES}:
-        assert guards.faults((ROOT / name).read_text(encoding="utf-8")), f"{name} needs no exception any more"
+        assert guards.faults((ROOT / name).read_text(encoding="utf-8")), (
+            f"{name} needs no exception any more"
+        )
 
 
 @pytest.mark.parametrize("path", IN_ADDON, ids=named)
 def test_own_modules_are_imported_relatively(path):
     outside = guards.outside_imports(path.read_text(encoding="utf-8"))
-    core = {"discrete_fairing"} if path == ADDON / "native.py" else set()
+    core = {"discrete_fairing"} if path == ADDON / "core.py" else set()
     assert {name for name in outside if not guards.is_allowed_outside(name)} == core
+
+
+@pytest.mark.parametrize("path", IN_ADDON, ids=named)
+def test_imports_point_one_way(path):
+    own = module_of(path)
+    for other in guards.own_imports(path.read_text(encoding="utf-8"), own):
+        same_room = other[0] == own[0]
+        assert same_room or RANK[other[0]] <= RANK[own[0]], ".".join(other)
+
+
+def test_no_module_imports_itself_through_others():
+    """Between rooms of one rank, and within a room."""
+    graph = {
+        module_of(path): guards.own_imports(path.read_text(encoding="utf-8"), module_of(path))
+        for path in IN_ADDON
+        if "presets" not in path.parts
+    }
+    TopologicalSorter(graph).prepare()  # raises CycleError
 
 
 @pytest.mark.parametrize("path", pure_files(), ids=named)
@@ -125,7 +168,7 @@ def test_the_guard_sees_where_files_are_allowed(snippet):
     "snippet",
     [
         "import numpy as np\nnp.empty(3)",
-        "from ..run import job",
+        "from ..mesh import read",
         "re.compile('x')",
         "import json\njson.loads('1')",
         "evaluated = 1",
@@ -137,10 +180,27 @@ def test_the_guard_lets_through(snippet):
 
 
 def test_the_guard_knows_who_is_outside():
-    text = "import addon.native\nfrom addon import run\nimport scipy\nfrom . import x\nfrom discrete_fairing import fair\nimport json"
+    text = "import addon.core\nfrom addon import job\nimport scipy\nfrom . import x\nfrom discrete_fairing import fair\nimport json"
     outside = guards.outside_imports(text)
     assert {name for name in outside if not guards.is_allowed_outside(name)} == {
         "addon",
         "scipy",
         "discrete_fairing",
+    }
+
+
+def test_the_guard_resolves_own_imports():
+    text = "from . import a, b\nfrom .c import d\nfrom ..core import load\nfrom .. import size\nimport json"
+    assert guards.own_imports(text, ("mesh", "read")) == {
+        ("mesh", "a"),
+        ("mesh", "b"),
+        ("mesh", "c"),
+        ("core",),
+        ("size",),
+    }
+    text = "if TYPE_CHECKING:\n    from .session import Session\nelse:\n    from .pace import Pace"
+    assert guards.own_imports(text, ("live", "registry")) == {("live", "pace")}
+    assert guards.own_imports("from .mesh.read import x\nfrom .mesh import y", ("job",)) == {
+        ("mesh", "read"),
+        ("mesh", "y"),
     }

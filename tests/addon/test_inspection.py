@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Zebra, curvature colours and the read-out on real objects: shown, switched, saved, and put back exactly."""
+"""Zebra, curvature colours and the read-out on real objects: shown, saved, put back exactly."""
 
-import json
 from math import radians
 from types import SimpleNamespace
 
@@ -10,9 +9,12 @@ import numpy as np
 import pytest
 from scenes import CUBE, activate, add, add_suzanne, snapshot
 
-from addon.inspection import attributes, colours, display, override, readout
-from addon.inspection.properties import MODES
-from addon.interface import inspection as panel
+from addon.inspection import display, measures, readout
+from addon.inspection.materials import COLOUR
+from addon.inspection.settings import MODES
+from addon.memory import keep, recall, source_of
+from addon.mesh.modifiers import without_inspection
+from addon.ui import inspect as panel
 
 SHOWN = [key for key, *_ in MODES if key != "NONE"]
 
@@ -59,7 +61,7 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     assert (snapshot(box), slots(box)) == (before, slots_before)
     assert not box.modifiers and not bpy.data.node_groups
     assert {m.name for m in bpy.data.materials} == {"Red", "Green", "Blue"}
-    assert attributes.RANGE not in box.data and "fairing_active_colour" not in box.data
+    assert display.legend(box.data) is None and not box.data.discrete_fairing.active_colour
 
 
 def test_switching_through_all_modes_keeps_one_modifier():
@@ -92,7 +94,7 @@ def test_stays_switchable_after_saving(tmp_path):
     assert box.discrete_fairing_inspection.mode == "MEAN"
     assert shown_materials(box) == {"Fairing Curvature"}
     show(box, "NONE")
-    assert slots(box) == before and not box.modifiers and attributes.COLOUR not in box.data.attributes
+    assert slots(box) == before and not box.modifiers and COLOUR not in box.data.attributes
 
 
 def test_curvature_is_a_plain_attribute_with_the_right_numbers():
@@ -103,8 +105,8 @@ def test_curvature_is_a_plain_attribute_with_the_right_numbers():
         values = np.empty(len(ball.data.vertices), np.float32)
         ball.data.attributes[f"fair_{name}_curvature"].data.foreach_get("value", values)
         assert np.median(values) == pytest.approx(expected, rel=0.02)
-    assert ball.data.color_attributes.active_color.name == attributes.COLOUR
-    assert ball.data.attributes[attributes.COLOUR].domain == "POINT"
+    assert ball.data.color_attributes.active_color.name == COLOUR
+    assert ball.data.attributes[COLOUR].domain == "POINT"
 
 
 def test_the_users_active_colours_come_back():
@@ -123,16 +125,16 @@ def test_refresh_measures_a_replaced_mesh():
     box = add("Box", *CUBE)
     show(box, "MEAN")
     box.data = add_suzanne().data
-    assert attributes.COLOUR not in box.data.attributes
+    assert COLOUR not in box.data.attributes
     display.refresh(box, bpy.context.scene.discrete_fairing_inspection)
-    assert len(box.data.attributes[attributes.COLOUR].data) == len(box.data.vertices)
+    assert len(box.data.attributes[COLOUR].data) == len(box.data.vertices)
     assert shown_materials(box) == {"Fairing Curvature"}
 
 
 def test_reading_and_export_can_do_without():
     box = add("Box", *CUBE)
     show(box, "ZEBRA")
-    with override.suspended(bpy.context, box):
+    with without_inspection(bpy.context, box):
         assert shown_materials(box) == set()
     assert shown_materials(box) == {"Fairing Zebra"}
 
@@ -144,9 +146,9 @@ def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
     show(one, "MEAN")
     show(two, "MEAN")
     show(one, "NONE")
-    assert attributes.COLOUR in two.data.attributes and shown_materials(one) == set()
+    assert COLOUR in two.data.attributes and shown_materials(one) == set()
     show(two, "NONE")
-    assert attributes.COLOUR not in two.data.attributes
+    assert COLOUR not in two.data.attributes
 
 
 def test_settings_reach_the_zebra_at_once():
@@ -175,14 +177,14 @@ def test_all_nodes_of_both_materials_lead_to_the_output():
 def test_range_recolours_without_measuring(monkeypatch):
     ball = add_suzanne()
     show(ball, "TOTAL")
-    monkeypatch.setattr(attributes, "write_values", None)
-    before = attributes.legend(ball.data)
+    monkeypatch.setattr(display, "write_values", None)
+    before = display.legend(ball.data)
     settings = bpy.context.scene.discrete_fairing_inspection
     settings.range_high = 60.0
-    assert attributes.legend(ball.data)[1] < before[1]
+    assert display.legend(ball.data)[1] < before[1]
     settings.use_fixed_range = True
     settings.fixed_range = 3.0
-    assert attributes.legend(ball.data) == [0.0, 3.0]
+    assert display.legend(ball.data) == (0.0, 3.0)
 
 
 def test_smooth_while_inspected_is_not_the_mesh():
@@ -202,12 +204,12 @@ def test_edit_mode_says_why_not():
 
 
 def test_flat_is_the_middle_colour_and_beyond_the_ends_nothing_changes():
-    low, middle, high = colours.colours(np.array([-9.0, 0.0, 9.0]), (-1.0, 1.0), True)
+    low, middle, high = measures.colours_of(np.array([-9.0, 0.0, 9.0]), (-1.0, 1.0), True)
     assert low[2] > low[0] and high[0] > high[2] and np.ptp(middle[:3]) < 0.1
-    assert np.allclose(colours.colours(np.array([1.0]), (-1.0, 1.0), True)[0], high)
+    assert np.allclose(measures.colours_of(np.array([1.0]), (-1.0, 1.0), True)[0], high)
     values = np.array([0.0, 1.0, 2.0, 100.0])
-    assert colours.value_range(values, np.ones(4, bool), True, 0, 50) == (-1.5, 1.5)
-    assert colours.value_range(np.zeros(3), np.ones(3, bool), False, 2, 98) == (0.0, 1.0)
+    assert measures.value_range(values, np.ones(4, bool), True, 0, 50) == (-1.5, 1.5)
+    assert measures.value_range(np.zeros(3), np.ones(3, bool), False, 2, 98) == (0.0, 1.0)
 
 
 def faired_pair():
@@ -215,14 +217,14 @@ def faired_pair():
     source = add("Box", *CUBE)
     target = add("Box Fair", [(x * 1.1, y, z) for x, y, z in CUBE[0]], CUBE[1])
     report = {"energy": {"polyhedron": {"thin_plate": 9.0}, "result": {"thin_plate": 4.0}}}
-    target[readout.REPORT] = json.dumps(report)
+    keep(target, "report", report)
     return source, target
 
 
 def test_readout_has_before_and_after():
     source, target = faired_pair()
     readout.take(bpy.context, target, source)
-    record = json.loads(target[readout.KEY])
+    record = recall(target, "readout")
     assert (record["before"]["thin_plate"], record["after"]["thin_plate"]) == (9.0, 4.0)
     assert record["after"]["deviation"] == pytest.approx(0.1, abs=1e-6)
     assert record["before"]["worst_fold"] == pytest.approx(90)
@@ -233,7 +235,7 @@ def test_readout_has_before_and_after():
 
 def test_readout_says_how_the_steps_went():
     source, target = faired_pair()
-    report = json.loads(target[readout.REPORT])
+    report = recall(target, "report")
     step = {
         "energy": 5.0,
         "decrement": 0.5,
@@ -243,24 +245,28 @@ def test_readout_says_how_the_steps_went():
         "direct": True,
     }
     last = {"level": 2, "converged": True, "steps": [step, step | {"decrement": 2e-5}]}
-    target[readout.REPORT] = json.dumps(report | {"curvature": [{"level": 1, "steps": [step]}, last]})
-    rows = {label: text for label, *text in readout.table(readout.take(bpy.context, target, source))}
+    keep(target, "report", report | {"curvature": [{"level": 1, "steps": [step]}, last]})
+    rows = {
+        label: text for label, *text in readout.table(readout.take(bpy.context, target, source))
+    }
     assert rows["Steps"] == ["", "2"] and rows["Last decrement"] == ["", "2.0e-05"]
-    target[readout.REPORT] = json.dumps(report | {"curvature": []})
-    assert "Steps" not in [row[0] for row in readout.table(readout.take(bpy.context, target, source))]
+    keep(target, "report", report | {"curvature": []})
+    assert "Steps" not in [
+        row[0] for row in readout.table(readout.take(bpy.context, target, source))
+    ]
 
 
 def test_readout_minds_no_report_of_another_kind():
     _, target = faired_pair()
     for text in ("[]", "null", "{", "{}"):
-        target[readout.REPORT] = text
+        target.discrete_fairing.report = text
         assert readout.take(bpy.context, target)["after"]["steps"] is None
 
 
 def test_readout_of_a_plain_mesh_has_no_before():
     activate(add("Box", *CUBE))
     assert bpy.ops.object.fairing_measure() == {"FINISHED"}
-    record = readout.recall(bpy.context.object)
+    record = recall(bpy.context.object, "readout")
     assert record["before"] is None
     assert "Bending energy" not in [row[0] for row in readout.table(record)]
 
@@ -269,17 +275,17 @@ def test_readout_goes_stale_with_the_shape_only():
     box = add("Box", *CUBE)
     bpy.ops.object.fairing_measure()
     show(box, "MEAN")
-    assert not readout.is_stale(box, readout.recall(box))
+    assert not readout.is_stale(box, recall(box, "readout"))
     box.data.vertices[0].co.x += 0.5
     box.data.update()
     bpy.context.view_layer.update()
-    assert readout.is_stale(box, readout.recall(box))
+    assert readout.is_stale(box, recall(box, "readout"))
 
 
 def test_source_of_a_result():
     source, target = faired_pair()
     target.discrete_fairing.source = source
-    assert readout.source_of(target) == source and readout.source_of(source) is None
+    assert source_of(target) == source and source_of(source) is None
 
 
 class Layout:
@@ -321,7 +327,11 @@ def test_panel_shows_the_controls_of_what_is_shown():
     box = add("Box", *CUBE)
     assert "stripes" not in draw()
     show(box, "ZEBRA")
-    assert "stripes" in draw() and "Material Preview" in draw() and "Material Preview" not in draw("MATERIAL")
+    assert (
+        "stripes" in draw()
+        and "Material Preview" in draw()
+        and "Material Preview" not in draw("MATERIAL")
+    )
     show(box, "MEAN")
     assert "range_low" in draw() and "Solid" in draw() and any("hollow" in t for t in draw())
     bpy.ops.object.fairing_measure()

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature and folds of surfaces whose answer is known, and that the error shrinks with the edges as it has to."""
+"""Curvature and folds of surfaces whose answer is known, and how the error shrinks."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from addon.inspection import curvature, measures, polygons
+from addon.inspection import curvature, measures
 
 
 def surface(positions, faces, sharp=None):
@@ -29,7 +29,9 @@ def surface(positions, faces, sharp=None):
 
 
 def grid(shape, n, m, close_u, close_v, diagonals=True):
-    """`shape(u, v)` of parameters in [0, 1), sampled n × m, in triangles or quads with the normal along ∂u × ∂v."""
+    """`shape(u, v)` of parameters in [0, 1), sampled n × m, in triangles or quads with the normal
+    along ∂u × ∂v.
+    """
     u = np.arange(n) / (n if close_u else n - 1)
     v = np.arange(m) / (m if close_v else m - 1)
     positions = np.stack(shape(*np.meshgrid(u, v, indexing="ij")), axis=-1).reshape(-1, 3)
@@ -78,7 +80,10 @@ def sphere(levels):
             for i in range(n):
                 for j in range(n):
                     faces.append(
-                        [vertex(axis, sign, *at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+                        [
+                            vertex(axis, sign, *at)
+                            for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+                        ]
                     )
     return surface(positions, faces)
 
@@ -124,7 +129,9 @@ def test_cylinder_and_its_open_ends():
 
     mesh = grid(shape, 64, 9, True, False)
     bent = curvature.curvature(mesh)
-    assert np.abs(bent.mean - 1.0).max() < 1e-3  # 1 / 2r, on the rims too: taken from their neighbours
+    assert (
+        np.abs(bent.mean - 1.0).max() < 1e-3
+    )  # 1 / 2r, on the rims too: taken from their neighbours
     assert np.abs(bent.gauss).max() < 1e-9
     assert np.abs(bent.largest - 2.0).max() < 1e-2
     assert (~bent.inner).sum() == 2 * 64
@@ -155,7 +162,9 @@ def test_curvature_stops_at_sharp_edges():
         (2, 2, 1),
     ]
     faces = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)]
-    assert curvature.curvature(surface(positions, faces)).inner.tolist() == [i == 4 for i in range(9)]
+    assert curvature.curvature(surface(positions, faces)).inner.tolist() == [
+        i == 4 for i in range(9)
+    ]
     bent = curvature.curvature(surface(positions, faces, [(1, 4), (4, 7)]))
     assert not bent.inner.any() and not bent.mean.any()
 
@@ -164,7 +173,9 @@ def test_total_curvature_of_a_sphere_does_not_depend_on_its_size():
     for radius in (1.0, 10.0):
         ball = sphere(4)
         ball.positions = ball.positions * radius
-        assert measures.total_curvature(curvature.curvature(ball)) == pytest.approx(8 * np.pi, rel=0.01)
+        assert measures.total_curvature(curvature.curvature(ball)) == pytest.approx(
+            8 * np.pi, rel=0.01
+        )
 
 
 def test_folds_of_a_box_are_right_angles():
@@ -188,14 +199,14 @@ def test_a_tiny_fold_keeps_its_digits():
 
 def test_a_long_quad_is_halved_along_its_shorter_diagonal():
     kite = np.array([(0, 0, 0), (3, -1, 0), (6, 0, 0), (3, 1, 0)], float)
-    triangles, weights = polygons.triangulate(kite, np.arange(4), np.array([0, 4]))
+    triangles, weights = curvature.triangulate(kite, np.arange(4), np.array([0, 4]))
     assert len(triangles) == 2 and all({1, 3} <= set(t) for t in triangles.tolist())
     assert weights.tolist() == [1.0, 1.0]
 
 
 def test_a_square_is_halved_both_ways_one_half_each():
     square = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
-    triangles, weights = polygons.triangulate(square, np.arange(4), np.array([0, 4]))
+    triangles, weights = curvature.triangulate(square, np.arange(4), np.array([0, 4]))
     assert sorted(map(sorted, triangles.tolist())) == [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
     assert weights.tolist() == [0.5] * 4
 
@@ -203,7 +214,7 @@ def test_a_square_is_halved_both_ways_one_half_each():
 @pytest.mark.parametrize("turn", range(4))
 def test_a_quad_with_a_dent_is_halved_inside(turn):
     dart = np.roll(np.array([(0, 0, 0), (2, -1, 0), (0.5, 0, 0), (2, 1, 0)], float), turn, axis=0)
-    triangles, weights = polygons.triangulate(dart, np.arange(4), np.array([0, 4]))
+    triangles, weights = curvature.triangulate(dart, np.arange(4), np.array([0, 4]))
     tip, dent = turn % 4, (turn + 2) % 4
     assert len(triangles) == 2 and all({tip, dent} <= set(t) for t in triangles.tolist())
     assert weights.tolist() == [1.0, 1.0]
@@ -218,8 +229,14 @@ def test_curvature_keeps_the_symmetry_of_a_quad_mesh():
 
 def test_larger_polygons_become_fans_and_lines_nothing():
     corners, offsets = np.array([0, 1, 2, 3, 4, 5, 0, 1, 3, 4, 5]), np.array([0, 6, 8, 11])
-    triangles, weights = polygons.triangulate(np.zeros((6, 3)), corners, offsets)
-    assert sorted(map(tuple, triangles.tolist())) == [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (3, 4, 5)]
+    triangles, weights = curvature.triangulate(np.zeros((6, 3)), corners, offsets)
+    assert sorted(map(tuple, triangles.tolist())) == [
+        (0, 1, 2),
+        (0, 2, 3),
+        (0, 3, 4),
+        (0, 4, 5),
+        (3, 4, 5),
+    ]
     assert weights.tolist() == [1.0] * 5
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scenes import CUBE, activate, add, add_suzanne, fair, positions
 
-from addon.inspection import override
-from addon.run.job import Job
-from addon.settings.properties import ENERGIES
+from addon.job import Job
+from addon.mesh.modifiers import inspection_modifier
+from addon.settings import ENERGIES
 
 
 def test_uv_groups_and_materials_arrive():
@@ -16,7 +16,9 @@ def test_uv_groups_and_materials_arrive():
     source.data.materials.append(bpy.data.materials.new("Fur"))
     source.vertex_groups.new(name="Head").add(range(50), 0.25, "REPLACE")
     result = fair(levels=2)
-    assert [layer.name for layer in result.data.uv_layers] == [layer.name for layer in source.data.uv_layers]
+    assert [layer.name for layer in result.data.uv_layers] == [
+        layer.name for layer in source.data.uv_layers
+    ]
     assert result.vertex_groups["Head"].weight(0) == 0.25
     assert not result.data.validate()
 
@@ -49,7 +51,7 @@ def test_recompute_brings_the_keys_again():
     source.shape_key_add(name="Up").data[0].co.z += 1.0
     result = fair(levels=1)
     source.data.shape_keys.key_blocks["Up"].data[0].co.z += 1.0
-    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
     keys = result.data.shape_keys.key_blocks
     assert keys["Up"].data[0].co.z == source.data.shape_keys.key_blocks["Up"].data[0].co.z
 
@@ -111,7 +113,7 @@ def test_modifiers_put_on_later_survive_a_recomputation():
     result = fair(levels=1, copy_modifiers=True)
     result.modifiers.remove(result.modifiers["Thick"])
     result.modifiers.new("Mine", "BEVEL")
-    bpy.ops.object.fair_recompute()
+    bpy.ops.object.fairing_recompute()
     assert [m.name for m in result.modifiers] == ["Mine"]
 
 
@@ -120,9 +122,9 @@ def test_inspection_is_no_part_of_the_source(mode):
     source = add("Box", *CUBE)
     bpy.ops.object.fairing_inspect(mode=mode)
     evaluated = fair(levels=1, mesh_source="EVALUATED")
-    assert override.find(source) and not evaluated.data.materials
+    assert inspection_modifier(source) and not evaluated.data.materials
     activate_shown(source)
-    assert override.find(fair(levels=1, copy_modifiers=True)) is None
+    assert inspection_modifier(fair(levels=1, copy_modifiers=True)) is None
 
 
 def test_inspected_surface_stays_inspected():
@@ -130,8 +132,8 @@ def test_inspected_surface_stays_inspected():
     result = fair(levels=2)
     bpy.ops.object.fairing_inspect(mode="GAUSS")
     source.data.vertices[0].co *= 2.0
-    bpy.ops.object.fair_recompute()
-    assert override.find(result) and "fair_gauss_curvature" in result.data.attributes
+    bpy.ops.object.fairing_recompute()
+    assert inspection_modifier(result) and "fair_gauss_curvature" in result.data.attributes
 
 
 def test_notes_are_told(capfd):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A live surface follows its source: moved vertices in both modes, creases, settings, another topology, errors."""
+"""A live surface follows its source: moved vertices, creases, settings, other topology, errors."""
 
 import bmesh
 import bpy
@@ -8,7 +8,7 @@ import pytest
 from live_scenes import follow, live, session, surface_of
 from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
 
-from addon.live import pace, watch
+from addon.live import handlers, pace
 
 
 def move(source, index=0, by=0.5):
@@ -29,7 +29,7 @@ def test_it_takes_the_surface_that_is_there_and_shows_its_source():
     source = add("Box", *CUBE)
     target = fair(levels=2)
     assert source.hide_get()
-    assert bpy.ops.object.fair_live() == {"FINISHED"}
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
     assert target.discrete_fairing_live.on and not source.hide_get()
     assert [o for o in bpy.data.objects if o.discrete_fairing.source] == [target]
     assert len(target.data.polygons) == 6 * 4**2, "no finer than the surface itself"
@@ -54,7 +54,7 @@ def test_it_is_the_surface_of_the_core():
     follow()
     shown = positions(target.data)
     activate(target)
-    bpy.ops.object.fair_recompute()
+    bpy.ops.object.fairing_recompute()
     assert np.abs(positions(target.data) - shown).max() < 0.02
 
 
@@ -94,7 +94,9 @@ def test_another_topology_with_the_same_counts():
     source.data.from_pydata(square, [], [(0, 1, 3), (1, 2, 3)])
     source.data.update()
     follow()
-    assert positions(target.data).shape == before.shape and not np.array_equal(positions(target.data), before)
+    assert positions(target.data).shape == before.shape and not np.array_equal(
+        positions(target.data), before
+    )
 
 
 def test_creases():
@@ -115,7 +117,7 @@ def test_settings(name, value):
     target = live(source)
     before = positions(target.data)
     setattr(target.discrete_fairing, name, value)
-    watch.tick()
+    handlers.on_timer()
     assert not np.array_equal(positions(target.data), before)
 
 
@@ -127,7 +129,7 @@ def test_live_levels():
     follow()
     assert len(target.data.polygons) == 6 * 4
     target.discrete_fairing_live.levels = 5
-    watch.tick()
+    handlers.on_timer()
     assert len(target.data.polygons) == 6 * 4**3, "no finer than the surface itself"
 
 
@@ -152,12 +154,14 @@ def test_the_source_is_only_read():
     move(source, by=-0.5)
     follow()
     assert snapshot(source) == before
-    bpy.ops.object.fair_live(state="OFF")
+    bpy.ops.object.fairing_live(state="OFF")
     assert snapshot(source) == before and not target.discrete_fairing_live.on
 
 
 def test_what_the_mesh_carries():
-    """UV maps, weights and material indices at the live level too; the object keeps materials and modifiers."""
+    """UV maps, weights and material indices at the live level too; the object keeps materials and
+    modifiers.
+    """
     source = add("Box", *CUBE)
     source.data.materials.append(bpy.data.materials.new("Paint"))
     source.data.uv_layers.new(name="Map")
@@ -195,7 +199,7 @@ def test_a_region_is_that_of_the_beginning():
     move(source)
     follow()
     assert not np.array_equal(positions(target.data), before)
-    bpy.ops.object.fair_live(state="OFF")
+    bpy.ops.object.fairing_live(state="OFF")
     assert len(target.data.polygons) == 6 * 4**3
 
 
@@ -208,7 +212,10 @@ def test_an_error_leaves_the_last_surface_and_it_goes_on():
     source.data.update()
     follow()
     assert np.array_equal(positions(target.data), before)
-    assert "more than two faces" in target.discrete_fairing_live.status and target.discrete_fairing_live.on
+    assert (
+        "more than two faces" in target.discrete_fairing_live.status
+        and target.discrete_fairing_live.on
+    )
     assert not session(target).is_waiting, "no full level of what cannot be faired"
     source.data.clear_geometry()
     source.data.from_pydata(*CUBE[:1], [], CUBE[1])
@@ -236,7 +243,7 @@ def test_what_cannot_be_faired_anew_is_said_with_the_full_level():
 
 def test_an_empty_mesh_is_said():
     source = add("Nothing", [], [])
-    bpy.ops.object.fair_live()
+    bpy.ops.object.fairing_live()
     target = surface_of(source)
     assert "no vertices" in target.discrete_fairing_live.status
 
@@ -250,7 +257,7 @@ def test_several_at_once():
     for source, target in zip(sources, targets):
         assert np.array_equal(positions(target.data)[:8], positions(source.data))
     activate(sources[0])
-    bpy.ops.object.fair_live()
+    bpy.ops.object.fairing_live()
     assert [target.discrete_fairing_live.on for target in targets] == [False, True]
 
 
@@ -272,7 +279,7 @@ def test_thin_plate_stands_in_where_another_energy_is_hopeless():
     bpy.context.scene.discrete_fairing.levels = 4
     target = live(source)
     target.discrete_fairing_live.levels = 4
-    watch.tick()
+    handlers.on_timer()
     assert "Thin Plate while editing" in target.discrete_fairing_live.status
     assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
     assert session(target).solver.energy == "thin_plate"
@@ -283,7 +290,7 @@ def test_a_recompute_in_between():
     target = live(source)
     target.discrete_fairing_live.levels = 2
     activate(target)
-    bpy.ops.object.fair_recompute()
+    bpy.ops.object.fairing_recompute()
     assert len(target.data.polygons) == 6 * 4**3
     move(source)
     follow()
@@ -296,9 +303,9 @@ def test_shape_keys_come_with_the_full_level():
     source.shape_key_add(name="Up").data[0].co.z += 0.5
     target = live(source)
     assert target.data.shape_keys is None
-    bpy.ops.object.fair_live(state="OFF")
+    bpy.ops.object.fairing_live(state="OFF")
     assert [block.name for block in target.data.shape_keys.key_blocks] == ["Basis", "Up"]
-    bpy.ops.object.fair_live(state="ON")
+    bpy.ops.object.fairing_live(state="ON")
     assert target.data.shape_keys is None
     move(source)
     follow()

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is faired: several objects, Edit Mode, the mesh with its modifiers; and what becomes of the source."""
+"""What is faired: several objects, Edit Mode, modifiers; and what becomes of the source."""
 
 import bpy
 import numpy as np
 import pytest
 from scenes import CUBE, activate, add, fair, positions
 
-from addon.write.object import select_only
+from addon.mesh.object import select_only
 
 
 def test_source_is_hidden_and_shown_again_on_demand():
@@ -48,7 +48,7 @@ def test_hidden_source_is_evaluated_all_the_same():
     result = fair(levels=1, mesh_source="EVALUATED")
     assert source.hide_get()
     source.modifiers["Subdivision"].levels = 2
-    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
     assert len(result.data.polygons) == 16 * 6 * 4
     assert source.hide_get(), "as it was"
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator on real Blender meshes."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
@@ -19,7 +17,8 @@ from scenes import (
     snapshot,
 )
 
-from addon.settings.properties import ENERGIES
+from addon.memory import recall
+from addon.settings import ENERGIES
 
 
 @pytest.mark.parametrize("levels", [1, 2, 3])
@@ -42,7 +41,9 @@ def test_suzanne_keeps_her_quads():
     )
     assert (fine - 2).sum() == 16 * (sizes - 2).sum()
     assert (fine == 3).sum() >= 16 * (sizes == 3).sum()
-    assert (fine == 4).sum() >= 0.9 * 16 * (sizes == 4).sum()  # the core may split a quad too warped to keep
+    assert (fine == 4).sum() >= 0.9 * 16 * (
+        sizes == 4
+    ).sum()  # the core may split a quad too warped to keep
 
 
 def test_single_triangle():
@@ -69,10 +70,14 @@ def test_suzanne_stays_symmetric(energy):
 def _asymmetry(points):
     """The largest distance from a mirrored point to the nearest point."""
     mirrored = points * np.float32([-1, 1, 1])
-    return max(np.min(np.linalg.norm(points - p, axis=1)) for p in mirrored[:: max(1, len(points) // 800)])
+    return max(
+        np.min(np.linalg.norm(points - p, axis=1)) for p in mirrored[:: max(1, len(points) // 800)]
+    )
 
 
-@pytest.mark.parametrize("make", [add_suzanne, lambda: add("Box", *CUBE), lambda: add("Triangle", *TRIANGLE)])
+@pytest.mark.parametrize(
+    "make", [add_suzanne, lambda: add("Box", *CUBE), lambda: add("Triangle", *TRIANGLE)]
+)
 def test_result_has_nothing_to_mend(make):
     make()
     result = fair(levels=2)
@@ -128,7 +133,10 @@ def test_materials_held_by_the_object():
     source.material_slots[0].link = "OBJECT"
     source.material_slots[0].material = bpy.data.materials.new("In Object")
     result = fair(levels=1)
-    assert result.material_slots[0].link == "OBJECT" and result.material_slots[0].material.name == "In Object"
+    assert (
+        result.material_slots[0].link == "OBJECT"
+        and result.material_slots[0].material.name == "In Object"
+    )
     assert result.data.materials[0].name == "In Mesh"
 
 
@@ -186,18 +194,22 @@ def test_creases_are_sharp_in_the_result():
     sharp = [e for e in result.data.edges if e.use_edge_sharp]
     assert len(sharp) == 4 * 4
     ids = np.unique([e.vertices[:] for e in sharp])
-    assert np.allclose(positions(result.data)[ids][:, 2], 1.0)  # a plane loop of creases stays in its plane
+    assert np.allclose(
+        positions(result.data)[ids][:, 2], 1.0
+    )  # a plane loop of creases stays in its plane
 
 
 def test_crease_angle_reaches_the_core():
     add("Box", *CUBE)
     result = fair(levels=2, use_crease_angle=True, crease_angle=np.radians(30))
-    assert np.allclose(np.abs(positions(result.data)).max(axis=1), 1.0)  # all edges creased: the cube itself
+    assert np.allclose(
+        np.abs(positions(result.data)).max(axis=1), 1.0
+    )  # all edges creased: the cube itself
 
 
 def test_report_stays_with_the_result():
     add("Box", *CUBE)
-    report = json.loads(fair(levels=2)["fairing_report"])
+    report = recall(fair(levels=2), "report")
     assert {"energy", "iterations", "seconds", "warnings"} <= set(report)
 
 

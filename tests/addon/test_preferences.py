@@ -7,9 +7,9 @@ import bpy
 from scenes import CUBE, add
 
 from addon import preferences
-from addon.read.mesh import read_mesh
-from addon.request.arguments import fair_arguments
-from addon.settings.properties import snapshot
+from addon.core import fair_arguments
+from addon.mesh.read import read_mesh
+from addon.settings import snapshot
 
 
 def prefer(monkeypatch, **values):
@@ -33,7 +33,10 @@ def test_chosen_levels_are_left_alone(monkeypatch):
 
 def test_memory_and_threads_reach_the_core(monkeypatch):
     chosen = prefer(monkeypatch, memory_limit=7, threads=1)
-    arrays, settings = read_mesh(add("Box", *CUBE).data), snapshot(bpy.context.scene.discrete_fairing)
+    arrays, settings = (
+        read_mesh(add("Box", *CUBE).data),
+        snapshot(bpy.context.scene.discrete_fairing),
+    )
     given = fair_arguments(arrays, settings, chosen)
     assert given["memory_limit"] == 7 * 2**20 and given["threads"] == 1
     settings.memory_limit = 9

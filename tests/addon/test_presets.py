@@ -6,19 +6,20 @@ from pathlib import Path
 
 import bpy
 import pytest
+from bl_operators.presets import AddPresetOperator
 from scenes import CUBE, add, fair
 
 import addon
-from addon.settings.presets import VIEW3D_PT_fairing_presets
-from addon.settings.properties import NAMES
+from addon.settings import NAMES
+from addon.ui.main import PRESET_FOLDER
 
-FOLDER = Path(addon.__file__).parent / "presets"
+FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
 SHIPPED = ("organic", "hull", "mechanical_with_creases")
 
 
-def values(folder, name):
+def values(name):
     """What a preset file assigns, {setting: value}; read, not run."""
-    tree = ast.parse((FOLDER / folder / f"{name}.py").read_text())
+    tree = ast.parse((FOLDER / f"{name}.py").read_text())
     return {
         node.targets[0].attr: ast.literal_eval(node.value)
         for node in tree.body
@@ -26,26 +27,18 @@ def values(folder, name):
     }
 
 
-@pytest.mark.parametrize("name", SHIPPED)
-def test_both_menus_ship_the_same(name):
-    panel = values("discrete_fairing", name)
-    assert panel == values("operator/object.fair_surface", name)
-    assert set(panel) <= set(NAMES) and "energy" in panel
-
-
-def test_blender_finds_them():
-    paths = [Path(path) for path in bpy.utils.preset_paths("discrete_fairing")]
+def test_blender_finds_them_for_the_operator():
+    folder = AddPresetOperator.operator_path("OBJECT_OT_fair_surface")
+    paths = [Path(path) for path in bpy.utils.preset_paths(folder)]
     found = {file.stem for path in paths for file in path.glob("*.py")}
     assert set(SHIPPED) <= found
 
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_menu_applies_them(name):
-    given = values("discrete_fairing", name)
-    bpy.ops.script.execute_preset(
-        filepath=str(FOLDER / "discrete_fairing" / f"{name}.py"),
-        menu_idname=VIEW3D_PT_fairing_presets.__name__,
-    )
+    given = values(name)
+    assert set(given) <= set(NAMES) and "energy" in given
+    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / f"{name}.py"))
     settings = bpy.context.scene.discrete_fairing
     for key, value in given.items():
         expected = pytest.approx(value) if isinstance(value, float) else value
@@ -56,7 +49,11 @@ def test_menu_applies_them(name):
 
 def test_own_preset(tmp_path, monkeypatch):
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path))
-    bpy.context.scene.discrete_fairing.metric_exponent = 0.25
+    settings = bpy.context.scene.discrete_fairing
+    settings.metric_exponent = 0.25
     assert bpy.ops.object.fairing_preset_add(name="Mine") == {"FINISHED"}
     text = (tmp_path / "Mine.py").read_text()
-    assert "settings.metric_exponent = 0.25" in text and "use_selection" not in text
+    assert "op.metric_exponent = 0.25" in text and "use_selection" not in text
+    settings.metric_exponent = 1.0
+    bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Mine.py"))
+    assert settings.metric_exponent == 0.25

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thread that computes: order, progress, cancel, failure. (The window's side is tested in a real window.)"""
+"""The thread that computes: order, progress, cancel, failure.
+
+(The window's side is tested in a real window.)
+"""
 
 from threading import Event, current_thread, main_thread
 
 import pytest
 
-from addon.run.job_error import JobCancelled, JobError
-from addon.run.modal import status_text
-from addon.run.progress import ConsoleProgress
-from addon.run.queue import Queue
+from addon.errors import JobCancelled, JobError
+from addon.operators.modal import status_text
+from addon.queue import ConsoleProgress, Queue
 
 
 class Monitor:

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A faired object remembers its source and settings, and is computed again in place."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
 from scenes import CUBE, activate, add, fair, positions
 
-from addon.interface import panel
+from addon.memory import recall
+from addon.ui import main
 
 
 def recompute():
-    assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
 
 
 def raise_vertex(source, index=0, by=0.5):
@@ -26,7 +25,10 @@ def test_source_and_settings_are_remembered():
     result = fair(levels=2, metric_exponent=0.25, boundary="FREE")
     memory = result.discrete_fairing
     assert memory.source == source
-    assert (memory.levels, memory.boundary) == (2, "FREE") and memory.metric_exponent == pytest.approx(0.25)
+    assert (memory.levels, memory.boundary) == (
+        2,
+        "FREE",
+    ) and memory.metric_exponent == pytest.approx(0.25)
 
 
 def test_recompute_follows_the_source():
@@ -98,7 +100,7 @@ def test_a_failure_leaves_the_surface():
     before = positions(result.data)
     source.data.vertices[0].co = source.data.vertices[1].co  # a face collapses
     with pytest.raises(RuntimeError, match="Box"):
-        bpy.ops.object.fair_recompute()
+        bpy.ops.object.fairing_recompute()
     assert np.array_equal(positions(result.data), before)
 
 
@@ -107,23 +109,23 @@ def test_without_its_source_it_is_a_mesh_like_any_other():
     result = fair(levels=1)
     bpy.data.objects.remove(source)
     assert result.discrete_fairing.source is None
-    assert not bpy.ops.object.fair_recompute.poll()
-    assert "object.fair_surface" in draw(panel.VIEW3D_PT_fairing)
-    assert not bpy.ops.object.fair_show_source.poll()
+    assert not bpy.ops.object.fairing_recompute.poll()
+    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert not bpy.ops.object.fairing_show_source.poll()
 
 
 def test_panel_shows_what_is_remembered():
     source = add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
-    assert "tolerance" in draw(panel.VIEW3D_PT_fairing)
+    assert "tolerance" in draw(main.VIEW3D_PT_fairing)
     fair(levels=1)
-    log = draw(panel.VIEW3D_PT_fairing)
-    assert "object.fair_recompute" in log and "object.fair_surface" not in log
+    log = draw(main.VIEW3D_PT_fairing)
+    assert "object.fairing_recompute" in log and "object.fair_surface" not in log
     assert "source" in log and "tolerance" not in log, "its own settings, not the scene's"
     assert "48 triangles" in log, "counted from its source"
-    assert bpy.ops.object.fair_show_source() == {"FINISHED"}
+    assert bpy.ops.object.fairing_show_source() == {"FINISHED"}
     assert bpy.context.active_object == source and source.visible_get()
-    assert "object.fair_surface" in draw(panel.VIEW3D_PT_fairing)
+    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
 
 
 def test_survives_saving(tmp_path):
@@ -132,7 +134,10 @@ def test_survives_saving(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
     result = bpy.data.objects["Box Fair"]
-    assert result.discrete_fairing.source == bpy.data.objects["Box"] and result.discrete_fairing.levels == 1
+    assert (
+        result.discrete_fairing.source == bpy.data.objects["Box"]
+        and result.discrete_fairing.levels == 1
+    )
     raise_vertex(bpy.data.objects["Box"])
     activate(result)
     recompute()
@@ -144,4 +149,4 @@ def test_report_is_the_latest():
     result = fair(levels=1)
     result.discrete_fairing.levels = 2
     recompute()
-    assert [level["level"] for level in json.loads(result["fairing_report"])["levels"]][-1] == 2
+    assert [level["level"] for level in recall(result, "report")["levels"]][-1] == 2

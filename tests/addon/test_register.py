@@ -2,14 +2,14 @@
 import bpy
 
 import addon
-from addon import native
+from addon import core
 
 CLASSES = (
     "OBJECT_OT_fair_surface",
-    "OBJECT_OT_fair_recompute",
+    "OBJECT_OT_fairing_recompute",
     "OBJECT_OT_fairing_preset_add",
     "VIEW3D_PT_fairing",
-    "OBJECT_OT_fair_show_source",
+    "OBJECT_OT_fairing_show_source",
     "VIEW3D_PT_fairing_source",
     "VIEW3D_PT_fairing_creases",
     "VIEW3D_PT_fairing_advanced",
@@ -17,7 +17,9 @@ CLASSES = (
 
 
 def registered():
-    return [hasattr(bpy.types, name) for name in CLASSES] + [hasattr(bpy.types.Scene, "discrete_fairing")]
+    return [hasattr(bpy.types, name) for name in CLASSES] + [
+        hasattr(bpy.types.Scene, "discrete_fairing")
+    ]
 
 
 def test_register_and_unregister_twice():
@@ -31,7 +33,7 @@ def test_register_and_unregister_twice():
 
 def test_operator_can_be_undone_and_redone():
     assert bpy.types.OBJECT_OT_fair_surface.bl_options == {"REGISTER", "UNDO", "PRESET"}
-    assert bpy.types.OBJECT_OT_fair_recompute.bl_options == {"REGISTER", "UNDO"}
+    assert bpy.types.OBJECT_OT_fairing_recompute.bl_options == {"REGISTER", "UNDO"}
 
 
 def test_panel_stands_in_its_tab():
@@ -39,7 +41,7 @@ def test_panel_stands_in_its_tab():
 
 
 def test_without_the_native_module_the_button_is_grey_and_nothing_breaks(monkeypatch):
-    monkeypatch.setattr(native, "_load", lambda: (None, native.MISSING))
+    monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
     bpy.ops.mesh.primitive_cube_add()
     assert not bpy.ops.object.fair_surface.poll()
     addon.unregister()

@@ -24,7 +24,13 @@ LIMIT = 300  # seconds that no call takes
 
 def words(*arguments):
     """The command line; `--background` as the documents have it."""
-    return [bpy.app.binary_path, "--background", "--command", "discrete_fairing", *map(str, arguments)]
+    return [
+        bpy.app.binary_path,
+        "--background",
+        "--command",
+        "discrete_fairing",
+        *map(str, arguments),
+    ]
 
 
 def call(*arguments):
@@ -36,7 +42,9 @@ def call(*arguments):
 def report(*arguments):
     """The exit code, and the report from standard output, which has to be all of it."""
     code, output, error = call(*arguments, "--json", "-")
-    assert output.startswith("{"), f"standard output begins with {output[:60]!r}; standard error: {error}"
+    assert output.startswith("{"), (
+        f"standard output begins with {output[:60]!r}; standard error: {error}"
+    )
     return code, json.loads(output)
 
 
@@ -84,11 +92,19 @@ def test_many_files_of_all_kinds_and_bad_ones():
     write_obj("a.obj")
     write_ply("b.ply")
     write_stl("c.stl")
-    Path("fin.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n")
+    Path("fin.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"
+    )
     names = ("a.obj", "fin.obj", "b.ply", "missing.ply", "c.stl")
     code, whole = report(*names, "new/", "--format", "obj", "--levels", 1)
     assert code == whole["exit_code"] == 1
-    assert [entry["status"] for entry in whole["inputs"]] == ["done", "failed", "done", "failed", "done"]
+    assert [entry["status"] for entry in whole["inputs"]] == [
+        "done",
+        "failed",
+        "done",
+        "failed",
+        "done",
+    ]
     codes = [entry["error"]["code"] for entry in whole["inputs"] if entry["error"]]
     assert codes == ["NONMANIFOLD_EDGE", "UNREADABLE"], codes
     for name in ("a", "b", "c"):

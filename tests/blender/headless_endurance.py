@@ -25,7 +25,9 @@ def once(source, **settings):
     source.select_set(True)
     assert bpy.ops.object.fair_surface(levels=2, hide_source=False, **settings) == {"FINISHED"}
     result = bpy.context.active_object
-    assert result != source and not result.data.validate(verbose=True), "validate() had to mend the mesh"
+    assert result != source and not result.data.validate(verbose=True), (
+        "validate() had to mend the mesh"
+    )
     mesh = result.data
     bpy.data.objects.remove(result)
     bpy.data.meshes.remove(mesh)
@@ -43,7 +45,9 @@ def test_two_hundred_runs():
         if run + 1 == SETTLED:
             settled = resident_bytes()
     end = resident_bytes()
-    print(f"memory after {SETTLED} runs {settled / 2**20:.1f} MB, after {RUNS} {end / 2**20:.1f} MB")
+    print(
+        f"memory after {SETTLED} runs {settled / 2**20:.1f} MB, after {RUNS} {end / 2**20:.1f} MB"
+    )
     assert end <= ALLOWED * settled, f"{end / settled - 1:.1%} more memory"
 
 
@@ -53,7 +57,7 @@ def test_two_hundred_recomputations():
     result = bpy.context.active_object
     settled = 0
     for run in range(RUNS):
-        assert bpy.ops.object.fair_recompute() == {"FINISHED"}
+        assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
         assert bpy.context.active_object == result and not result.data.validate()
         if run + 1 == SETTLED:
             settled = resident_bytes()

@@ -77,7 +77,9 @@ def test_suzanne_keeps_faces_and_vertices():
     # the core may split a warped quad in two triangles, so count in triangles
     assert fine_triangles + 2 * fine_quads == PARTS * (triangles + 2 * quads)
     control = positions(source.data)
-    assert np.array_equal(positions(result)[: len(control)], control), "control vertices are interpolated"
+    assert np.array_equal(positions(result)[: len(control)], control), (
+        "control vertices are interpolated"
+    )
     assert np.isfinite(positions(result)).all()
 
 

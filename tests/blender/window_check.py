@@ -41,7 +41,9 @@ def wait_for_shading(name, least):
 def contrast(path, crop):
     """Standard deviation of a part of a picture, 0 to 1, over all channels."""
     words = ["convert", path, "-crop", crop, "-format", "%[fx:standard_deviation]", "info:"]
-    return float(subprocess.run(words, capture_output=True, check=True, text=True, timeout=60).stdout)
+    return float(
+        subprocess.run(words, capture_output=True, check=True, text=True, timeout=60).stdout
+    )
 
 
 def test_check_selects_what_is_wrong():
@@ -57,7 +59,7 @@ def test_check_selects_what_is_wrong():
     bm.free()
     yield from unfold("VIEW3D_PT_fairing_check")
     with bpy.context.temp_override(**harness.view(), active_object=source, object=source):
-        assert bpy.ops.mesh.fairing_check("INVOKE_DEFAULT") == {"FINISHED"}
+        assert bpy.ops.object.fairing_check("INVOKE_DEFAULT") == {"FINISHED"}
     yield 1.0
     assert source.mode == "EDIT", "the defects are shown in Edit Mode"
     selected = [edge for edge in bmesh.from_edit_mesh(source.data).edges if edge.select]
@@ -68,21 +70,29 @@ def test_check_selects_what_is_wrong():
 def test_zebra_and_curvature_are_seen():
     source = harness.add_suzanne()
     yield from unfold("VIEW3D_PT_fairing_inspect")
-    with bpy.context.temp_override(**harness.view(), active_object=source, selected_objects=[source]):
+    with bpy.context.temp_override(
+        **harness.view(), active_object=source, selected_objects=[source]
+    ):
         assert bpy.ops.object.fair_surface(levels=3) == {"FINISHED"}
     result = bpy.data.objects["Suzanne Fair"]
     view = harness.view()
-    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+    with bpy.context.temp_override(
+        **view, active_object=result, object=result, selected_objects=[result]
+    ):
         assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
-        assert bpy.ops.view3d.fairing_viewport(shading="MATERIAL") == {"FINISHED"}
+        assert bpy.ops.object.fairing_viewport(shading="MATERIAL") == {"FINISHED"}
         assert bpy.ops.object.fairing_measure() == {"FINISHED"}
     yield from wait_for_shading("inspect", STRIPES)
-    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+    with bpy.context.temp_override(
+        **view, active_object=result, object=result, selected_objects=[result]
+    ):
         assert bpy.ops.object.fairing_inspect(mode="MEAN") == {"FINISHED"}
-        assert bpy.ops.view3d.fairing_viewport(shading="ATTRIBUTE") == {"FINISHED"}
+        assert bpy.ops.object.fairing_viewport(shading="ATTRIBUTE") == {"FINISHED"}
     yield 2.0
     harness.photograph("curvature")
-    with bpy.context.temp_override(**view, active_object=result, object=result, selected_objects=[result]):
+    with bpy.context.temp_override(
+        **view, active_object=result, object=result, selected_objects=[result]
+    ):
         assert bpy.ops.object.fairing_inspect(mode="NONE") == {"FINISHED"}
     yield 0.5
     assert not result.modifiers

@@ -73,7 +73,7 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     settings.levels, settings.energy = levels, energy
     yield from harness.open_sidebar("Fairing")
     with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fair_live(state="ON") == {"FINISHED"}
+        assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
     target = bpy.data.objects[f"{source.name} Fair"]
     target.discrete_fairing_live.levels = live_levels
     yield from wait_for_the_full_level(target, levels)
@@ -137,7 +137,9 @@ def told(what, parts):
     middle = {name: float(np.median([update[name] for update in kept])) for name in kept[0]}
     whole = [sum(update.values()) for update in kept]
     text = ", ".join(f"{name} {value:.2f}" for name, value in middle.items())
-    print(f"live, {what}: {text}; whole {np.median(whole):.2f}, worst {max(whole):.2f} ms of {len(kept)}")
+    print(
+        f"live, {what}: {text}; whole {np.median(whole):.2f}, worst {max(whole):.2f} ms of {len(kept)}"
+    )
 
 
 def test_a_grab_is_followed_and_the_full_level_comes_after():
@@ -156,7 +158,9 @@ def test_a_grab_is_followed_and_the_full_level_comes_after():
     yield from wait_for_the_full_level(target, 4)
     assert source.mode == "EDIT"
     source.update_from_editmode()
-    assert np.array_equal(positions(target.data)[: len(before)], positions_of(source)), "through its vertices"
+    assert np.array_equal(positions(target.data)[: len(before)], positions_of(source)), (
+        "through its vertices"
+    )
     harness.photograph("live_full")
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.ed.undo()
@@ -254,17 +258,17 @@ def test_another_file_and_disabling():
         bpy.ops.wm.save_as_mainfile(filepath=path)
         bpy.ops.wm.open_mainfile(filepath=path)
         yield 1.0
-    watch = live("watch")
-    assert live("registry").sessions() == [] and not bpy.app.timers.is_registered(watch.tick)
+    handlers = live("handlers")
+    assert live("registry").sessions() == [] and not bpy.app.timers.is_registered(handlers.on_timer)
     target = bpy.data.objects["Suzanne Fair"]
     assert not target.discrete_fairing_live.on
     target.discrete_fairing_live.on = True
     yield 0.2
-    assert session(target).updates and bpy.app.timers.is_registered(watch.tick)
+    assert session(target).updates and bpy.app.timers.is_registered(handlers.on_timer)
     bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
     yield 0.5
-    assert not bpy.app.timers.is_registered(watch.tick)
-    for name in watch._HANDLERS:
+    assert not bpy.app.timers.is_registered(handlers.on_timer)
+    for name in handlers._HANDLERS:
         assert not [f for f in getattr(bpy.app.handlers, name) if ".live." in f.__module__], name
     bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
     yield 0.5

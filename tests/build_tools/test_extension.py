@@ -114,7 +114,10 @@ def change(old, new):
         (lambda folder: (folder / "wheels" / "other.whl").write_bytes(b""), "one wheel"),
         (change("linux-x64", "windows-x64"), "platform"),
         (change(f'version = "{VERSION}"', 'version = "999.0.0"'), "version"),
-        (change('id = "discrete_fairing"', 'permissions = ["files"]\nid = "discrete_fairing"'), "permission"),
+        (
+            change('id = "discrete_fairing"', 'permissions = ["files"]\nid = "discrete_fairing"'),
+            "permission",
+        ),
         (change('control mesh"', 'control mesh."'), "tagline"),
     ],
 )

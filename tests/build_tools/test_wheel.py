@@ -16,7 +16,9 @@ WHEEL = metadata.distribution("discrete-fairing")
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into Linux's table of loaded libraries")
 def test_libraries_are_loaded_from_the_wheel():
     code = "import discrete_fairing; print(open('/proc/self/maps').read())"
-    lines = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    lines = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
     loaded = {line.split()[-1] for line in lines.splitlines() if "OpenMesh" in line}
     site = str(WHEEL.locate_file(""))
     assert loaded and all(path.startswith(site) for path in loaded), loaded
@@ -39,11 +41,26 @@ def test_licences_are_carried():
 def test_version_is_written_in_one_place():
     """The README and the changelog may name it, if they name the right one."""
     version = manifest_version()
-    tops = ["addon", "build_tools", "cmake", "docs", "examples", "native", "pyproject.toml", "CMakeLists.txt"]
-    files = [
-        path for top in tops for path in ([ROOT / top] if (ROOT / top).is_file() else (ROOT / top).rglob("*"))
+    tops = [
+        "addon",
+        "build_tools",
+        "cmake",
+        "docs",
+        "examples",
+        "native",
+        "pyproject.toml",
+        "CMakeLists.txt",
     ]
-    texts = [path for path in files if path.suffix in {".py", ".h", ".cpp", ".txt", ".toml", ".md", ".cmake"}]
+    files = [
+        path
+        for top in tops
+        for path in ([ROOT / top] if (ROOT / top).is_file() else (ROOT / top).rglob("*"))
+    ]
+    texts = [
+        path
+        for path in files
+        if path.suffix in {".py", ".h", ".cpp", ".txt", ".toml", ".md", ".cmake"}
+    ]
     assert texts
     assert [path.name for path in texts if version in path.read_text()] == []
     assert f"Version {version}" in (ROOT / "README.md").read_text()

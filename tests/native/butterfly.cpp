@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "written_rings.h"
+#include "reference_rings.h"
 
 namespace fairing::test {
 namespace {
 
 class Step {
  public:
-  Step(const Lattice& coarse, const std::vector<double>& x) : walker_(cells(coarse)), x_(x) {}
+  Step(const GridLevel& coarse, const std::vector<double>& x) : walker_(cells(coarse)), x_(x) {}
 
   // The new point on the edge between two old ones.
   Vec3 middle(Index a, Index b) const {
@@ -19,7 +19,8 @@ class Step {
     const bool regular_a = from_a.size() == 6, regular_b = from_b.size() == 6;
     if (regular_a && regular_b)
       return 0.5 * (at(a) + at(b)) + 0.125 * (at(from_a[1].point) + at(from_a[5].point)) -
-             0.0625 * (at(from_a[2].point) + at(from_a[4].point) + at(from_b[2].point) + at(from_b[4].point));
+             0.0625 * (at(from_a[2].point) + at(from_a[4].point) + at(from_b[2].point) +
+                       at(from_b[4].point));
     if (regular_a) return irregular(b, from_b);
     if (regular_b) return irregular(a, from_a);
     return 0.5 * (irregular(a, from_a) + irregular(b, from_b));
@@ -46,7 +47,8 @@ class Step {
   const std::vector<double>& x_;
 };
 
-std::vector<double> refined(const Lattice& coarse, const Lattice& fine, const std::vector<double>& x) {
+std::vector<double> refined(const GridLevel& coarse, const GridLevel& fine,
+                            const std::vector<double>& x) {
   const Step step(coarse, x);
   std::vector<double> y(3 * fine.size(), 0.0);
   const auto put = [&](Index p, const Vec3& value) {
@@ -57,7 +59,8 @@ std::vector<double> refined(const Lattice& coarse, const Lattice& fine, const st
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n - j; ++i) {
         const Index here = coarse.face_point(f, i, j);
-        put(fine.face_point(f, 2 * i, 2 * j), Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(here)));
+        put(fine.face_point(f, 2 * i, 2 * j),
+            Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(here)));
         const auto between = [&](int di, int dj) {
           if (i + di < 0 || i + di + j + dj > n) return;
           const Index there = coarse.face_point(f, i + di, j + dj);
@@ -77,7 +80,8 @@ std::vector<double> refined(const Lattice& coarse, const Lattice& fine, const st
 std::vector<double> butterfly(const ControlMesh& mesh, int levels) {
   std::vector<double> x;
   for (const Vec3& p : mesh.positions) x.insert(x.end(), {p.x(), p.y(), p.z()});
-  for (int level = 0; level < levels; ++level) x = refined(Lattice(mesh, level), Lattice(mesh, level + 1), x);
+  for (int level = 0; level < levels; ++level)
+    x = refined(GridLevel(mesh, level), GridLevel(mesh, level + 1), x);
   return x;
 }
 

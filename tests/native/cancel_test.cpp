@@ -6,10 +6,10 @@
 #include <set>
 #include <vector>
 
-#include "execution/vectors.h"
-#include "execution/workers.h"
-#include "fair/fair.h"
+#include "fairing/fair.h"
 #include "meshes.h"
+#include "parallel/reductions.h"
+#include "parallel/workers.h"
 #include "thrown.h"
 
 namespace fairing::test {
@@ -31,7 +31,8 @@ TEST(Workers, visit_every_index_once) {
     Workers workers(threads);
     for (const std::size_t count : {0, 1, 2, 255, 256, 257, 1000, 100000})
       for (const std::size_t grain : {0, 1, 7, 300})
-        EXPECT_EQ(visits(workers, count, grain), std::vector<int>(count, 1)) << count << " by " << grain;
+        EXPECT_EQ(visits(workers, count, grain), std::vector<int>(count, 1))
+            << count << " by " << grain;
   }
 }
 
@@ -55,7 +56,9 @@ TEST(Workers, begin_no_part_of_a_cancelled_run) {
     const CancelScope scope(&monitor);
     monitor.cancel();
     std::atomic<int> begun{0};
-    EXPECT_EQ(thrown([&] { workers.for_parts(size, 1, [&](std::size_t, std::size_t) { ++begun; }); }).code,
+    EXPECT_EQ(thrown([&] {
+                workers.for_parts(size, 1, [&](std::size_t, std::size_t) { ++begun; });
+              }).code,
               ErrorCode::cancelled);
     EXPECT_EQ(begun.load(), 0);
   }
@@ -87,8 +90,8 @@ TEST(Workers, take_the_callers_scope_along_and_leave_it_after) {
   Monitor monitor;
   const auto obeyed = [&] {
     std::atomic<int> count{0};
-    workers.for_parts(size, 1,
-                      [&](std::size_t, std::size_t) { count += CancelScope::current() == &monitor; });
+    workers.for_parts(
+        size, 1, [&](std::size_t, std::size_t) { count += CancelScope::current() == &monitor; });
     return count.load();
   };
   EXPECT_EQ(obeyed(), 0);
@@ -147,13 +150,13 @@ std::vector<Job> jobs() {
                        {"curvature, small faces", torus(6, 5), options(2, Energy::total_curvature)},
                        {"variation", octahedron(), options(2, Energy::minimum_variation)}};
   FairOptions region = options(2, Energy::thin_plate);
-  region.features.region = {true, {0, 1, 2, 3, 4, 8, 9, 10}, Joint::tangent};
+  region.features.region = {true, {0, 1, 2, 3, 4, 8, 9, 10}, RegionContinuity::tangent};
   all.push_back({"region", torus(8, 6), region});
   return all;
 }
 
-// At the first question, the second, …, ever farther apart until the run is over: each time it ends as cancelled, and
-// the next run knows nothing of it.
+// At the first question, the second, …, ever farther apart until the run is over: each time it ends
+// as cancelled, and the next run knows nothing of it.
 TEST(Cancel, stops_a_run_anywhere_and_leaves_nothing_behind) {
   for (Job& job : jobs())
     for (const int threads : {1, 3}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "check/check.h"
+#include "mesh/validate/check.h"
 
 #include <gtest/gtest.h>
 
@@ -25,10 +25,11 @@ void expect_refused(const OwnedPolygonMesh& mesh, ErrorCode code, const Ids& ele
 
 TEST(Check, PassesCleanMeshes) {
   for (const OwnedPolygonMesh& mesh :
-       {tetrahedron(),    cube(),      cube_triangles(), octahedron(),      icosahedron(),    dodecahedron(),
-        square_pyramid(), torus(6, 5), two_tetrahedra(), single_triangle(), single_quad(),    two_triangles(),
-        fan(360),         half_fan(5), grid(4, 3),       open_cone(7),      open_cylinder(5), roof(),
-        l_shape(),        u_shape(),   arrow(),          flat_corner(),     quad_doublet()}) {
+       {tetrahedron(),  cube(),           cube_triangles(), octahedron(),     icosahedron(),
+        dodecahedron(), square_pyramid(), torus(6, 5),      two_tetrahedra(), single_triangle(),
+        single_quad(),  two_triangles(),  fan(360),         half_fan(5),      grid(4, 3),
+        open_cone(7),   open_cylinder(5), roof(),           l_shape(),        u_shape(),
+        arrow(),        flat_corner(),    quad_doublet()}) {
     const CheckResult result = check(mesh.view());
     EXPECT_TRUE(result.warnings.empty());
     EXPECT_TRUE(result.flipped_faces.empty());
@@ -37,7 +38,8 @@ TEST(Check, PassesCleanMeshes) {
 
 TEST(Check, EveryCodeHasItsOwnName) {
   std::vector<std::string> names;
-  for (int code = 0; code <= int(ErrorCode::cancelled); ++code) names.push_back(name(ErrorCode(code)));
+  for (int code = 0; code <= int(ErrorCode::cancelled); ++code)
+    names.push_back(name(ErrorCode(code)));
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   EXPECT_EQ(std::count(names.begin(), names.end(), "UNKNOWN"), 0);
@@ -66,8 +68,8 @@ TEST(Check, Shapes) {
 }
 
 TEST(Check, Coordinates) {
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e200}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity(), -1e200}) {
     OwnedPolygonMesh mesh = cube();
     mesh.coordinates[4] = mesh.coordinates[23] = bad;
     expect_refused(mesh, ErrorCode::non_finite, {1, 7});
@@ -97,7 +99,9 @@ TEST(Check, DuplicateFaces) {
   expect_refused(mesh, ErrorCode::duplicate_face, {1, 6});
 }
 
-TEST(Check, NonmanifoldEdges) { expect_refused(three_on_an_edge(), ErrorCode::nonmanifold_edge, {0, 1}); }
+TEST(Check, NonmanifoldEdges) {
+  expect_refused(three_on_an_edge(), ErrorCode::nonmanifold_edge, {0, 1});
+}
 
 TEST(Check, NonmanifoldVertices) {
   expect_refused(two_fans(), ErrorCode::nonmanifold_vertex, {0});
@@ -117,10 +121,12 @@ TEST(Check, NonmanifoldVertices) {
 
 TEST(Check, Orientation) {
   expect_refused(flipped_cube_face(), ErrorCode::inconsistent_orientation, {2});
-  EXPECT_EQ(check(flipped_cube_face().view(), {.repair_orientation = true}).flipped_faces, (Ids{2}));
+  EXPECT_EQ(check(flipped_cube_face().view(), {.repair_orientation = true}).flipped_faces,
+            (Ids{2}));
 
   OwnedPolygonMesh mesh = two_tetrahedra();  // the fewest faces turn, in each component
-  for (const std::size_t f : {0, 1, 3, 5}) std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]);
+  for (const std::size_t f : {0, 1, 3, 5})
+    std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]);
   EXPECT_EQ(check(mesh.view(), {.repair_orientation = true}).flipped_faces, (Ids{2, 5}));
 
   mesh = grid(2, 1);  // where both parties are equal, the first face stays
@@ -169,7 +175,8 @@ TEST(Check, CoincidentVertices) {
 
 TEST(Check, IsolatedVerticesAreOnlyAWarning) {
   OwnedPolygonMesh mesh = single_triangle();
-  mesh.coordinates.insert(mesh.coordinates.end(), {0, 0, 0, 5, 5, 5});  // the first coincides with vertex 0
+  mesh.coordinates.insert(mesh.coordinates.end(),
+                          {0, 0, 0, 5, 5, 5});  // the first coincides with vertex 0
   const CheckResult result = check(mesh.view());
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_EQ(result.warnings[0].code, "ISOLATED_VERTICES");
@@ -184,8 +191,9 @@ TEST(Check, FindsEveryKindAtOnce) {
   const Findings findings = find_defects(mesh.view());
   std::vector<ErrorCode> codes;
   for (const Defect& defect : findings.defects) codes.push_back(defect.code);
-  EXPECT_EQ(codes, (std::vector{ErrorCode::duplicate_face, ErrorCode::nonmanifold_edge,
-                                ErrorCode::inconsistent_orientation, ErrorCode::isolated_vertices}));
+  EXPECT_EQ(codes,
+            (std::vector{ErrorCode::duplicate_face, ErrorCode::nonmanifold_edge,
+                         ErrorCode::inconsistent_orientation, ErrorCode::isolated_vertices}));
   EXPECT_EQ(findings.defects[0].elements, (Ids{4, 6}));
   EXPECT_EQ(findings.defects[1].elements.size(), 8u);
   EXPECT_EQ(findings.defects[2].elements, findings.flipped_faces);
@@ -193,10 +201,12 @@ TEST(Check, FindsEveryKindAtOnce) {
 }
 
 TEST(Check, MessagesNameTheFirstFew) {
-  EXPECT_NE(std::string(thrown([] { check(flipped_cube_face().view()); }).what()).find("1 face (2) looks"),
+  EXPECT_NE(std::string(thrown([] { check(flipped_cube_face().view()); }).what())
+                .find("1 face (2) looks"),
             std::string::npos);
-  EXPECT_NE(std::string(thrown([] { check(three_on_an_edge().view()); }).what()).find("1 edge (0-1) has"),
-            std::string::npos);
+  EXPECT_NE(
+      std::string(thrown([] { check(three_on_an_edge().view()); }).what()).find("1 edge (0-1) has"),
+      std::string::npos);
 }
 
 }  // namespace

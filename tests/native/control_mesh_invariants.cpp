@@ -36,9 +36,10 @@ void expect_edges(const ControlMesh& mesh) {
   std::size_t sides = 0;
   for (const Edge& edge : mesh.edges) {
     EXPECT_NE(edge.vertex[0], edge.vertex[1]);
-    EXPECT_TRUE(
-        pairs.insert({std::min(edge.vertex[0], edge.vertex[1]), std::max(edge.vertex[0], edge.vertex[1])})
-            .second);
+    EXPECT_TRUE(pairs
+                    .insert({std::min(edge.vertex[0], edge.vertex[1]),
+                             std::max(edge.vertex[0], edge.vertex[1])})
+                    .second);
     sides += std::size_t(edge.side[0] >= 0) + std::size_t(edge.side[1] >= 0);
     EXPECT_TRUE(edge.side[0] >= 0 || edge.side[1] >= 0);
   }
@@ -63,7 +64,8 @@ void expect_ring(const ControlMesh& mesh, Index v) {
     EXPECT_EQ(face.vertex[std::size_t(spoke.corner)], v);
     EXPECT_EQ(mesh.sides.at(std::size_t(face.first_side + spoke.corner)).edge, spoke.edge);
     const int before = (spoke.corner + face.size - 1) % face.size;
-    EXPECT_EQ(mesh.sides.at(std::size_t(face.first_side + before)).edge, ring[(i + 1) % ring.size()].edge);
+    EXPECT_EQ(mesh.sides.at(std::size_t(face.first_side + before)).edge,
+              ring[(i + 1) % ring.size()].edge);
   }
   EXPECT_TRUE(!mesh.interior(v) || ring.size() >= 3);
 }
@@ -83,7 +85,8 @@ void expect_chains(const ControlMesh& mesh) {
     EXPECT_EQ(chain.vertices.size(), chain.edges.size() + (chain.closed ? 0u : 1u));
     EXPECT_GE(chain.edges.size(), chain.closed ? 3u : 1u);
     for (std::size_t k = 0; k < chain.edges.size(); ++k) {
-      const std::set<Index> ends{chain.vertices[k], chain.vertices[(k + 1) % chain.vertices.size()]};
+      const std::set<Index> ends{chain.vertices[k],
+                                 chain.vertices[(k + 1) % chain.vertices.size()]};
       const Edge& edge = mesh.edges.at(std::size_t(chain.edges[k]));
       EXPECT_EQ(ends, (std::set<Index>{edge.vertex[0], edge.vertex[1]}));
       EXPECT_TRUE(in_chains.insert(chain.edges[k]).second);

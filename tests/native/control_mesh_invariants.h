@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "control_mesh/control_mesh.h"
+#include "mesh/control_mesh.h"
 
 namespace fairing::test {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "control_mesh/control_mesh.h"
+#include "mesh/control_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "check/check.h"
 #include "control_mesh_invariants.h"
+#include "mesh/validate/check.h"
 #include "meshes.h"
 #include "thrown.h"
 
@@ -136,7 +136,8 @@ TEST(Chains, EndWhereThreeMeetAndInTheOpen) {
 TEST(Chains, MixedBoundaryAndCreaseInLinearMode) {
   const ControlMesh mesh =
       build(grid(2, 2), {.crease_edges = {{1, 4}, {7, 4}}, .boundary = BoundaryMode::linear});
-  EXPECT_EQ(std::count_if(mesh.chains.begin(), mesh.chains.end(), [](const Chain& c) { return c.straight; }),
+  EXPECT_EQ(std::count_if(mesh.chains.begin(), mesh.chains.end(),
+                          [](const Chain& c) { return c.straight; }),
             2);
 }
 
@@ -151,7 +152,8 @@ TEST(Chains, CreasesByAngle) {
   EXPECT_EQ(build(roof(), {.crease_angle = 1.5}).chains.size(), 3u);
   EXPECT_EQ(build(roof(), {.crease_angle = 1.6}).chains.size(), 1u);
   EXPECT_EQ(build(cube(), {.crease_angle = 1.0}).chains.size(), 12u);
-  EXPECT_EQ(build(dodecahedron(), {.crease_angle = 1.0}).chains.size(), 30u);  // nothing inside the pentagons
+  EXPECT_EQ(build(dodecahedron(), {.crease_angle = 1.0}).chains.size(),
+            30u);  // nothing inside the pentagons
 }
 
 TEST(Chains, ALoneCornerIsAConeTip) {
@@ -170,8 +172,10 @@ TEST(Chains, RefusesCreasesThatAreNotThere) {
   const FairingError no_corner = thrown([] { build(cube(), {.corner_vertices = {-1}}); });
   EXPECT_EQ(no_corner.code, ErrorCode::index_out_of_range);
   // The diagonal that a split has drawn is no edge of the input, nor is its centre a vertex.
-  EXPECT_EQ(thrown([] { build(arrow(), {.crease_edges = {{1, 3}}}); }).code, ErrorCode::bad_feature_edge);
-  EXPECT_EQ(thrown([] { build(l_shape(), {.corner_vertices = {6}}); }).code, ErrorCode::index_out_of_range);
+  EXPECT_EQ(thrown([] { build(arrow(), {.crease_edges = {{1, 3}}}); }).code,
+            ErrorCode::bad_feature_edge);
+  EXPECT_EQ(thrown([] { build(l_shape(), {.corner_vertices = {6}}); }).code,
+            ErrorCode::index_out_of_range);
 }
 
 }  // namespace

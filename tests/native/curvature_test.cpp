@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Gauss-Newton systems: passes against matrices, forces against differences of the energy, and spheres.
+// The Gauss-Newton systems: passes against matrices, forces against differences of the energy, and
+// spheres.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "energy/curvature_level.h"
-#include "fair/fair.h"
-#include "lattice/linear.h"
+#include "curvature/level.h"
+#include "fairing/fair.h"
+#include "grid/linear.h"
 #include "meshes.h"
 #include "transfer/point_normal.h"
 
 namespace fairing::test {
 namespace {
 
-constexpr CurvatureEnergy both[] = {CurvatureEnergy::total_curvature, CurvatureEnergy::minimum_variation};
+constexpr CurvatureEnergy both[] = {CurvatureEnergy::total_curvature,
+                                    CurvatureEnergy::minimum_variation};
 
 Unknowns all_but_control_vertices(const ControlMesh& mesh) {
   Unknowns u;
@@ -24,7 +26,7 @@ Unknowns all_but_control_vertices(const ControlMesh& mesh) {
 }
 
 // The refined polyhedron blown up, and shaken a little: no symmetry is left.
-Array<double> lumpy(const Lattice& lattice, double noise) {
+Array<double> lumpy(const GridLevel& lattice, double noise) {
   Array<double> x(3 * lattice.size());
   refine_linearly(lattice, lattice.mesh().positions, x.data());
   std::mt19937 random(7);
@@ -37,7 +39,8 @@ Array<double> lumpy(const Lattice& lattice, double noise) {
   return x;
 }
 
-Array<double> random_displacement(const Lattice& lattice, const Array<float>& diagonal, unsigned seed) {
+Array<double> random_displacement(const GridLevel& lattice, const Array<float>& diagonal,
+                                  unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   Array<double> h(lattice.size());
@@ -47,7 +50,7 @@ Array<double> random_displacement(const Lattice& lattice, const Array<float>& di
 
 struct System {
   ControlMesh mesh;
-  Lattice lattice;
+  GridLevel lattice;
   Workers workers{2};
   CurvatureShared shared;
   CurvatureLevel level;
@@ -57,7 +60,7 @@ struct System {
         lattice(mesh, l),
         shared{mesh, all_but_control_vertices(mesh), energy, workers},
         level(shared, lattice) {
-    shared.damping = energy == CurvatureEnergy::minimum_variation ? 0.01 : 0.0;
+    shared.total_curvature_share = energy == CurvatureEnergy::minimum_variation ? 0.01 : 0.0;
   }
 };
 
@@ -83,7 +86,8 @@ TEST(CurvatureLevel, PassesAgreeWithTheMatrix) {
         double worst = 0;
         for (Eigen::Index i = 0; i < x.size(); ++i)
           worst = std::max(
-              worst, std::abs(image[std::size_t(assembled.unknown_points[std::size_t(i)])] - expected(i)));
+              worst,
+              std::abs(image[std::size_t(assembled.unknown_points[std::size_t(i)])] - expected(i)));
         EXPECT_LT(worst, 1e-6 * expected.lpNorm<Eigen::Infinity>());
       }
 }
@@ -98,7 +102,8 @@ TEST(CurvatureLevel, IsSymmetricAndPositive) {
     s.level.apply(a.data(), ka.data());
     s.level.apply(b.data(), kb.data());
     double ab = 0, ba = 0, aa = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) ab += a[i] * kb[i], ba += b[i] * ka[i], aa += a[i] * ka[i];
+    for (std::size_t i = 0; i < a.size(); ++i)
+      ab += a[i] * kb[i], ba += b[i] * ka[i], aa += a[i] * ka[i];
     EXPECT_GT(aa, 0);
     EXPECT_NEAR(ab, ba, 1e-5 * aa);
   }
@@ -108,7 +113,7 @@ TEST(CurvatureLevel, IsSymmetricAndPositive) {
 TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
   for (const CurvatureEnergy energy : both) {
     System s(octahedron(), 5, energy);
-    s.shared.damping = 0;
+    s.shared.total_curvature_share = 0;
     Array<double> x(3 * s.lattice.size());
     refine_linearly(s.lattice, s.mesh.positions, x.data());
     for (std::size_t i = 0; i < x.size(); i += 3) {
@@ -116,7 +121,7 @@ TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
       p.normalize();
       p = Vec3(p.x(), 1.2 * p.y(), 1.5 * p.z());
     }
-    CurvatureLevel::Surface surface;
+    Linearization surface;
     s.level.linearize(x.data(), &surface);
     const auto bump = [&](std::size_t p) {
       const Eigen::Map<const Vec3> at(x.data() + 3 * p);
@@ -142,7 +147,7 @@ TEST(CurvatureLevel, SpheresAreCritical) {
       Array<double> x(3 * s.lattice.size());
       refine_linearly(s.lattice, s.mesh.positions, x.data());
       for (std::size_t i = 0; i < x.size(); i += 3) Eigen::Map<Vec3>(x.data() + i).normalize();
-      CurvatureLevel::Surface surface;
+      Linearization surface;
       s.level.linearize(x.data(), &surface);
       for (std::size_t p = 0; p < s.lattice.size(); ++p)
         EXPECT_NEAR(surface.force[p], 0, 1e-8 * std::sqrt(double(s.level.diagonal()[p]) + 1)) << p;
@@ -154,7 +159,7 @@ TEST(PointNormal, FollowsASphereToFourthOrder) {
   Workers workers(1);
   double before = 0;
   for (int l = 3; l <= 6; ++l) {
-    const Lattice coarse(mesh, l), fine(mesh, l + 1);
+    const GridLevel coarse(mesh, l), fine(mesh, l + 1);
     std::vector<double> x(3 * coarse.size()), y(3 * fine.size());
     refine_linearly(coarse, mesh.positions, x.data());
     for (std::size_t i = 0; i < x.size(); i += 3) Eigen::Map<Vec3>(x.data() + i).normalize();
@@ -184,7 +189,8 @@ TEST(TotalCurvatureSurface, IsASphereWhereTheControlMeshIsInscribed) {
       const FairResult result = fair(mesh.view(), options, monitor);
       double most = 0;
       for (std::size_t i = 0; i < result.vertices.size(); i += 3)
-        most = std::max(most, std::abs(Eigen::Map<const Vec3>(result.vertices.data() + i).norm() - 1));
+        most =
+            std::max(most, std::abs(Eigen::Map<const Vec3>(result.vertices.data() + i).norm() - 1));
       EXPECT_LT(most, 1e-5);
     }
 }

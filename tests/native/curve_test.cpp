@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "curve/curve.h"
+#include "curves/curve.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <numbers>
 #include <random>
 
-#include "check/check.h"
-#include "curve/feature_curves.h"
+#include "curves/feature_curves.h"
+#include "mesh/validate/check.h"
 #include "meshes.h"
 
 namespace fairing::test {
@@ -38,8 +38,8 @@ double distance(const Points& a, const Points& b) {
   return largest;
 }
 
-// Minimizes the sum of ω |second divided difference|² over all points but the given ones, by dense least
-// squares.
+// Minimizes the sum of ω |second divided difference|² over all points but the given ones, by dense
+// least squares.
 Points minimize_directly(const Points& vertices, bool closed, int n, double exponent) {
   const int count = int(vertices.size()), segments = closed ? count : count - 1,
             points = segments * n + !closed;
@@ -47,14 +47,18 @@ Points minimize_directly(const Points& vertices, bool closed, int n, double expo
   for (int s = 0; s < segments; ++s)
     for (int i = 0; i < n; ++i)
       spacing.push_back(
-          std::pow((vertices[std::size_t((s + 1) % count)] - vertices[std::size_t(s)]).norm(), exponent) / n);
+          std::pow((vertices[std::size_t((s + 1) % count)] - vertices[std::size_t(s)]).norm(),
+                   exponent) /
+          n);
 
   const int first = closed ? 0 : 1, rows = closed ? points : points - 2;
   Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(rows, points);
   for (int r = 0; r < rows; ++r) {
     const int i = first + r, before = (i + points - 1) % points, after = (i + 1) % points;
-    const double left = spacing[std::size_t(closed ? before : i - 1)], right = spacing[std::size_t(i)];
-    const double weight = (left + right) / 2;  // ω, and the denominator of the second divided difference
+    const double left = spacing[std::size_t(closed ? before : i - 1)],
+                 right = spacing[std::size_t(i)];
+    const double weight =
+        (left + right) / 2;  // ω, and the denominator of the second divided difference
     differences(r, before) += 1 / left;
     differences(r, i) -= 1 / left + 1 / right;
     differences(r, after) += 1 / right;
@@ -86,7 +90,8 @@ TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
           EXPECT_LT(distance(refine_chain(chain, closed, n, exponent),
                              minimize_directly(chain, closed, n, exponent)),
                     1e-9)
-              << count << " vertices, N = " << n << ", exponent " << exponent << (closed ? ", closed" : "");
+              << count << " vertices, N = " << n << ", exponent " << exponent
+              << (closed ? ", closed" : "");
         }
 }
 
@@ -95,7 +100,8 @@ TEST(Curve, ReproducesStraightLines) {
   const Points points = refine_chain(chain, false, 4, 1.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t s = i / 3;
-    EXPECT_LT((points[i] - (chain[s] + (double(i % 3 + 1) / 4) * (chain[s + 1] - chain[s]))).norm(), 1e-14);
+    EXPECT_LT((points[i] - (chain[s] + (double(i % 3 + 1) / 4) * (chain[s + 1] - chain[s]))).norm(),
+              1e-14);
   }
 }
 
@@ -108,7 +114,8 @@ TEST(Curve, ApproximatesTheCircle) {
       circle.emplace_back(std::cos(2 * std::numbers::pi * i / count),
                           std::sin(2 * std::numbers::pi * i / count), 0);
     double error = 0;
-    for (const Vec3& p : refine_chain(circle, true, 64, 0.5)) error = std::max(error, std::abs(p.norm() - 1));
+    for (const Vec3& p : refine_chain(circle, true, 64, 0.5))
+      error = std::max(error, std::abs(p.norm() - 1));
     EXPECT_LT(error, last / 14);
     last = error;
   }
@@ -140,7 +147,8 @@ TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
     const int count = 3 + int(seed % 7), n = 4;
     Points loop = random_chain(seed, count);
     if (seed % 2)
-      loop[std::size_t(count) - 1] = loop[0] = Vec3(-9, 0, 0);  // the least point twice, not side by side
+      loop[std::size_t(count) - 1] = loop[0] =
+          Vec3(-9, 0, 0);  // the least point twice, not side by side
     if (seed % 2) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     if (seed % 2 && count > 3) std::swap(loop[0], loop[std::size_t(count) - 1]);
     if (seed % 2) loop[1] = Vec3(1, double(seed), 2);
@@ -212,8 +220,8 @@ TEST(FeatureCurves, StraightBoundariesStayOnTheirEdges) {
   }
 }
 
-// Two meshes on either side of one boundary polyline: numbered, oriented and refined apart, equal to the
-// last bit.
+// Two meshes on either side of one boundary polyline: numbered, oriented and refined apart, equal
+// to the last bit.
 TEST(FeatureCurves, NeighboursAgreeBitForBit) {
   const int around = 7;
   for (const BoundaryMode mode : {BoundaryMode::curve, BoundaryMode::linear}) {
@@ -233,7 +241,8 @@ TEST(FeatureCurves, NeighboursAgreeBitForBit) {
       std::reverse(upper.corners.begin() + 4 * std::ptrdiff_t(f),
                    upper.corners.begin() + 4 * std::ptrdiff_t(f) + 4);
 
-    const ControlMesh low = build(lower, {.boundary = mode}), high = build(upper, {.boundary = mode});
+    const ControlMesh low = build(lower, {.boundary = mode}),
+                      high = build(upper, {.boundary = mode});
     const FeatureCurves low_curves = refine_feature_edges(low, 16, 0.5),
                         high_curves = refine_feature_edges(high, 16, 0.5);
     int shared = 0;
@@ -244,7 +253,8 @@ TEST(FeatureCurves, NeighboursAgreeBitForBit) {
         };
         if (!low.feature_edge[std::size_t(e)] || !high.feature_edge[std::size_t(d)]) continue;
         const bool same = end(low, e, 0) == end(high, d, 0) && end(low, e, 1) == end(high, d, 1);
-        const bool opposite = end(low, e, 0) == end(high, d, 1) && end(low, e, 1) == end(high, d, 0);
+        const bool opposite =
+            end(low, e, 0) == end(high, d, 1) && end(low, e, 1) == end(high, d, 0);
         if (!same && !opposite) continue;
         ++shared;
         Points a(low_curves.of(e).begin(), low_curves.of(e).end()),

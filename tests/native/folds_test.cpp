@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "fair/folds.h"
-#include "fair/grow.h"
-#include "fair/harmonic_fill.h"
-#include "lattice/linear.h"
+#include "curvature/folds.h"
+#include "curvature/local_damping.h"
+#include "curvature/unfold.h"
+#include "grid/linear.h"
 #include "meshes.h"
 
 namespace fairing::test {
@@ -17,7 +17,7 @@ constexpr int level = 3;
 
 struct Sheet {
   ControlMesh mesh;
-  Lattice lattice;
+  GridLevel lattice;
   Workers workers{2};
   Array<double> x;
 
@@ -54,7 +54,8 @@ TEST(Folds, AreFoundInFacesAndOnEdges) {
       std::size_t marked = 0, far = 0;
       for (std::size_t i = 0; i < marks.size(); ++i) {
         marked += marks[i] > 0;
-        const Eigen::Map<const Vec3> from(flat.data() + 3 * std::size_t(p)), to(flat.data() + 3 * i);
+        const Eigen::Map<const Vec3> from(flat.data() + 3 * std::size_t(p)),
+            to(flat.data() + 3 * i);
         far += marks[i] > 0 && (from - to).norm() > 0.4;
       }
       EXPECT_GE(marked, 2);
@@ -79,11 +80,12 @@ TEST(HarmonicFill, IsFlatWhereTheControlMeshIs) {
     Sheet s(control);
     Unknowns unknowns;
     unknowns.vertex.assign(std::size_t(s.mesh.vertex_count()), 0);
-    for (std::size_t e = 0; e < s.mesh.edges.size(); ++e) unknowns.edge.push_back(!s.mesh.feature_edge[e]);
+    for (std::size_t e = 0; e < s.mesh.edges.size(); ++e)
+      unknowns.edge.push_back(!s.mesh.feature_edge[e]);
     Array<float> marks(s.lattice.size(), 0.0f);
     marks[std::size_t(middle_of_face(s, 4))] = marks[std::size_t(middle_of_an_inner_edge(s))] = 1;
-    Exchange<float, 1> exchange;
-    for (int ring = 0; ring < 3; ++ring) grow(s.lattice, s.workers, exchange, nullptr, marks);
+    ElementSlots<float, 1> exchange;
+    for (int ring = 0; ring < 3; ++ring) dilate(s.lattice, s.workers, exchange, nullptr, marks);
     const Array<double> flat = s.x;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> shake(-1, 1);

@@ -43,7 +43,14 @@ OwnedPolygonMesh tetrahedron() {
 
 OwnedPolygonMesh cube() {
   return make_mesh(
-      {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+      {{-1, -1, -1},
+       {1, -1, -1},
+       {1, 1, -1},
+       {-1, 1, -1},
+       {-1, -1, 1},
+       {1, -1, 1},
+       {1, 1, 1},
+       {-1, 1, 1}},
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
 }
 
@@ -61,27 +68,29 @@ OwnedPolygonMesh cube_triangles() {
 }
 
 OwnedPolygonMesh octahedron() {
-  return make_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                   {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
+  return make_mesh(
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
 
 OwnedPolygonMesh icosahedron() {
   const double g = std::numbers::phi;
-  auto mesh = make_mesh({{-1, g, 0},
-                         {1, g, 0},
-                         {-1, -g, 0},
-                         {1, -g, 0},
-                         {0, -1, g},
-                         {0, 1, g},
-                         {0, -1, -g},
-                         {0, 1, -g},
-                         {g, 0, -1},
-                         {g, 0, 1},
-                         {-g, 0, -1},
-                         {-g, 0, 1}},
-                        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
+  auto mesh = make_mesh(
+      {{-1, g, 0},
+       {1, g, 0},
+       {-1, -g, 0},
+       {1, -g, 0},
+       {0, -1, g},
+       {0, 1, g},
+       {0, -1, -g},
+       {0, 1, -g},
+       {g, 0, -1},
+       {g, 0, 1},
+       {-g, 0, -1},
+       {-g, 0, 1}},
+      {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
   scale_to_unit_sphere(mesh);
   return mesh;
 }
@@ -93,7 +102,8 @@ OwnedPolygonMesh dodecahedron() {
   for (std::int64_t f = 0; f < 20; ++f) {
     Point p{};
     for (std::int64_t v : dual.view().face(f))
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] += dual.coordinates[std::size_t(3 * v) + axis];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        p[axis] += dual.coordinates[std::size_t(3 * v) + axis];
     points.push_back(p);
   }
   std::vector<Polygon> faces;
@@ -146,7 +156,9 @@ OwnedPolygonMesh two_tetrahedra() {
   return mesh;
 }
 
-OwnedPolygonMesh single_triangle() { return make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
+OwnedPolygonMesh single_triangle() {
+  return make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+}
 
 OwnedPolygonMesh single_quad() {
   return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
@@ -210,12 +222,14 @@ OwnedPolygonMesh roof() {
 }
 
 OwnedPolygonMesh l_shape() {
-  return make_mesh({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, {{0, 1, 2, 3, 4, 5}});
+  return make_mesh({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+                   {{0, 1, 2, 3, 4, 5}});
 }
 
 OwnedPolygonMesh u_shape() {
-  return make_mesh({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},
-                   {{0, 1, 2, 3, 4, 5, 6, 7}});
+  return make_mesh(
+      {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},
+      {{0, 1, 2, 3, 4, 5, 6, 7}});
 }
 
 OwnedPolygonMesh arrow() {
@@ -231,7 +245,8 @@ OwnedPolygonMesh warped_quad(double height) {
 }
 
 OwnedPolygonMesh quad_doublet() {
-  return make_mesh({{-1, 0, 0}, {0, 0, 0.2}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2, 3}, {2, 1, 0, 4}});
+  return make_mesh({{-1, 0, 0}, {0, 0, 0.2}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}},
+                   {{0, 1, 2, 3}, {2, 1, 0, 4}});
 }
 
 OwnedPolygonMesh mobius(int quads) {
@@ -249,12 +264,14 @@ OwnedPolygonMesh mobius(int quads) {
 }
 
 OwnedPolygonMesh two_fans() {
-  return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+  return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
+                   {{0, 1, 2}, {0, 3, 4}});
 }
 
 OwnedPolygonMesh hourglass() {
-  return make_mesh({{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
-                   {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 6, 4}, {0, 4, 5}, {0, 5, 6}, {4, 6, 5}});
+  return make_mesh(
+      {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
+      {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 6, 4}, {0, 4, 5}, {0, 5, 6}, {4, 6, 5}});
 }
 
 OwnedPolygonMesh three_on_an_edge() {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named tiny meshes for the tests. All are oriented outwards (or upwards) and clean unless their name says otherwise.
+// Named tiny meshes for the tests. All are oriented outwards (or upwards) and clean unless their
+// name says otherwise.
 #pragma once
 
 #include <array>
 #include <initializer_list>
 #include <vector>
 
-#include "check/polygon_mesh.h"
+#include "mesh/polygon_mesh.h"
 
 namespace fairing::test {
 
@@ -32,8 +33,8 @@ OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads);
 // With a boundary.
 OwnedPolygonMesh single_triangle();
 OwnedPolygonMesh single_quad();
-OwnedPolygonMesh two_triangles();              // a unit square, cut along 0-2
-OwnedPolygonMesh fan(int triangles);           // a closed flat fan: the hub is vertex 0, of that valence
+OwnedPolygonMesh two_triangles();     // a unit square, cut along 0-2
+OwnedPolygonMesh fan(int triangles);  // a closed flat fan: the hub is vertex 0, of that valence
 OwnedPolygonMesh half_fan(int triangles);      // the hub, vertex 0, on the boundary
 OwnedPolygonMesh grid(int columns, int rows);  // unit quads in z = 0
 OwnedPolygonMesh open_cone(int triangles);     // apex 0 at height 1
@@ -41,10 +42,10 @@ OwnedPolygonMesh open_cylinder(int around);    // one ring of quads, two boundar
 OwnedPolygonMesh roof();                       // two quads over the ridge 0-1, at a right angle
 
 // Polygons for splitting, each one face in z = 0.
-OwnedPolygonMesh l_shape();                   // six corners, star-shaped
-OwnedPolygonMesh u_shape();                   // eight corners, mirror-symmetric, no point sees all of it
-OwnedPolygonMesh arrow();                     // a concave quad, reflex at corner 3
-OwnedPolygonMesh flat_corner();               // a quad that looks like a triangle: 180 degrees at corner 1
+OwnedPolygonMesh l_shape();      // six corners, star-shaped
+OwnedPolygonMesh u_shape();      // eight corners, mirror-symmetric, no point sees all of it
+OwnedPolygonMesh arrow();        // a concave quad, reflex at corner 3
+OwnedPolygonMesh flat_corner();  // a quad that looks like a triangle: 180 degrees at corner 1
 OwnedPolygonMesh warped_quad(double height);  // a unit square with two opposite corners lifted
 OwnedPolygonMesh quad_doublet();              // two quads around the interior vertex 1 of valence 2
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mirror symmetries of control meshes, and where they take the points of a lattice.
-#include "control_mesh/mirror.h"
+#include "mesh/mirror.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "lattice/linear.h"
-#include "lattice/mirror.h"
+#include "grid/linear.h"
+#include "grid/symmetrize.h"
 #include "meshes.h"
 
 namespace fairing::test {
@@ -101,7 +101,8 @@ TEST(Mirror, NoneAcrossWhichFacesDiffer) {
   EXPECT_EQ(mirrors(working(control(grid(4, 4)))).size(), 2u);
   const std::vector<Mirror> found = mirrors(working(control(triangulated(grid(4, 4)))));
   ASSERT_EQ(found.size(), 2u);  // along the cuts and across them
-  for (const Mirror& mirror : found) EXPECT_NEAR(std::abs(mirror.plane.normal.x()), std::sqrt(0.5), 1e-12);
+  for (const Mirror& mirror : found)
+    EXPECT_NEAR(std::abs(mirror.plane.normal.x()), std::sqrt(0.5), 1e-12);
   EXPECT_TRUE(mirrors(working(control(triangulated(grid(4, 3))))).empty());
 }
 
@@ -112,7 +113,7 @@ TEST(Mirror, NoneAcrossWhichFeaturesDiffer) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(std::abs(found[0].plane.normal.x()), 1);  // the other takes y to z
   FeatureOptions region;
-  region.region = {true, {0, 1, 2}, Joint::tangent};
+  region.region = {true, {0, 1, 2}, RegionContinuity::tangent};
   EXPECT_EQ(mirrors(working(control(grid(3, 3)))).size(), 2u);
   const std::vector<Mirror> kept = mirrors(working(control(grid(3, 3), region)));
   ASSERT_EQ(kept.size(), 1u);
@@ -133,9 +134,9 @@ TEST(Mirror, NoneThatDoesNotHold) {
 
 TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
   // Two quads whose near sides coincide, without being joined.
-  const OwnedPolygonMesh slit =
-      make_mesh({{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-                {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  const OwnedPolygonMesh slit = make_mesh(
+      {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+      {{0, 1, 2, 3}, {4, 5, 6, 7}});
   const ControlMesh mesh = working(control(slit));
   const std::vector<Mirror> found = mirrors(mesh);
   ASSERT_FALSE(found.empty());
@@ -166,20 +167,21 @@ Unknowns unknowns(const ControlMesh& mesh, bool vertices) {
 
 std::vector<ControlMesh> samples() {
   std::vector<ControlMesh> out;
-  for (const OwnedPolygonMesh& mesh :
-       {cube(), octahedron(), icosahedron(), square_pyramid(), torus(8, 6), triangulated(grid(4, 4))}) {
+  for (const OwnedPolygonMesh& mesh : {cube(), octahedron(), icosahedron(), square_pyramid(),
+                                       torus(8, 6), triangulated(grid(4, 4))}) {
     out.push_back(working(control(mesh)));
     out.push_back(turned(control(mesh)));
   }
   return out;
 }
 
-// On the linearly refined mesh, which is symmetric, nothing moves if every point's image is the right one.
+// On the linearly refined mesh, which is symmetric, nothing moves if every point's image is the
+// right one.
 TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
   Workers workers(2);
   for (const ControlMesh& mesh : samples())
     for (int level = 0; level <= 3; ++level) {
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       Array<double> x(3 * lattice.size());
       refine_linearly(lattice, mesh.positions, x.data());
       for (const Mirror& mirror : mirrors(mesh)) {
@@ -193,7 +195,7 @@ TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
 TEST(LatticeMirror, MakesSurfacesSymmetric) {
   Workers one(1), two(2);
   for (const ControlMesh& mesh : samples()) {
-    const Lattice lattice(mesh, 3);
+    const GridLevel lattice(mesh, 3);
     const std::vector<Mirror> found = mirrors(mesh);
     Array<double> x(3 * lattice.size());
     refine_linearly(lattice, mesh.positions, x.data());
@@ -220,7 +222,7 @@ TEST(LatticeMirror, MakesSurfacesSymmetric) {
 TEST(LatticeMirror, MeansOfDisplacements) {
   Workers workers(2);
   for (const ControlMesh& mesh : samples()) {
-    const Lattice lattice(mesh, 3);
+    const GridLevel lattice(mesh, 3);
     Array<double> x(3 * lattice.size()), h(lattice.size());
     refine_linearly(lattice, mesh.positions, x.data());
     for (const Mirror& mirror : mirrors(mesh)) {
@@ -238,13 +240,14 @@ TEST(LatticeMirror, MeansOfDisplacements) {
 TEST(LatticeMirror, LeavesWhatIsNoUnknown) {
   Workers workers(2);
   const ControlMesh mesh = working(control(grid(4, 3)));
-  const Lattice lattice(mesh, 2);
+  const GridLevel lattice(mesh, 2);
   Array<double> x(3 * lattice.size());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(12.9898 * double(i + 1));
   Array<double> mean = x;
   mean_with_image(lattice, mirrors(mesh).at(0), unknowns(mesh, false), workers, mean.data());
   const auto same = [&](Index p) {
-    return std::equal(&x[3 * std::size_t(p)], &x[3 * std::size_t(p)] + 3, &mean[3 * std::size_t(p)]);
+    return std::equal(&x[3 * std::size_t(p)], &x[3 * std::size_t(p)] + 3,
+                      &mean[3 * std::size_t(p)]);
   };
   for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_TRUE(same(v));
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <random>
 
-#include "check/check.h"
-#include "control_mesh/control_mesh.h"
 #include "control_mesh_invariants.h"
+#include "mesh/control_mesh.h"
+#include "mesh/validate/check.h"
 #include "meshes.h"
 
 namespace fairing::test {
@@ -92,7 +92,8 @@ std::map<std::string, int> outcomes(OwnedPolygonMesh (*make)(Dice&), int trials)
     try {
       const CheckResult result = check(mesh.view(), {.repair_orientation = dice(0, 1) == 1});
       ++count["passed"];
-      expect_consistent(make_control_mesh(mesh.view(), random_features(dice, mesh), result.flipped_faces));
+      expect_consistent(
+          make_control_mesh(mesh.view(), random_features(dice, mesh), result.flipped_faces));
     } catch (const FairingError& error) {
       ++count[name(error.code)];
       EXPECT_FALSE(error.elements.empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "control_mesh/split.h"
+#include "mesh/split.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <random>
 #include <set>
 
-#include "check/check.h"
-#include "control_mesh/control_mesh.h"
 #include "control_mesh_invariants.h"
+#include "mesh/control_mesh.h"
+#include "mesh/validate/check.h"
 #include "meshes.h"
 #include "thrown.h"
 
@@ -44,15 +44,20 @@ double area(const OwnedPolygonMesh& input, const SplitMesh& mesh) {
   for (const SplitFace& face : mesh.faces) {
     EXPECT_LT(face.vertex[3], 0);
     const Vec3& a = points[std::size_t(face.vertex[0])];
-    sum += 0.5 * (points[std::size_t(face.vertex[1])] - a).cross(points[std::size_t(face.vertex[2])] - a).z();
-    EXPECT_GT((points[std::size_t(face.vertex[1])] - a).cross(points[std::size_t(face.vertex[2])] - a).z(),
+    sum += 0.5 * (points[std::size_t(face.vertex[1])] - a)
+                     .cross(points[std::size_t(face.vertex[2])] - a)
+                     .z();
+    EXPECT_GT((points[std::size_t(face.vertex[1])] - a)
+                  .cross(points[std::size_t(face.vertex[2])] - a)
+                  .z(),
               0);
   }
   return sum;
 }
 
 TEST(Split, KeepsTrianglesAndGoodQuads) {
-  for (const OwnedPolygonMesh& mesh : {tetrahedron(), cube(), square_pyramid(), grid(3, 3), torus(8, 6)}) {
+  for (const OwnedPolygonMesh& mesh :
+       {tetrahedron(), cube(), square_pyramid(), grid(3, 3), torus(8, 6)}) {
     const SplitMesh result = split(mesh);
     EXPECT_EQ(std::int64_t(result.faces.size()), mesh.view().face_count());
     EXPECT_TRUE(result.centres.empty());
@@ -84,7 +89,8 @@ TEST(Split, OtherPolygonsAreTriangulatedSymmetrically) {
   for (const SplitFace& face : u.faces) {
     if (*std::max_element(face.vertex.begin(), face.vertex.end()) > 7) continue;
     without_centres.insert({face.vertex[0], face.vertex[1], face.vertex[2]});
-    their_mirror.insert({mirrored[std::size_t(face.vertex[0])], mirrored[std::size_t(face.vertex[1])],
+    their_mirror.insert({mirrored[std::size_t(face.vertex[0])],
+                         mirrored[std::size_t(face.vertex[1])],
                          mirrored[std::size_t(face.vertex[2])]});
   }
   EXPECT_EQ(without_centres, their_mirror);
@@ -114,7 +120,8 @@ TEST(Split, NeverTakesADiagonalThatIsAnEdge) {
   mesh.coordinates.insert(mesh.coordinates.end(), {1, 0, -1});
   mesh.corners.insert(mesh.corners.end(), {1, 3, 4});
   mesh.offsets.push_back(7);
-  // Faces that touch in two vertices without an edge are two fans there; only split_polygons sees this mesh.
+  // Faces that touch in two vertices without an edge are two fans there; only split_polygons sees
+  // this mesh.
   const SplitMesh result = split_polygons(mesh.view());
   EXPECT_EQ(vertex_sets(result).count({0, 1, 3}), 0u);
 }
@@ -124,10 +131,12 @@ TEST(Split, OpensVerticesOfValenceTwo) {
   EXPECT_EQ(vertex_sets(both), (Sets{{0, 1, 3}, {1, 2, 3}, {1, 2, 4}, {0, 1, 4}}));
 
   // A quad and a triangle around vertex 1.
-  const auto one = make_mesh({{-1, 0, 0}, {0, 0, 0.2}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}, {2, 1, 0}});
+  const auto one =
+      make_mesh({{-1, 0, 0}, {0, 0, 0.2}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}, {2, 1, 0}});
   EXPECT_EQ(vertex_sets(split(one)), (Sets{{0, 1, 3}, {1, 2, 3}, {0, 1, 2}}));
 
-  // A quad that wraps a corner of a pentagon twice: neighbouring vertices of valence two leave no diagonal.
+  // A quad that wraps a corner of a pentagon twice: neighbouring vertices of valence two leave no
+  // diagonal.
   const auto wrapped = make_mesh({{0, 0, 0}, {1, 0, 0.1}, {1, 1, 0.1}, {0, 1, 0}, {2, 0.5, 0}},
                                  {{0, 1, 2, 3}, {3, 2, 1, 0, 4}});
   expect_consistent(make_control_mesh(wrapped.view(), {}));

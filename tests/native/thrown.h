@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "check/error.h"
+#include "base/error.h"
 
 namespace fairing::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "energy/total_curvature.h"
+#include "curvature/total_curvature.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,10 @@
 #include <numbers>
 #include <random>
 
-#include "chart/angle.h"
-#include "difference/hessian.h"
-#include "energy/point_curvature.h"
-#include "lattice/linear.h"
+#include "curvature/point_curvature.h"
+#include "grid/linear.h"
 #include "meshes.h"
-#include "written_rings.h"
+#include "reference_rings.h"
 
 namespace fairing::test {
 namespace {
@@ -64,7 +62,8 @@ std::map<std::string, ControlMesh> inscribed() {
 }
 
 // The refined control polyhedron, projected to a sphere.
-std::vector<double> on_sphere(const Lattice& lattice, double radius, const Vec3& centre = Vec3::Zero()) {
+std::vector<double> on_sphere(const GridLevel& lattice, double radius,
+                              const Vec3& centre = Vec3::Zero()) {
   std::vector<double> x(3 * lattice.size());
   refine_linearly(lattice, lattice.mesh().positions, x.data());
   for (std::size_t i = 0; i < x.size(); i += 3) {
@@ -75,13 +74,15 @@ std::vector<double> on_sphere(const Lattice& lattice, double radius, const Vec3&
 }
 
 // point_curvature at every point that has a closed ring, found by walking around the cells.
-void visit_points(const Lattice& lattice, const std::vector<double>& x,
+void visit_points(const GridLevel& lattice, const std::vector<double>& x,
                   const std::function<void(Index, const PointCurvature&)>& visit) {
   const RingWalker walker(cells(lattice));
   const ChartMaker charts(lattice.mesh(), {});
   SurfaceChart chart;
-  const auto at = [&](Index p) { return Vec3(Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(p))); };
-  visit_fits(lattice, walker, charts, [&](const WrittenFit& fit) {
+  const auto at = [&](Index p) {
+    return Vec3(Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(p)));
+  };
+  visit_fits(lattice, walker, charts, [&](const ReferenceFit& fit) {
     if (fit.chart.ring.empty() || !fit.chart.closed) return;
     std::vector<Vec3> offset;
     std::vector<std::uint8_t> far;
@@ -93,7 +94,7 @@ void visit_points(const Lattice& lattice, const std::vector<double>& x,
   });
 }
 
-double measured(const Lattice& lattice, const std::vector<double>& x) {
+double measured(const GridLevel& lattice, const std::vector<double>& x) {
   Workers workers(1);
   return total_curvature(lattice, workers, x.data());
 }
@@ -104,7 +105,7 @@ TEST(PointCurvature, IsExactOnSpheres) {
   for (const auto& [name, mesh] : inscribed())
     for (int level = 0; level <= 3; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       const std::vector<double> x = on_sphere(lattice, radius, centre);
       std::size_t points = 0;
       visit_points(lattice, x, [&](Index p, const PointCurvature& c) {
@@ -131,13 +132,14 @@ TEST(TotalCurvature, SumsThePointsOfWalkedRings) {
   for (const auto& [name, mesh] : all)
     for (int level = 0; level <= 3; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       std::vector<double> x(3 * lattice.size());
       refine_linearly(lattice, mesh.positions, x.data());
       std::uniform_real_distribution<double> move(-0.05 / lattice.n(), 0.05 / lattice.n());
       for (double& c : x) c += move(random);
       double sum = 0;
-      visit_points(lattice, x, [&](Index, const PointCurvature& c) { sum += c.area * c.density(); });
+      visit_points(lattice, x,
+                   [&](Index, const PointCurvature& c) { sum += c.area * c.density(); });
       EXPECT_NEAR(measured(lattice, x), sum, 1e-10 * sum);
     }
 }
@@ -147,7 +149,7 @@ TEST(TotalCurvature, OfASphereIsEightPi) {
     SCOPED_TRACE(name);
     double before = 0;
     for (int level = 2; level <= 5; ++level) {
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       const double error = 1 - measured(lattice, on_sphere(lattice, 0.3)) / (8 * pi);
       EXPECT_NEAR(level > 3 ? before / error : 4, 4, 0.8) << level;
       before = error;
@@ -156,11 +158,12 @@ TEST(TotalCurvature, OfASphereIsEightPi) {
   }
 }
 
-// A function of plane coordinates that live on control vertices, sampled bilinearly in each control face.
+// A function of plane coordinates that live on control vertices, sampled bilinearly in each control
+// face.
 using Surface = std::function<Vec3(double, double)>;
 
-std::vector<double> sample(const Lattice& lattice, const std::vector<Vec2>& plane, const Surface& surface,
-                           const Vec2& period = Vec2::Zero()) {
+std::vector<double> sample(const GridLevel& lattice, const std::vector<Vec2>& plane,
+                           const Surface& surface, const Vec2& period = Vec2::Zero()) {
   std::vector<double> x(3 * lattice.size());
   const int n = lattice.n();
   for (Index f = 0; f < Index(lattice.mesh().faces.size()); ++f) {
@@ -169,7 +172,8 @@ std::vector<double> sample(const Lattice& lattice, const std::vector<Vec2>& plan
     for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
       corner[c] = plane[std::size_t(face.vertex[c])];
       for (int a = 0; a < 2; ++a)  // on the same sheet as the first
-        if (period[a] > 0) corner[c][a] -= period[a] * std::round((corner[c][a] - corner[0][a]) / period[a]);
+        if (period[a] > 0)
+          corner[c][a] -= period[a] * std::round((corner[c][a] - corner[0][a]) / period[a]);
     }
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= (face.quad() ? n : n - j); ++i) {
@@ -178,7 +182,8 @@ std::vector<double> sample(const Lattice& lattice, const std::vector<Vec2>& plan
                                           u * v * corner[2] + (1 - u) * v * corner[3])
                                    : Vec2((1 - u - v) * corner[0] + u * corner[1] + v * corner[2]);
         const Vec3 q = surface(p.x(), p.y());
-        for (int a = 0; a < 3; ++a) x[3 * std::size_t(lattice.face_point(f, i, j)) + std::size_t(a)] = q[a];
+        for (int a = 0; a < 3; ++a)
+          x[3 * std::size_t(lattice.face_point(f, i, j)) + std::size_t(a)] = q[a];
       }
   }
   return x;
@@ -194,16 +199,19 @@ TEST(TotalCurvature, OfATorusConvergesWithSecondOrder) {
   const double exact = 8 * pi * pi;  // Clifford's
   for (const bool cut : {false, true}) {
     SCOPED_TRACE(cut ? "triangles" : "quads");
-    const ControlMesh mesh = control(cut ? triangulated(torus(around, across)) : torus(around, across));
+    const ControlMesh mesh =
+        control(cut ? triangulated(torus(around, across)) : torus(around, across));
     std::vector<Vec2> plane;
     for (int i = 0; i < around; ++i)
       for (int j = 0; j < across; ++j) plane.push_back({2 * pi * i / around, 2 * pi * j / across});
     std::vector<double> errors;
     for (int level = 2; level <= 5; ++level) {
-      const Lattice lattice(mesh, level);
-      errors.push_back(measured(lattice, sample(lattice, plane, surface, {2 * pi, 2 * pi})) / exact - 1);
+      const GridLevel lattice(mesh, level);
+      errors.push_back(
+          measured(lattice, sample(lattice, plane, surface, {2 * pi, 2 * pi})) / exact - 1);
     }
-    for (std::size_t k = 2; k < errors.size(); ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.9) << k;
+    for (std::size_t k = 2; k < errors.size(); ++k)
+      EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.9) << k;
     EXPECT_GT(std::log2(errors[2] / errors[3]), 1.95);
     EXPECT_NEAR(errors.front(), 0, 1.6e-2);
     EXPECT_NEAR(errors.back(), 0, 3e-4);
@@ -216,7 +224,7 @@ TEST(TotalCurvature, OfAnEllipsoidConvergesThoughTheSpacingHasKinks) {
     SCOPED_TRACE(name);
     double before = 0;
     for (int level = 3; level <= 6; ++level) {
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       std::vector<double> x = on_sphere(lattice, 1);
       for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
       const double error = measured(lattice, x) / exact - 1;
@@ -240,20 +248,21 @@ TEST(TotalCurvature, OfACylinderPatchConvergesWithSecondOrder) {
     for (const Vec3& p : mesh.positions) plane.push_back(p.head<2>());
     std::vector<double> errors;
     for (int level = 2; level <= 5; ++level) {
-      const Lattice lattice(mesh, level);
+      const GridLevel lattice(mesh, level);
       const double n = lattice.n(),
                    covered = (columns - 1 / n) * (rows - 1 / n);  // without half cells at the curve
       const double exact = covered * 0.3 * radius * 0.4 / (radius * radius);
       errors.push_back(measured(lattice, sample(lattice, plane, surface)) / exact - 1);
     }
-    for (std::size_t k = 1; k < errors.size(); ++k) EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.8) << k;
+    for (std::size_t k = 1; k < errors.size(); ++k)
+      EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.8) << k;
     EXPECT_NEAR(errors.back(), 0, 1e-3);
   }
 }
 
 TEST(TotalCurvature, DoesNotDependOnScale) {
   const ControlMesh mesh = control(random_hull(12, 3));
-  const Lattice lattice(mesh, 3);
+  const GridLevel lattice(mesh, 3);
   std::vector<double> x = on_sphere(lattice, 1);
   for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
   const double reference = measured(lattice, x);
@@ -267,7 +276,7 @@ TEST(TotalCurvature, DoesNotDependOnScale) {
 TEST(TotalCurvature, OfThePlaneIsNothing) {
   for (const OwnedPolygonMesh& flat : {grid(4, 3), triangulated(grid(4, 3)), fan(9)}) {
     const ControlMesh mesh = control(flat);
-    const Lattice lattice(mesh, 3);
+    const GridLevel lattice(mesh, 3);
     std::vector<double> x(3 * lattice.size());
     refine_linearly(lattice, mesh.positions, x.data());
     for (std::size_t i = 0; i < x.size(); i += 3) x[i + 2] = 0.3 * x[i] - 0.7 * x[i + 1] + 5;
@@ -280,7 +289,7 @@ TEST(TotalCurvature, LeavesOutCurves) {
   FeatureOptions creases;
   creases.crease_angle = 0.5;
   const ControlMesh mesh = control(cube(), creases);
-  const Lattice lattice(mesh, 3);
+  const GridLevel lattice(mesh, 3);
   std::vector<double> x(3 * lattice.size());
   refine_linearly(lattice, mesh.positions, x.data());
   EXPECT_LT(measured(lattice, x), 1e-20);
@@ -288,7 +297,7 @@ TEST(TotalCurvature, LeavesOutCurves) {
 
 TEST(TotalCurvature, AnyNumberOfThreadsGivesTheSameBits) {
   const ControlMesh mesh = control(triangulated(torus(30, 24)));
-  const Lattice lattice(mesh, 2);
+  const GridLevel lattice(mesh, 2);
   std::vector<double> x(3 * lattice.size());
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
@@ -304,7 +313,7 @@ TEST(TotalCurvature, AnyNumberOfThreadsGivesTheSameBits) {
 TEST(TotalCurvature, IsFiniteOnDegenerateSurfaces) {
   for (const OwnedPolygonMesh& faces : {cube(), icosahedron(), square_pyramid(), grid(3, 3)}) {
     const ControlMesh mesh = control(faces);
-    const Lattice lattice(mesh, 2);
+    const GridLevel lattice(mesh, 2);
     std::vector<double> x(3 * lattice.size(), 0.25);
     EXPECT_EQ(measured(lattice, x), 0);  // all in one point
     for (std::size_t i = 0; i < x.size(); i += 3) x[i] = 0.1 * double(i % 7);
@@ -320,138 +329,6 @@ TEST(TotalCurvature, IsFiniteOnDegenerateSurfaces) {
       for (double& c : x) c *= scale;
       EXPECT_TRUE(std::isfinite(measured(lattice, x)));
     }
-  }
-}
-
-TEST(PointCurvature, StaysExactWhereTheAreaHasItsFloor) {
-  // A star: triangles obtuse at its near points, so that the circumcentric area is negative.
-  const double radius = 1.5;
-  SurfaceChart chart;
-  for (const bool cells : {false, true}) {  // near points as the far corners of quads, too
-    std::vector<Vec3> offset;
-    std::vector<std::uint8_t> far;
-    for (int j = 0; j < 10; ++j) {
-      const double turn = 2 * pi * j / 10, reach = j % 2 ? 0.05 : 0.7;
-      offset.push_back(radius * Vec3(std::sin(reach) * std::cos(turn), std::sin(reach) * std::sin(turn),
-                                     std::cos(reach) - 1));
-      far.push_back(cells && j % 2);
-    }
-    double barycentric = 0;
-    for (std::size_t j = 0; j < 10 && !cells; ++j)
-      barycentric += offset[j].cross(offset[(j + 1) % 10]).norm() / 6;
-    const PointCurvature c = point_curvature({offset, far}, chart);
-    EXPECT_NEAR(c.trace, -2 / radius, 1e-12);
-    EXPECT_NEAR(std::hypot(c.trace_free[0], c.trace_free[1]), 0, 1e-11);
-    EXPECT_LT((c.normal - Vec3::UnitZ()).norm(), 1e-13);
-    EXPECT_NEAR(c.area, cells ? c.area : 0.1 * barycentric, 1e-14);
-  }
-}
-
-TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
-  // Quads along and around; the first neighbour lies along the axis, then half-way between, then around.
-  const double radius = 2, step = 0.01;
-  const auto ring = [&](int first) {
-    std::vector<Vec3> offset;
-    for (int j = first; j < first + 8; ++j) {
-      const double along[] = {1, 1, 0, -1, -1, -1, 0, 1}, around[] = {0, 1, 1, 1, 0, -1, -1, -1};
-      const double angle = step * around[j % 8] / radius;
-      offset.push_back({radius * (std::cos(angle) - 1), -radius * std::sin(angle), step * along[j % 8]});
-    }
-    return offset;
-  };
-  SurfaceChart chart;
-  for (int first = 0; first < 3; ++first) {
-    std::vector<std::uint8_t> far;
-    for (int j = 0; j < 8; ++j) far.push_back((j + first) % 2);
-    const PointCurvature c = point_curvature({ring(first), far}, chart);
-    const double part = 1 / (radius * std::numbers::sqrt2);
-    EXPECT_NEAR(c.trace, -1 / radius, 1e-5);
-    EXPECT_NEAR(c.trace_free[0], first == 0 ? part : first == 1 ? 0 : -part, 1e-5) << first;
-    EXPECT_NEAR(std::abs(c.trace_free[1]), first == 1 ? part : 0, 1e-5) << first;
-    EXPECT_NEAR(std::abs(c.normal.x()), 1, 1e-6);
-    EXPECT_NEAR(c.area, step * step, 1e-6 * step);
-    EXPECT_NEAR(c.density(), 1 / (radius * radius), 1e-5);
-    EXPECT_NEAR(chart.ring[0].y(), 0, 1e-15);
-  }
-}
-
-TEST(PointCurvature, ChartIsTheExponentialMap) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> vary(-0.2, 0.2);
-  SurfaceChart chart;
-  for (int valence = 3; valence <= 12; ++valence) {
-    std::vector<Vec3> offset;
-    for (int j = 0; j < valence; ++j) {
-      const double angle = 2 * pi * (j + vary(random)) / valence;
-      offset.push_back((1 + vary(random)) * Vec3(std::cos(angle), std::sin(angle), 0.8 + vary(random)));
-    }
-    const std::vector<std::uint8_t> far(offset.size(), 0);
-    point_curvature({offset, far}, chart);
-    std::vector<double> before{0};
-    for (std::size_t j = 0; j < offset.size(); ++j) {
-      const Vec3 &a = offset[j], &b = offset[(j + 1) % offset.size()];
-      before.push_back(before.back() + std::acos(a.dot(b) / (a.norm() * b.norm())));
-    }
-    ASSERT_EQ(chart.ring.size(), offset.size());
-    for (std::size_t j = 0; j < offset.size(); ++j) {
-      const double angle = before[j] * 2 * pi / before.back();
-      EXPECT_LT((chart.ring[j] - offset[j].norm() * Vec2(std::cos(angle), std::sin(angle))).norm(), 1e-13)
-          << valence;
-    }
-  }
-}
-
-TEST(Hessian, IsTheFitsHessian) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> vary(-0.3, 0.3);
-  for (const double skew : {1.0, 0.1, 20.0})
-    for (int valence = 3; valence <= 40; ++valence)
-      for (int trial = 0; trial < 10; ++trial) {
-        Chart chart;
-        std::vector<double> f;
-        for (int j = 0; j < valence; ++j) {
-          const double angle = 2 * pi * (j + vary(random)) / valence, radius = 0.01 * (1 + vary(random));
-          chart.ring.push_back(Vec2(skew * radius * std::cos(angle), radius * std::sin(angle)));
-          f.push_back(vary(random));
-        }
-        Coefficients expected = Coefficients::Zero();
-        const FitRows rows = fit(chart);
-        for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
-        const Vec3 found = fitted_hessian(chart.ring, f);
-        EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * rows.bottomRows(3).norm())
-            << valence << " " << skew;
-      }
-}
-
-TEST(Hessian, IsTheFitsHessianOnConics) {
-  // Points on a conic through the origin, and regular rings, do not determine a quadratic, or only just.
-  for (const int valence : {3, 4, 5, 6, 8}) {
-    Chart chart;
-    std::vector<double> f;
-    for (int j = 0; j < valence; ++j) {
-      const double angle = 2 * pi * j / valence;
-      const Vec2 p(std::cos(angle), std::sin(angle));
-      chart.ring.push_back(valence < 6 ? p : Vec2(p.x(), 0.3 * p.x() * p.x() + (j % 2 ? 0.0 : p.x() * 0.5)));
-      f.push_back(std::sin(3.0 * j));
-    }
-    Coefficients expected = Coefficients::Zero();
-    const FitRows rows = fit(chart);
-    for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
-    const Vec3 found = fitted_hessian(chart.ring, f);
-    EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * (1 + expected.norm())) << valence;
-  }
-}
-
-TEST(Angle, AgreesWithTheLibrary) {
-  for (int k = 0; k <= 1000; ++k) {
-    const double angle = pi * k / 1000;
-    EXPECT_NEAR(angle_of(2.5 * std::sin(angle), 2.5 * std::cos(angle), 2.5), angle, 2e-14) << k;
-  }
-  for (int k = -300; k <= 300; ++k) {
-    double cosine, sine;
-    small_turn(0.01 * k, cosine, sine);
-    EXPECT_NEAR(cosine, std::cos(0.01 * k), 3e-16);
-    EXPECT_NEAR(sine, std::sin(0.01 * k), 3e-16);
   }
 }
 

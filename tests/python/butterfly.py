@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modified butterfly [Zorin, Schröder, Sweldens 1996] on closed triangle meshes: a rival to compare energies with."""
+"""Modified butterfly [Zorin, Schröder, Sweldens 1996] on closed triangle meshes: a rival to compare
+energies with."""
 
 import numpy as np
 
@@ -8,7 +9,9 @@ def refine(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.nd
     """One level: old vertices stay, every edge has a new one."""
     rings = ordered_rings(len(points), triangles)
     number, new = {}, []
-    for a, b in sorted({tuple(sorted(e)) for t in triangles.tolist() for e in zip(t, [*t[1:], t[0]])}):
+    for a, b in sorted(
+        {tuple(sorted(e)) for t in triangles.tolist() for e in zip(t, [*t[1:], t[0]])}
+    ):
         number[a, b] = len(points) + len(new)
         new.append(edge_point(points, rings, a, b))
     side = [number[tuple(sorted(e))] for t in triangles.tolist() for e in zip(t, [*t[1:], t[0]])]
@@ -42,7 +45,8 @@ def edge_point(points, rings, a, b):
 
 
 def half_stencil(points, rings, v, w):
-    """What v's side of a regular edge gives: the ten-point stencil, halved where both ends share a point."""
+    """What v's side of a regular edge gives: the ten-point stencil, halved where both ends share a
+    point."""
     ring = rings[v]
     k = ring.index(w)
     left, right = points[ring[(k + 1) % 6]], points[ring[k - 1]]

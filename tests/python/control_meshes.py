@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small control meshes that the project makes itself: each a pair (vertices (n, 3), faces (m, 3 | 4) or a list)."""
+"""Small control meshes that the project makes itself: each a pair (vertices (n, 3), faces (m, 3 |
+4) or a list)."""
 
 import numpy as np
 from scipy.spatial import ConvexHull
 
 
 def hull(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The convex hull of points that all lie on it, its triangles counter-clockwise from outside."""
+    """The convex hull of points that all lie on it, its triangles counter-clockwise from
+    outside."""
     faces = ConvexHull(points).simplices.astype(int)
     corner = points[faces]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -125,12 +127,18 @@ def moebius(count: int = 7):
     angle = 2 * np.pi * np.arange(count) / count
     centre = np.stack([2 * np.cos(angle), 2 * np.sin(angle), 0 * angle], -1)
     out = np.stack(
-        [np.cos(angle / 2) * np.cos(angle), np.cos(angle / 2) * np.sin(angle), np.sin(angle / 2)], -1
+        [np.cos(angle / 2) * np.cos(angle), np.cos(angle / 2) * np.sin(angle), np.sin(angle / 2)],
+        -1,
     )
     k = np.arange(count)
     after = (k + 1) % count
-    low, high = np.where(after == 0, count + after, after), np.where(after == 0, after, count + after)
-    return np.concatenate([centre - 0.5 * out, centre + 0.5 * out]), np.stack([k, low, high, k + count], -1)
+    low, high = (
+        np.where(after == 0, count + after, after),
+        np.where(after == 0, after, count + after),
+    )
+    return np.concatenate([centre - 0.5 * out, centre + 0.5 * out]), np.stack(
+        [k, low, high, k + count], -1
+    )
 
 
 def dodecahedron():
@@ -143,12 +151,15 @@ def dodecahedron():
         ring = np.nonzero((triangles == v).any(1))[0]
         right = centres[ring[0]] - axis * (centres[ring[0]] @ axis)
         up = np.cross(axis, right)
-        faces.append(ring[np.argsort(np.arctan2(centres[ring] @ up, centres[ring] @ right))].tolist())
+        faces.append(
+            ring[np.argsort(np.arctan2(centres[ring] @ up, centres[ring] @ right))].tolist()
+        )
     return centres, faces
 
 
 def mixed_house():
-    """Five quads, a pentagon wall either side, a roof of quad and triangles: every size of face, closed."""
+    """Five quads, a pentagon wall either side, a roof of quad and triangles: every size of face,
+    closed."""
     points = [[x, y, z] for z in (0, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     points += [[0, -1, 1.7], [0, 1, 1.7]]
     faces = [[3, 2, 1, 0], [0, 1, 5, 8, 4], [2, 3, 7, 9, 6], [1, 2, 6, 5], [3, 0, 4, 7]]
@@ -176,7 +187,8 @@ def box_with_creases():
 
 
 def edges_of(polygons):
-    """Polygons of one size: their edges, the lower vertex first, and for each of their sides the number of its edge."""
+    """Polygons of one size: their edges, the lower vertex first, and for each of their sides the
+    number of its edge."""
     size = polygons.shape[1]
     sides = np.concatenate([polygons[:, [k, (k + 1) % size]] for k in range(size)])
     edges, number = np.unique(np.sort(sides, 1), axis=0, return_inverse=True)
@@ -189,11 +201,14 @@ def refine_quads(points, quads):
     side = side + len(points)
     centre = len(points) + len(edges) + np.arange(len(quads))
     parts = [np.stack([quads[:, k], side[:, k], centre, side[:, k - 1]], -1) for k in range(4)]
-    return np.concatenate([points, points[edges].mean(1), points[quads].mean(1)]), np.concatenate(parts)
+    return np.concatenate([points, points[edges].mean(1), points[quads].mean(1)]), np.concatenate(
+        parts
+    )
 
 
 def drum(count: int = 8):
-    """A closed can whose rim is a crease loop: (mesh, loop (k, 2), vertices above, vertices below)."""
+    """A closed can whose rim is a crease loop: (mesh, loop (k, 2), vertices above, vertices
+    below)."""
     angle = 2 * np.pi * np.arange(count) / count
     ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(count)], -1)
     rings = np.concatenate(
@@ -221,7 +236,8 @@ def drum(count: int = 8):
 def creature(seed: int = 5):
     """An irregular closed mesh of quads and triangles, mirror-symmetric in x to the last bit.
 
-    A box of quads, its points moved about at random but alike on both sides, with a few quads of either side cut.
+    A box of quads, its points moved about at random but alike on both sides, with a few quads of
+    either side cut.
     """
     points, quads = cube()
     for _ in range(2):
@@ -238,7 +254,9 @@ def creature(seed: int = 5):
     jitter[image[right]] = jitter[right] * [-1, 1, 1]
     points = points + jitter
     faces, number = [], {tuple(sorted(q)): k for k, q in enumerate(quads.tolist())}
-    chosen = set(random.choice(np.nonzero(points[quads].mean(1)[:, 0] > 0)[0], 12, replace=False).tolist())
+    chosen = set(
+        random.choice(np.nonzero(points[quads].mean(1)[:, 0] > 0)[0], 12, replace=False).tolist()
+    )
     opposite = {number[tuple(sorted(image[q].tolist()))]: k for k, q in enumerate(quads.tolist())}
     for k, quad in enumerate(quads.tolist()):
         if k in chosen:
@@ -252,7 +270,8 @@ def creature(seed: int = 5):
 
 
 def rough_ball(seed: int = 3, roughness: float = 0.5):
-    """A sphere of 128 triangles whose vertices are off it at random: crumpled, with edges folded by over 90 degrees."""
+    """A sphere of 128 triangles whose vertices are off it at random: crumpled, with edges folded by
+    over 90 degrees."""
     points, faces = octahedron()
     for _ in range(2):
         points, faces = refine_triangles(points, faces)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes whose vertices lie on the unit sphere: for total curvature their surface is known, the sphere."""
+"""Control meshes whose vertices lie on the unit sphere: for total curvature their surface is known,
+the sphere."""
 
 import control_meshes as meshes
 import numpy as np
@@ -17,7 +18,8 @@ def on_sphere(points: np.ndarray) -> np.ndarray:
 
 
 def hull_polygons(points: np.ndarray) -> list[list[int]]:
-    """The faces of a convex hull, what lies in one plane as one polygon, counter-clockwise from outside."""
+    """The faces of a convex hull, what lies in one plane as one polygon, counter-clockwise from
+    outside."""
     _, triangles = meshes.hull(points)
     corner = points[triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -38,7 +40,8 @@ def hull_polygons(points: np.ndarray) -> list[list[int]]:
 
 
 def cut_large(polygons: list[list[int]]) -> list[list[int]]:
-    """Polygons of five and more sides as triangles, by ears from alternate sides; no vertex is added."""
+    """Polygons of five and more sides as triangles, by ears from alternate sides; no vertex is
+    added."""
     faces = []
     for polygon in polygons:
         rest, front = list(polygon), True
@@ -58,8 +61,12 @@ def inscribed(points, cut: bool) -> tuple[np.ndarray, list[list[int]]]:
 
 def signs(*values: float) -> np.ndarray:
     """All cyclic permutations of these, with all signs."""
-    some = np.stack(np.meshgrid(*[sorted({v, -v}) for v in values], indexing="ij"), -1).reshape(-1, 3)
-    return np.unique(np.concatenate([some, some[:, [1, 2, 0]], some[:, [2, 0, 1]]]).round(14), axis=0)
+    some = np.stack(np.meshgrid(*[sorted({v, -v}) for v in values], indexing="ij"), -1).reshape(
+        -1, 3
+    )
+    return np.unique(
+        np.concatenate([some, some[:, [1, 2, 0]], some[:, [2, 0, 1]]]).round(14), axis=0
+    )
 
 
 def turned(points: np.ndarray, angle: float) -> np.ndarray:
@@ -131,7 +138,8 @@ JOHNSON = {
 
 
 def johnson(number: int, cut: bool = False):
-    """Johnson's solid of that number; `cut`: larger faces than quads into triangles, without a vertex in the middle."""
+    """Johnson's solid of that number; `cut`: larger faces than quads into triangles, without a
+    vertex in the middle."""
     return inscribed(JOHNSON[number](), cut)
 
 
@@ -142,7 +150,8 @@ def dodecahedron():
 
 
 def cube(cut: int = 0):
-    """As quads (0), cut along diagonals that follow each other (1), or into a tetrahedron's six edges (2)."""
+    """As quads (0), cut along diagonals that follow each other (1), or into a tetrahedron's six
+    edges (2)."""
     points, quads = meshes.cube()
     points = points / 3**0.5
     if cut == 0:

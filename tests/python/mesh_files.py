@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons out of OBJ, PLY, STL and OFF files, as they are stored; ValueError for files that cannot be read.
+"""Polygons out of OBJ, PLY, STL and OFF files, as they are stored; ValueError for files that cannot
+be read.
 
 STL triangles share the vertices that agree to the last bit; nothing else is merged.
 """
@@ -18,7 +19,9 @@ PLY_TYPES |= {"float": "f", "double": "d", "float32": "f", "float64": "d"}
 
 def read_mesh(path: Path) -> tuple[np.ndarray, list[list[int]]]:
     """Vertices (n, 3) and polygons as lists of vertex ids."""
-    reader = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_off}[path.suffix.lower()]
+    reader = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_off}[
+        path.suffix.lower()
+    ]
     try:
         return reader(path)
     except (
@@ -44,7 +47,11 @@ def read_ply(path: Path) -> tuple[np.ndarray, list[list[int]]]:
             elements.append((words[1], int(words[2]), []))
         elif words[:1] == ["property"]:
             elements[-1][2].append([words[-1], *(PLY_TYPES[t] for t in words[1:-1] if t != "list")])
-    take = ascii_values(body) if form == "ascii" else binary_values(body, ">" if "big" in form else "<")
+    take = (
+        ascii_values(body)
+        if form == "ascii"
+        else binary_values(body, ">" if "big" in form else "<")
+    )
     vertices, faces = [], []
     for element, count, properties in elements:
         if count > len(body):
@@ -87,14 +94,17 @@ def read_stl(path: Path) -> tuple[np.ndarray, list[list[int]]]:
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else -1
     if len(data) == 84 + 50 * count:
         records = np.frombuffer(
-            data, np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")]), count, 84
+            data,
+            np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")]),
+            count,
+            84,
         )
         soup = records["corner"].reshape(-1, 3).astype(float)
     else:
         words = [line.split() for line in data.decode("latin-1").splitlines()]
-        soup = np.array([[float(x) for x in w[1:4]] for w in words if w[:1] == ["vertex"]], float).reshape(
-            -1, 3
-        )
+        soup = np.array(
+            [[float(x) for x in w[1:4]] for w in words if w[:1] == ["vertex"]], float
+        ).reshape(-1, 3)
     points, number = np.unique(soup, axis=0, return_inverse=True)
     return points, number.reshape(-1, 3).tolist()
 
@@ -110,8 +120,11 @@ def read_off(path: Path) -> tuple[np.ndarray, list[list[int]]]:
     return np.array(vertices, float).reshape(-1, 3), faces
 
 
-def weld(vertices: np.ndarray, faces: list[list[int]], digits: int) -> tuple[np.ndarray, list[list[int]]]:
-    """Merges vertices that agree to so many digits; where that makes sheets touch in a vertex, each has its own."""
+def weld(
+    vertices: np.ndarray, faces: list[list[int]], digits: int
+) -> tuple[np.ndarray, list[list[int]]]:
+    """Merges vertices that agree to so many digits; where that makes sheets touch in a vertex, each
+    has its own."""
     points, number = np.unique(vertices.round(digits), axis=0, return_inverse=True)
     faces = [number.reshape(-1)[face].tolist() for face in faces]
     points = list(points)

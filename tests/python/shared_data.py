@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The collection of real meshes that may lie beside the project; tests that want it are skipped where it is absent."""
+"""The collection of real meshes that may lie beside the project; tests that want it are skipped
+where it is absent."""
 
 import json
 from pathlib import Path
@@ -11,12 +12,21 @@ SHARED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 
 
 def shared_files(folder: str, *suffixes: str) -> list:
-    """Parameters for `pytest.mark.parametrize`: every mesh file below SHARED/folder; one skipped one if there is none."""
+    """Parameters for `pytest.mark.parametrize`: every mesh file below SHARED/folder; one skipped
+    one if there is none."""
     suffixes = suffixes or (".obj",)
     top = SHARED / folder
-    files = sorted(path for path in top.rglob("*") if path.suffix.lower() in suffixes) if top.is_dir() else []
+    files = (
+        sorted(path for path in top.rglob("*") if path.suffix.lower() in suffixes)
+        if top.is_dir()
+        else []
+    )
     if not files:
-        return [pytest.param(None, marks=pytest.mark.skip(reason=f"no shared meshes {folder}"), id="absent")]
+        return [
+            pytest.param(
+                None, marks=pytest.mark.skip(reason=f"no shared meshes {folder}"), id="absent"
+            )
+        ]
     return [pytest.param(path, id=str(path.relative_to(SHARED).with_suffix(""))) for path in files]
 
 
@@ -34,7 +44,8 @@ def read_obj(path: Path) -> tuple[np.ndarray, list[list[int]]]:
 
 
 def creases_of(path: Path, sharper_than: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Crease edges (k, 2) and corner vertices (c,) of the list beside a mesh; both empty without one."""
+    """Crease edges (k, 2) and corner vertices (c,) of the list beside a mesh; both empty without
+    one."""
     listed = path.with_name(path.stem + ".creases.json")
     found = json.loads(listed.read_text()) if listed.is_file() else {}
     edges = [edge[:2] for edge in found.get("edges", []) if edge[2] > sharper_than]

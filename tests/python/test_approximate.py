@@ -50,7 +50,8 @@ def test_more_tolerance_less_energy(name):
 
 
 def test_the_least_energy_within_the_tolerance():
-    """No better point in the ball: other feasible control positions, interpolated, cost more or as much.
+    """No better point in the ball: other feasible control positions, interpolated, cost more or as
+    much.
 
     Uniform charts depend on no position, so the energies of the two runs are one functional.
     """
@@ -84,7 +85,8 @@ def test_no_tolerance_is_exact(name):
 def test_more_weight_is_closer(name):
     vertices, faces = meshes.ALL[name]()
     runs = [
-        approximate((vertices, faces), weights=np.full(len(vertices), w)) for w in (1e-2, 1.0, 1e2, 1e4, 1e6)
+        approximate((vertices, faces), weights=np.full(len(vertices), w))
+        for w in (1e-2, 1.0, 1e2, 1e4, 1e6)
     ]
     farthest = [moved(r, vertices).max() for r in runs]
     assert all(near < 0.9 * far for far, near in zip(farthest, farthest[1:]))
@@ -101,7 +103,8 @@ def test_infinite_weights_interpolate(name):
 
 
 def test_weights_are_one_a_vertex():
-    """Infinite: stays to the last bit. Zero: goes where the surface likes it best. One more: nearer by itself."""
+    """Infinite: stays to the last bit. Zero: goes where the surface likes it best. One more: nearer
+    by itself."""
     vertices, faces = meshes.creature()
     weights = np.full(len(vertices), np.inf)
     weights[:3] = 0
@@ -135,7 +138,9 @@ def test_weights_and_tolerance_together():
     assert moved(result, vertices).sum() < moved(alone, vertices).sum()
 
 
-@pytest.mark.parametrize("option", [{"tolerance": 0.1}, {"weights": 1.0}, {"epsilon": 0.1}], ids=str)
+@pytest.mark.parametrize(
+    "option", [{"tolerance": 0.1}, {"weights": 1.0}, {"epsilon": 0.1}], ids=str
+)
 def test_vertices_on_curves_stay(option):
     vertices, faces = meshes.wavy_patch()
     if "weights" in option:
@@ -152,13 +157,16 @@ def test_vertices_on_curves_stay(option):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_epsilon_takes_cusps_off(name):
-    """No control vertex further than epsilon; energy falls, the more the larger epsilon; 0 does nothing."""
+    """No control vertex further than epsilon; energy falls, the more the larger epsilon; 0 does
+    nothing."""
     vertices, faces = meshes.ALL[name]()
     energies = [thin_plate(df.fair(vertices, faces, 2))]
     for epsilon in (1e-3, 1e-2, 1e-1):
         result = df.fair(vertices, faces, 2, epsilon=epsilon)
         assert 0 < moved(result, vertices).max() <= epsilon
-        assert result.report["largest_deviation"] == pytest.approx(moved(result, vertices).max(), rel=1e-9)
+        assert result.report["largest_deviation"] == pytest.approx(
+            moved(result, vertices).max(), rel=1e-9
+        )
         energies.append(thin_plate(result))
     assert all(more < less for less, more in zip(energies, energies[1:]))
     assert np.array_equal(
@@ -171,3 +179,23 @@ def test_epsilon_leaves_creases_alone():
     result = df.fair(vertices, faces, 2, epsilon=0.05, crease_edges=ridge)
     on_ridge = np.unique(ridge)
     assert np.array_equal(result.vertices[on_ridge], vertices[on_ridge])
+
+
+def test_weights_that_leave_a_closed_surface_nowhere_to_be():
+    """Nothing holds it: any one point would do, and that is no surface."""
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(*meshes.icosahedron(), 2, interpolation="approximate", weights=np.zeros(12))
+    assert caught.value.code == "UNDERDETERMINED" and caught.value.elements == list(range(12))
+
+
+def test_a_flat_mesh_with_a_tolerance_has_nothing_to_settle():
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    report = df.fair(
+        vertices, [[0, 1, 2, 3]], 2, boundary="free", interpolation="approximate", tolerance=0.1
+    ).report
+    assert report["constraint_gap"] <= 1e-3 and report["largest_deviation"] <= 1e-9
+
+
+def test_back_leg_interpolates_only():
+    with pytest.raises(df.FairingError, match="back_leg"):
+        df.fair(*meshes.cube(), 2, method="back_leg", interpolation="approximate", tolerance=0.1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays of any layout, type and protection just work, give the same result, and are not changed."""
+"""Arrays of any layout, type and protection just work, give the same result, and are not
+changed."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -19,7 +20,9 @@ def read_only(array):
 def strided(array):
     """Every other element of a larger array, the rest NaN or a wrong index."""
     wide = np.full(
-        (2 * array.shape[0], 3 * array.shape[1]), np.nan if array.dtype.kind == "f" else -9, array.dtype
+        (2 * array.shape[0], 3 * array.shape[1]),
+        np.nan if array.dtype.kind == "f" else -9,
+        array.dtype,
     )
     wide[::2, 1::3] = array
     view = wide[::2, 1::3]
@@ -71,12 +74,16 @@ def test_any_layout(layout):
     assert (snapshot(points), snapshot(faces)) == before
 
 
-@pytest.mark.parametrize("kind", ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64"])
+@pytest.mark.parametrize(
+    "kind", ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64"]
+)
 def test_any_integers(kind):
     assert_same(df.fair(POINTS, FACES.astype(kind), 2))
 
 
-@pytest.mark.parametrize("kind", ["float16", "float32", "float64", "longdouble", "int16", "int64", "uint8"])
+@pytest.mark.parametrize(
+    "kind", ["float16", "float32", "float64", "longdouble", "int16", "int64", "uint8"]
+)
 def test_any_numbers(kind):
     """The values as they are: a float32 is no other number as float64."""
     points = (8 * (POINTS + 3)).astype(kind)
@@ -107,7 +114,9 @@ def test_two_triangles_in_a_tuple_are_two_triangles():
 
 
 def test_numpy_scalars_as_options():
-    result = df.fair(POINTS, FACES, np.int8(2), metric_exponent=np.float32(0.5), threads=np.uint8(1))
+    result = df.fair(
+        POINTS, FACES, np.int8(2), metric_exponent=np.float32(0.5), threads=np.uint8(1)
+    )
     assert_same(result)
 
 
@@ -121,11 +130,18 @@ def test_features_and_weights_of_any_kind():
         ridge[::-1],
         ridge[:, ::-1],
     ):
-        result = df.fair(points, faces, 2, crease_edges=edges, corner_vertices=np.array([3], np.uint16))
+        result = df.fair(
+            points, faces, 2, crease_edges=edges, corner_vertices=np.array([3], np.uint16)
+        )
         assert_same(result, expected)
     weights = np.arange(1, len(POINTS) + 1)
     expected = df.fair(POINTS, FACES, 2, interpolation="approximate", weights=weights.astype(float))
-    for other in (weights, weights.tolist(), weights.astype(np.float32), strided(weights[:, None])[:, 0]):
+    for other in (
+        weights,
+        weights.tolist(),
+        weights.astype(np.float32),
+        strided(weights[:, None])[:, 0],
+    ):
         assert_same(df.fair(POINTS, FACES, 2, interpolation="approximate", weights=other), expected)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every defect ends in a FairingError with its code and elements; nothing is changed, the process lives on."""
+"""Every defect ends in a FairingError with its code and elements; nothing is changed, the process
+lives on."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -13,7 +14,9 @@ POINTS, FACES = meshes.icosahedron()
 
 def refusal(vertices, faces, *args, **options):
     """The error; checks that neither array has changed."""
-    before = [np.array(a, copy=True) if isinstance(a, np.ndarray) else repr(a) for a in (vertices, faces)]
+    before = [
+        np.array(a, copy=True) if isinstance(a, np.ndarray) else repr(a) for a in (vertices, faces)
+    ]
     with pytest.raises(df.FairingError) as caught:
         df.fair(vertices, faces, *args, **options)
     for now, was in zip((vertices, faces), before):
@@ -55,7 +58,9 @@ def test_non_finite_coordinate(value):
 
 @pytest.mark.parametrize("index", [12, -1, 10**9, 2**31, 2**40, -(2**33), 2**62])
 def test_index_out_of_range(index):
-    assert_refused("INDEX_OUT_OF_RANGE", [3], POINTS, with_row(FACES.astype(np.int64), 3, [0, 1, index]))
+    assert_refused(
+        "INDEX_OUT_OF_RANGE", [3], POINTS, with_row(FACES.astype(np.int64), 3, [0, 1, index])
+    )
 
 
 def test_unsigned_index_that_does_not_fit():
@@ -236,7 +241,9 @@ def test_strange_options(option):
 @pytest.mark.parametrize("value", [NAN, -1.0, -INF])
 def test_bad_weights(value):
     weights = with_row(np.ones(12), [2, 7], value)
-    assert_refused("BAD_OPTION", [2, 7], POINTS, FACES, interpolation="approximate", weights=weights)
+    assert_refused(
+        "BAD_OPTION", [2, 7], POINTS, FACES, interpolation="approximate", weights=weights
+    )
 
 
 @pytest.mark.parametrize(
@@ -292,7 +299,9 @@ def test_too_large_for_the_limit():
     assert error.code == "TOO_LARGE"
     assert "GB" in str(error) and str(20 * 4**5) in str(error)
     assert (
-        df.fair(POINTS, FACES, 5, memory_limit=10**9, relative_residual=1e-2).report["predicted_bytes"]
+        df.fair(POINTS, FACES, 5, memory_limit=10**9, relative_residual=1e-2).report[
+            "predicted_bytes"
+        ]
         > 10**6
     )
 
@@ -320,7 +329,9 @@ def test_positional_misuse_is_pythons_own_error():
 @pytest.mark.parametrize("levels", [0, 1, 2])
 def test_valence_360(boundary, levels):
     vertices, faces = meshes.closed_pole(360) if boundary == "closed" else meshes.fan(360)
-    result = df.fair(vertices, faces, levels, boundary="curve" if boundary == "closed" else boundary)
+    result = df.fair(
+        vertices, faces, levels, boundary="curve" if boundary == "closed" else boundary
+    )
     assert np.isfinite(result.vertices).all() and np.abs(result.vertices).max() < 2
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     assert result.report["converged"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The check report: all kinds of defect at once, nothing raised, and the same verdict as a run's."""
+"""The check report: all kinds of defect at once, nothing raised, and the same verdict as a
+run's."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -50,7 +51,10 @@ def test_all_kinds_at_once():
     assert report["INCONSISTENT_ORIENTATION"].repair == "orientation"
     assert 5 in report["INCONSISTENT_ORIENTATION"].elements
     assert report["ISOLATED_VERTICES"].elements == [12, 14]
-    assert (report["ISOLATED_VERTICES"].severity, report["ISOLATED_VERTICES"].kind) == ("warning", "vertex")
+    assert (report["ISOLATED_VERTICES"].severity, report["ISOLATED_VERTICES"].kind) == (
+        "warning",
+        "vertex",
+    )
     assert all(d.severity == "error" for c, d in report.items() if c != "ISOLATED_VERTICES")
     assert all(d.repair is None for c, d in report.items() if c != "INCONSISTENT_ORIENTATION")
 
@@ -85,7 +89,9 @@ def test_topology_is_left_out_where_a_face_repeats_a_vertex_but_geometry_is_not(
 
 
 def test_coincidence_and_area_together():
-    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 1, 0], [0, 1, 0], [2, 2, 0]])
+    vertices = np.array(
+        [[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 1, 0], [0, 1, 0], [2, 2, 0]]
+    )
     vertices = np.concatenate([vertices, [[2, 0, 0]]])
     faces = [[0, 1, 2, 3], [7, 6, 4], [0, 3, 5]]
     # 3 and 5 are one point in one face; 2 and 4 are a seam
@@ -110,7 +116,10 @@ def test_orientation_and_one_sidedness_of_different_parts():
     vertices = np.concatenate([POINTS, strip + [9, 0, 0]])
     faces = as_lists(flipped) + as_lists(quads + len(POINTS))
     one_sided = list(range(20, 20 + len(quads)))
-    assert found(vertices, faces) == [("NON_ORIENTABLE", one_sided), ("INCONSISTENT_ORIENTATION", [3])]
+    assert found(vertices, faces) == [
+        ("NON_ORIENTABLE", one_sided),
+        ("INCONSISTENT_ORIENTATION", [3]),
+    ]
     with pytest.raises(df.FairingError) as caught:
         df.repair_orientation(vertices, faces)
     assert (caught.value.code, caught.value.elements, caught.value.kind) == (
@@ -212,7 +221,10 @@ def test_errors_and_warnings_say_what_their_elements_are():
     for options, kind in [
         ({"crease_edges": [(0, 99)]}, "vertex"),
         ({"corner_vertices": [99]}, "vertex"),
-        ({"crease_edges": [(0, int(np.setdiff1d(range(1, 12), FACES[(FACES == 0).any(1)])[0]))]}, "edge"),
+        (
+            {"crease_edges": [(0, int(np.setdiff1d(range(1, 12), FACES[(FACES == 0).any(1)])[0]))]},
+            "edge",
+        ),
         ({"levels": 99}, "mesh"),
     ]:
         with pytest.raises(df.FairingError) as caught:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, soon there, and without folds.
+"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, soon
+there, and without folds.
 
-What is not met is listed by name, and expected to fail: whatever mends it has to take it off the list.
+What is not met is listed by name, and expected to fail: whatever mends it has to take it off the
+list.
 """
 
 from functools import cache
@@ -42,7 +44,8 @@ ON_TWO_LEVELS = [*GROWS, "cages/geometry-central__sphere_small"]  # not direct, 
 
 
 def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> list:
-    """A parameter for each mesh and, where creases are listed beside it, one more for it with them."""
+    """A parameter for each mesh and, where creases are listed beside it, one more for it with
+    them."""
     result = []
     for file in shared_files("good", *SUFFIXES):
         (path,) = file.values
@@ -74,7 +77,9 @@ def run(path: Path, creased: bool) -> dict:
     options = {}
     if creased:
         edges, corners = creases_of(path, sharper_than=2.0)
-        there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])}  # some lists name others
+        there = {
+            frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])
+        }  # some lists name others
         options = {"crease_edges": [e for e in edges.tolist() if frozenset(e) in there]}
         options["corner_vertices"] = corners
     plate = df.fair(vertices, faces, levels, **options)
@@ -89,7 +94,8 @@ def run(path: Path, creased: bool) -> dict:
 
 
 def measured(result) -> float:
-    """On the surface itself, afterwards; what the steps lower has lifted weights where areas are small."""
+    """On the surface itself, afterwards; what the steps lower has lifted weights where areas are
+    small."""
     return result.report["energy"]["result"]["total_curvature"]
 
 

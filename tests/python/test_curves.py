@@ -33,7 +33,8 @@ def polygon(count: int = 9) -> np.ndarray:
 
 
 def caps(rim: np.ndarray):
-    """Three surfaces of different faces, valences and order of vertices that end in the same polyline."""
+    """Three surfaces of different faces, valences and order of vertices that end in the same
+    polyline."""
     n = len(rim)
     k = np.arange(n)
     after = (k + 1) % n
@@ -52,7 +53,11 @@ def test_the_same_polyline_gives_the_same_curve(exponent, corners):
     rim = polygon()
     found = []
     for vertices, faces in caps(rim):
-        chosen = [int(np.argwhere((vertices == rim[k]).all(1))[0, 0]) for k in (2, 5)] if corners else None
+        chosen = (
+            [int(np.argwhere((vertices == rim[k]).all(1))[0, 0]) for k in (2, 5)]
+            if corners
+            else None
+        )
         result = df.fair(vertices, faces, 3, metric_exponent=exponent, corner_vertices=chosen)
         found.append(rows(boundary_points(result)))
         assert len(found[-1]) == 8 * len(rim)
@@ -84,7 +89,11 @@ def test_linear_boundary_is_straight():
     found = boundary_points(df.fair(vertices, faces, 3, boundary="linear"))
     rim = boundary_vertices(as_lists(faces))
     edges = {tuple(sorted(e)) for f in as_lists(faces) for e in zip(f, [*f[1:], f[0]])}
-    edges = [e for e in edges if set(e) <= set(rim) and sum(set(e) <= set(f) for f in as_lists(faces)) == 1]
+    edges = [
+        e
+        for e in edges
+        if set(e) <= set(rim) and sum(set(e) <= set(f) for f in as_lists(faces)) == 1
+    ]
     steps = np.arange(8)[:, None] / 8
     expected = np.concatenate([vertices[a] * (1 - steps) + vertices[b] * steps for a, b in edges])
     expected = np.unique(np.concatenate([expected, vertices[rim]]).round(12), axis=0)
@@ -99,7 +108,10 @@ def test_curve_boundary_is_smooth_and_linear_is_not():
         result = df.fair(vertices, faces, levels, boundary=boundary)
         around = [w for f in result.triangles.tolist() if 1 in f for w in f if w != 1]
         a, b = (w for w in set(around) if around.count(w) == 1)
-        before, after = result.vertices[1] - result.vertices[a], result.vertices[b] - result.vertices[1]
+        before, after = (
+            result.vertices[1] - result.vertices[a],
+            result.vertices[b] - result.vertices[1],
+        )
         return np.arccos(before @ after / np.linalg.norm(before) / np.linalg.norm(after))
 
     smooth = [turn(levels, "curve") for levels in (1, 2, 3, 4)]
@@ -113,11 +125,16 @@ def test_free_boundary_is_the_surfaces_own():
     curve, linear, free = (df.fair(vertices, faces, 3, boundary=mode) for mode in MODES)
     for other in (curve, linear):
         assert np.abs(free.vertices - other.vertices).max() > 1e-3 * size_of(vertices)
-        assert free.report["energy"]["result"]["thin_plate"] < other.report["energy"]["result"]["thin_plate"]
+        assert (
+            free.report["energy"]["result"]["thin_plate"]
+            < other.report["energy"]["result"]["thin_plate"]
+        )
     assert np.array_equal(free.vertices[: len(vertices)], vertices)
     moved = vertices.copy()
     moved[12] += [0, 0, 0.5]
-    assert rows(boundary_points(df.fair(moved, faces, 3, boundary="free"))) != rows(boundary_points(free))
+    assert rows(boundary_points(df.fair(moved, faces, 3, boundary="free"))) != rows(
+        boundary_points(free)
+    )
     assert rows(boundary_points(df.fair(moved, faces, 3))) != rows(boundary_points(free))
 
 
@@ -137,7 +154,9 @@ def test_corners_split_a_curve(ends):
     """A square's straight sides stay straight between corners, and bulge without."""
     vertices, faces = meshes.grid(3, 3)
     vertices[5] += [0, 0, 1]
-    corners = {"corner_angle": 1.0} if ends == "corner_angle" else {"corner_vertices": [0, 3, 12, 15]}
+    corners = (
+        {"corner_angle": 1.0} if ends == "corner_angle" else {"corner_vertices": [0, 3, 12, 15]}
+    )
 
     def off_the_square(**options):
         points = boundary_points(df.fair(vertices, faces, 3, **options))
@@ -163,7 +182,8 @@ def test_a_side_depends_on_nothing_beyond_its_corners():
 
 @pytest.mark.parametrize("flip", [False, True])
 def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
-    """The curve to the last bit, the far side as far as it is solved: one system serves both sides."""
+    """The curve to the last bit, the far side as far as it is solved: one system serves both
+    sides."""
     (vertices, faces), loop, above, below = meshes.drum()
     here, there = (below, above) if flip else (above, below)
     moved = vertices.copy()
@@ -178,7 +198,9 @@ def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
     assert difference <= 1e-9 * size_of(vertices)
     curve = np.intersect1d(side, still.faces[0][~cells])
     assert still.vertices[curve].tobytes() == after.vertices[curve].tobytes()
-    smooth, other = (df.fair(v, faces, 3, relative_residual=1e-11).vertices for v in (vertices, moved))
+    smooth, other = (
+        df.fair(v, faces, 3, relative_residual=1e-11).vertices for v in (vertices, moved)
+    )
     assert np.abs(smooth[side] - other[side]).max() > 1e-4
 
 
@@ -229,7 +251,9 @@ def test_all_vertices_on_creases():
     """Every edge a crease: each face knows its three or four curves alone."""
     for mesh in (meshes.icosahedron, meshes.cube, meshes.torus):
         vertices, faces = mesh()
-        edges = np.concatenate([faces[:, [k, (k + 1) % faces.shape[1]]] for k in range(faces.shape[1])])
+        edges = np.concatenate(
+            [faces[:, [k, (k + 1) % faces.shape[1]]] for k in range(faces.shape[1])]
+        )
         result = df.fair(vertices, faces, 3, crease_edges=edges)
         assert np.isfinite(result.vertices).all()
         assert np.array_equal(result.vertices[: len(vertices)], vertices)
@@ -240,7 +264,10 @@ def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
     """The surface may come to a point there, at lower energy, and elsewhere it does not."""
     vertices, faces = meshes.closed_pole(12)
     smooth, tip = (df.fair(vertices, faces, 3, corner_vertices=c) for c in (None, [12]))
-    assert tip.report["energy"]["result"]["thin_plate"] < smooth.report["energy"]["result"]["thin_plate"]
+    assert (
+        tip.report["energy"]["result"]["thin_plate"]
+        < smooth.report["energy"]["result"]["thin_plate"]
+    )
     assert np.array_equal(tip.vertices[:14], vertices)
 
 
@@ -263,3 +290,10 @@ def test_a_single_triangle(boundary, levels):
             axis=1,
         )
         assert area.sum() == pytest.approx(0.5 * np.linalg.norm(normal), rel=1e-6)
+
+
+def test_creases_come_back_by_whatever_rule():
+    vertices, faces = meshes.cube()
+    result = df.fair(vertices, faces, 2, crease_angle=1.0)
+    assert len(result.crease_edges) == 12
+    assert not len(df.fair(vertices, faces, 2).crease_edges)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is installed is what this tree builds: one version, and a module that needs nothing from the system."""
+"""What is installed is what this tree builds: one version, and a module that needs nothing from the
+system."""
 
 import re
 import tomllib
@@ -10,7 +11,9 @@ MANIFEST = Path(__file__).resolve().parents[2] / "blender_manifest.toml"
 
 
 def test_version_is_the_manifests():
-    assert version("discrete-fairing").split("+")[0] == tomllib.loads(MANIFEST.read_text())["version"]
+    assert (
+        version("discrete-fairing").split("+")[0] == tomllib.loads(MANIFEST.read_text())["version"]
+    )
 
 
 def test_tagline_is_what_blender_accepts():

@@ -14,7 +14,8 @@ LEFT = {"catmark_lefthanded": 2, "catmark_righthanded": 15}
 
 
 def folds(points, triangles):
-    """The ends (k, 2) of edges across which normals turn by over 90 degrees, and the two triangles at each (k, 2)."""
+    """The ends (k, 2) of edges across which normals turn by over 90 degrees, and the two triangles
+    at each (k, 2)."""
     corner = points[triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     edges = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
@@ -32,7 +33,8 @@ def polygons_of(result):
 
 
 def own_folds(result, mesh) -> int:
-    """How many folds are in no polygon of the control mesh that has a vertex at one of its own folds."""
+    """How many folds are in no polygon of the control mesh that has a vertex at one of its own
+    folds."""
     control = df.fair(*mesh, 0)
     ends, _ = folds(control.vertices, control.triangles)
     touched = np.isin(control.triangles, ends).any(1)

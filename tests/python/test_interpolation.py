@@ -11,7 +11,8 @@ NAMES = sorted(meshes.ALL)
 
 
 def split_counts(faces) -> tuple[int, int]:
-    """Control triangles and quads after polygons of five and more sides became fans around a centre."""
+    """Control triangles and quads after polygons of five and more sides became fans around a
+    centre."""
     sizes = [len(face) for face in as_lists(faces)]
     return sum(n == 3 for n in sizes) + sum(n for n in sizes if n > 4), sizes.count(4)
 
@@ -47,7 +48,10 @@ def test_shapes_and_types(name):
     vertices, faces = meshes.ALL[name]()
     result = df.fair(vertices, faces, 2)
     triangles, quads = result.faces
-    assert result.vertices.dtype == np.float64 and result.vertices.shape == (len(result.vertices), 3)
+    assert result.vertices.dtype == np.float64 and result.vertices.shape == (
+        len(result.vertices),
+        3,
+    )
     assert triangles.dtype == quads.dtype == result.triangles.dtype == np.int32
     assert triangles.shape[1] == 3 and quads.shape[1] == 4 and result.triangles.shape[1] == 3
     assert np.isfinite(result.vertices).all()
@@ -68,13 +72,15 @@ def test_cells_of_a_polygon_come_in_fours_whatever_its_split():
     once, twice = (df.fair(vertices, faces, levels) for levels in (1, 2))
     for polygon in range(len(faces)):
         cells = [
-            (r.triangle_polygon == polygon).sum() + (r.quad_polygon == polygon).sum() for r in (once, twice)
+            (r.triangle_polygon == polygon).sum() + (r.quad_polygon == polygon).sum()
+            for r in (once, twice)
         ]
         assert cells[0] > 0 and cells[1] == 4 * cells[0]
 
 
 def test_levels_nest():
-    """The coarser lattice's numbering is its own, but no level forgets the control mesh's own faces."""
+    """The coarser lattice's numbering is its own, but no level forgets the control mesh's own
+    faces."""
     vertices, faces = meshes.torus()
     result = df.fair(vertices, faces, 0)
     assert np.array_equal(result.vertices, vertices)

@@ -20,7 +20,8 @@ OPTIONS = [
 
 
 def relabelled(vertices, faces, seed=0):
-    """Vertices and faces in another order, every face beginning elsewhere, and where each vertex went."""
+    """Vertices and faces in another order, every face beginning elsewhere, and where each vertex
+    went."""
     random = np.random.default_rng(seed)
     place = random.permutation(len(vertices))
     moved = np.empty_like(vertices)
@@ -59,11 +60,15 @@ def test_scaling(name, exponent, scale):
 def test_energies_scale_as_documented(exponent):
     """The thin-plate energy has unit length**(2 - 2 exponent); total curvature is a pure number."""
     vertices, faces = meshes.creature()
-    one, two = (df.fair(s * vertices, faces, 2, metric_exponent=exponent).report["energy"] for s in (1, 1e3))
+    one, two = (
+        df.fair(s * vertices, faces, 2, metric_exponent=exponent).report["energy"] for s in (1, 1e3)
+    )
     for surface in ("result", "polyhedron", "prediction"):
         expected = one[surface]["thin_plate"] * 1e3 ** (2 - 2 * exponent)
         assert two[surface]["thin_plate"] == pytest.approx(expected, rel=1e-6)
-        assert two[surface]["total_curvature"] == pytest.approx(one[surface]["total_curvature"], rel=1e-6)
+        assert two[surface]["total_curvature"] == pytest.approx(
+            one[surface]["total_curvature"], rel=1e-6
+        )
 
 
 @pytest.mark.parametrize("name, exponent", CASES)
@@ -79,7 +84,9 @@ def test_relabelling(name, exponent):
 def test_mirroring(name, exponent):
     vertices, faces = meshes.ALL[name]()
     plain = df.fair(vertices, faces, 2, metric_exponent=exponent)
-    mirrored = df.fair(vertices * [-1, 1, 1], [f[::-1] for f in as_lists(faces)], 2, metric_exponent=exponent)
+    mirrored = df.fair(
+        vertices * [-1, 1, 1], [f[::-1] for f in as_lists(faces)], 2, metric_exponent=exponent
+    )
     assert_same_surface(mirrored.vertices * [-1, 1, 1], plain.vertices, size_of(vertices))
 
 

@@ -7,7 +7,8 @@ import pytest
 
 
 def test_levels_quadruple_memory():
-    """A triangle costs no more on a finer level; what the coarse levels cost shows less and less."""
+    """A triangle costs no more on a finer level; what the coarse levels cost shows less and
+    less."""
     peaks = [
         df.fair(*meshes.cube(), levels, measure=False, relative_residual=1e-2).report["peak_bytes"]
         for levels in (6, 7, 8)
@@ -46,4 +47,6 @@ def test_prediction_bounds_the_peak_of_steps(name, energy):
     vertices, faces = meshes.ALL[name]()
     report = df.fair(vertices, faces, 3, energy, threads=1).report
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 8 * report["peak_bytes"]
-    assert df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]
+    assert (
+        df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]
+    )

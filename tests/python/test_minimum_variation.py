@@ -18,7 +18,9 @@ def finest(result):
 
 
 @pytest.mark.parametrize("levels", [2, 3])
-@pytest.mark.parametrize("name", ["tetrahedron", "octahedron", "icosahedron", "cube", "random_hull"])
+@pytest.mark.parametrize(
+    "name", ["tetrahedron", "octahedron", "icosahedron", "cube", "random_hull"]
+)
 def test_inscribed_meshes_become_spheres(name, levels):
     result = df.fair(*on_unit_sphere(meshes.ALL[name]()), levels, "minimum_variation")
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
@@ -38,10 +40,13 @@ def test_variation_falls_and_total_curvature_started_it(name):
 
 
 def test_a_patch_of_a_sphere_is_found():
-    """Six by six quads whose vertices lie on a sphere. The boundary's curves do not, so only the middle is compared."""
+    """Six by six quads whose vertices lie on a sphere. The boundary's curves do not, so only the
+    middle is compared."""
     at = np.linspace(-0.6, 0.6, 7)
     vertices = np.array([(x, y, np.sqrt(1 - x * x - y * y)) for x in at for y in at])
-    faces = [(7 * i + j, 7 * i + j + 7, 7 * i + j + 8, 7 * i + j + 1) for i in range(6) for j in range(6)]
+    faces = [
+        (7 * i + j, 7 * i + j + 7, 7 * i + j + 8, 7 * i + j + 1) for i in range(6) for j in range(6)
+    ]
 
     def error(energy):
         points = df.fair(vertices, faces, 3, energy).vertices
@@ -52,7 +57,9 @@ def test_a_patch_of_a_sphere_is_found():
 
 
 def test_threads_leave_no_trace():
-    one, two = (df.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2))
+    one, two = (
+        df.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2)
+    )
     assert np.array_equal(one, two)
 
 

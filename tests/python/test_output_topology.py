@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The refined surface is the same surface: manifold, oriented, of the same genus, and knows where each face is from."""
+"""The refined surface is the same surface: manifold, oriented, of the same genus, and knows where
+each face is from."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -40,7 +41,9 @@ def test_outside_stays_outside(name):
     vertices, faces = meshes.ALL[name]()
     result = df.fair(vertices, faces, 2)
     centre = result.vertices[result.triangles].mean(1)
-    assert (np.einsum("fi,fi->f", face_normals(result.vertices, result.triangles), centre) > 0).all()
+    assert (
+        np.einsum("fi,fi->f", face_normals(result.vertices, result.triangles), centre) > 0
+    ).all()
 
 
 @pytest.mark.parametrize("name", NAMES)

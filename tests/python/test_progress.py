@@ -44,7 +44,9 @@ def test_progress_does_not_change_the_result():
 
 @pytest.mark.parametrize("answer", [None, True, 0, "False"])
 def test_only_false_cancels(answer):
-    assert df.fair(*meshes.creature(), 2, progress=lambda fraction, phase: answer).report["converged"]
+    assert df.fair(*meshes.creature(), 2, progress=lambda fraction, phase: answer).report[
+        "converged"
+    ]
 
 
 def test_returning_false_cancels():
@@ -89,7 +91,8 @@ def test_monitor_cancelled_before():
 
 
 def test_monitor_is_watched_from_another_thread():
-    """Python runs while the core does: another thread counts and sees fractions between nought and one."""
+    """Python runs while the core does: another thread counts and sees fractions between nought and
+    one."""
     monitor, seen, stop = df.Monitor(), [], threading.Event()
 
     def watch():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions: what is outside stays on the control polygon to the last bit, and the joint keeps its promise."""
+"""Regions: what is outside stays on the control polygon to the last bit, and the joint keeps its
+promise."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -11,7 +12,8 @@ JOINTS = ("position", "tangent", "curvature")
 
 
 def ramp(columns=6, gap=2, triangles=False):
-    """The planes z = 0 and z = 1 with a slope between: (vertices, faces), the slope's faces, its ends in x."""
+    """The planes z = 0 and z = 1 with a slope between: (vertices, faces), the slope's faces, its
+    ends in x."""
     points, quads = meshes.grid(columns, 4)
     low = (columns - gap) // 2
     high = low + gap
@@ -61,7 +63,9 @@ def as_set(points):
 
 
 @pytest.mark.parametrize("joint", JOINTS)
-@pytest.mark.parametrize("name", ["icosahedron", "cube", "torus_quads", "creature", "wavy_patch", "roof"])
+@pytest.mark.parametrize(
+    "name", ["icosahedron", "cube", "torus_quads", "creature", "wavy_patch", "roof"]
+)
 def test_outside_and_joint_are_linear_to_the_last_bit(name, joint):
     vertices, faces = meshes.ALL[name]()
     faces = as_lists(faces)
@@ -72,14 +76,19 @@ def test_outside_and_joint_are_linear_to_the_last_bit(name, joint):
     for f in outside:
         ids = fine_points(result, f)
         expected = lattice_points(vertices[faces[f]], 4)
-        # interiors of faces bit for bit; along edges the same numbers may be added from the other end
+        # interiors of faces bit for bit; along edges the same numbers may be added from the other
+        # end
         distance = np.abs(result.vertices[ids][:, None] - expected[None]).max(2).min(1)
         assert len(ids) == len(expected) and distance.max() <= 1e-15 * np.abs(vertices).max()
-        inner = expected[np.array([(expected == p).all(1).any() for p in result.vertices[ids]]).nonzero()[0]]
+        inner = expected[
+            np.array([(expected == p).all(1).any() for p in result.vertices[ids]]).nonzero()[0]
+        ]
         assert len(inner) > 0
     edge = {tuple(sorted(e)) for f in outside for e in zip(faces[f], [*faces[f][1:], faces[f][0]])}
     on_edges = as_set(
-        np.concatenate([[((4 - k) * vertices[a] + k * vertices[b]) / 4 for k in (1, 2, 3)] for a, b in edge])
+        np.concatenate(
+            [[((4 - k) * vertices[a] + k * vertices[b]) / 4 for k in (1, 2, 3)] for a, b in edge]
+        )
     )
     assert on_edges <= as_set(result.vertices)
     polyhedron = np.concatenate([lattice_points(vertices[faces[f]], 4) for f in region])
@@ -101,7 +110,8 @@ def test_flat_stays_flat(joint, cut):
 
 
 def slopes_and_curvatures(gap, joint, levels, **options):
-    """At the joint, in the middle of a ramp's line: turn (radians), and second difference of the first row inside."""
+    """At the joint, in the middle of a ramp's line: turn (radians), and second difference of the
+    first row inside."""
     turns, curvatures = [], []
     for level in levels:
         mesh, region, (low, _) = ramp(6 if gap == 2 else 7, gap)
@@ -217,7 +227,8 @@ def test_a_turned_mesh_gives_the_turned_surface(joint):
 def test_same_bits_for_any_number_of_threads():
     vertices, faces = meshes.creature()
     one, three = (
-        df.fair(vertices, faces, 3, region=range(30), joint="curvature", threads=t).vertices for t in (1, 3)
+        df.fair(vertices, faces, 3, region=range(30), joint="curvature", threads=t).vertices
+        for t in (1, 3)
     )
     assert np.array_equal(one, three)
 
@@ -232,7 +243,10 @@ def test_bad_faces_outside_do_no_harm(joint):
     corner = np.nonzero((vertices[:, 0] == 0) & (vertices[:, 1] == 0))[0]
     thin[corner, :2] = [0.9999999, 0.9999998]  # all but on a neighbour: two needles
     good, bad = (df.fair(v, faces, 4, region=region, joint=joint) for v in (vertices, thin))
-    assert bad.report["converged"] and bad.report["iterations"][-1] <= good.report["iterations"][-1] + 1
+    assert (
+        bad.report["converged"]
+        and bad.report["iterations"][-1] <= good.report["iterations"][-1] + 1
+    )
     inside = np.concatenate([fine_points(good, f) for f in region])
     assert np.abs(good.vertices[inside] - bad.vertices[inside]).max() < 1e-7
 

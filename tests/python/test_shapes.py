@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes: further positions of the control vertices, solved on the charts of the first ones, so by one linear map."""
+"""Shapes: further positions of the control vertices, solved on the charts of the first ones, so by
+one linear map."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -41,7 +42,11 @@ def test_mixes_are_linear(name, boundary):
     vertices, faces = sample(name)
     a, b = shaken(vertices, 1), shaken(vertices, 2, 0.5) * [1, -2, 1] + [3, 0, 0]
     result = df.fair(
-        vertices, faces, 3, shapes=[a, b, 0.3 * a + 0.7 * b, 2 * a - b, vertices + (a - b)], boundary=boundary
+        vertices,
+        faces,
+        3,
+        shapes=[a, b, 0.3 * a + 0.7 * b, 2 * a - b, vertices + (a - b)],
+        boundary=boundary,
     )
     of_a, of_b, mix, beyond, offset = result.shapes
     tolerance = 1e-6 * size_of(b)
@@ -55,7 +60,9 @@ def test_an_affine_image_has_the_affine_surface(name):
     vertices, faces = sample(name)
     matrix = np.array([[1, 0.4, 0], [-0.2, 3, 0.1], [0, 0, 0.5]])
     result = df.fair(vertices, faces, 3, shapes=[vertices @ matrix + [4, 5, 6]])
-    assert np.abs(result.shapes[0] - (result.vertices @ matrix + [4, 5, 6])).max() < 1e-6 * size_of(vertices)
+    assert np.abs(result.shapes[0] - (result.vertices @ matrix + [4, 5, 6])).max() < 1e-6 * size_of(
+        vertices
+    )
 
 
 def test_a_shape_is_not_the_mesh_of_its_own():
@@ -98,7 +105,9 @@ def test_it_takes_few_iterations():
 def test_with_a_region(joint):
     vertices, faces = sample("dodecahedron")
     a, b = shaken(vertices, 1), shaken(vertices, 2)
-    result = df.fair(vertices, faces, 3, shapes=[a, b, a + b - vertices], region=[0, 1, 2], joint=joint)
+    result = df.fair(
+        vertices, faces, 3, shapes=[a, b, a + b - vertices], region=[0, 1, 2], joint=joint
+    )
     of_a, of_b, mix = result.shapes
     assert np.abs(mix - (of_a + of_b - result.vertices)).max() < 1e-6
     outside = result.triangle_polygon > 4
@@ -123,7 +132,9 @@ def test_every_shape_keeps_the_tolerance_about_its_own_places():
     vertices, faces = sample("creature")
     shapes = [shaken(vertices, k, 0.1) for k in range(3)]
     result = df.fair(vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes)
-    reverse = df.fair(vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes[::-1])
+    reverse = df.fair(
+        vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes[::-1]
+    )
     for k, shape in enumerate(shapes):
         away = np.linalg.norm(result.shapes[k][: len(vertices)] - shape, axis=1)
         entry = result.report["shapes"][k]
@@ -166,7 +177,9 @@ def test_memory_is_predicted_and_kept():
     assert report["peak_bytes"] <= report["predicted_bytes"]
     assert report["peak_bytes"] > 0.6 * report["predicted_bytes"]
     with pytest.raises(df.FairingError) as caught:
-        df.fair(vertices, faces, 6, shapes=shapes, memory_limit=(size["bytes"] + more["bytes"]) // 2)
+        df.fair(
+            vertices, faces, 6, shapes=shapes, memory_limit=(size["bytes"] + more["bytes"]) // 2
+        )
     assert caught.value.code == "TOO_LARGE"
 
 
@@ -189,7 +202,8 @@ def test_no_shapes():
 
 
 @pytest.mark.parametrize(
-    "shapes", [np.zeros((12, 3)), np.zeros((1, 11, 3)), [np.zeros((12, 3)), np.zeros((5, 3))], 7, "ab"]
+    "shapes",
+    [np.zeros((12, 3)), np.zeros((1, 11, 3)), [np.zeros((12, 3)), np.zeros((5, 3))], 7, "ab"],
 )
 def test_wrong_shapes(shapes):
     with pytest.raises(df.FairingError) as caught:

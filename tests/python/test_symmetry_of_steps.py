@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The steps to other energies than the thin plate keep mirror symmetry, however crumpled the mesh is."""
+"""The steps to other energies than the thin plate keep mirror symmetry, however crumpled the mesh
+is."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -111,7 +112,8 @@ def arch():
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("option", ["weights", "corner_vertices", "region", "crease_edges"])
 def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
-    """As it does where a vertex is too far off for the mesh to be symmetric, which is all that is known of it there."""
+    """As it does where a vertex is too far off for the mesh to be symmetric, which is all that is
+    known of it there."""
     vertices, faces = arch()
     at = {tuple(p): k for k, p in enumerate(vertices[:, :2].tolist())}
     weights = np.ones(len(vertices))
@@ -125,7 +127,9 @@ def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
     settled = {"step_tolerance": 1e-9, "max_steps": 60} | options
     off = vertices.copy()
     off[at[1, 1], 2] += 1e-9
-    one, other = (df.fair(v, faces, 2, "total_curvature", **settled).vertices for v in (vertices, off))
+    one, other = (
+        df.fair(v, faces, 2, "total_curvature", **settled).vertices for v in (vertices, off)
+    )
     assert np.abs(one - other).max() <= 1e-7
     with pytest.raises(AssertionError):
         assert_same_positions(one * [-1, 1, 1], one, 1e-4)

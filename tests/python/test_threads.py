@@ -13,7 +13,11 @@ CASES = {
     "paper": (meshes.random_hull, 4, {"metric_exponent": 1.0}),
     "creases": (lambda: meshes.roof()[0], 4, {"crease_angle": 0.9}),
     "tolerance": (meshes.creature, 3, {"interpolation": "approximate", "tolerance": 0.01}),
-    "weights": (meshes.creature, 3, {"interpolation": "approximate", "weights": np.linspace(1, 9, 98)}),
+    "weights": (
+        meshes.creature,
+        3,
+        {"interpolation": "approximate", "weights": np.linspace(1, 9, 98)},
+    ),
     "epsilon": (meshes.creature, 3, {"epsilon": 0.02}),
     "polygons": (meshes.dodecahedron, 4, {}),
     "pole": (lambda: meshes.closed_pole(60), 3, {}),

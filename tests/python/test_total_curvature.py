@@ -20,9 +20,12 @@ from surfaces import (
 from test_invariance import relabelled
 
 TIGHT = {"step_tolerance": 1e-11, "max_steps": 60}
-SETTLED = {"step_tolerance": 1e-9, "max_steps": 60}  # the stopping test is no part of what a test compares
-# Where the steps end elsewhere than on the sphere. The theorem says that the sphere is a critical point, and nothing of
-# the way there: docs/total-curvature.md counts these.
+SETTLED = {
+    "step_tolerance": 1e-9,
+    "max_steps": 60,
+}  # the stopping test is no part of what a test compares
+# Where the steps end elsewhere than on the sphere. The theorem says that the sphere is a critical
+# point, and nothing of the way there: docs/total-curvature.md counts these.
 MISSED = {("J2_cut", 3), ("J4_cut", 3), ("J5_cut", 2), ("J5_cut", 3), ("8/3", 3), ("8/7", 3)}
 HULLS = {8: range(40), 12: range(24), 20: range(10), 40: range(2), 100: range(1)}
 HULL_CASES = [
@@ -57,14 +60,17 @@ def without_missed(cases):
 
 
 @pytest.mark.parametrize(
-    "name, levels", without_missed([(name, levels) for name in inscribed.NAMED for levels in (2, 3)])
+    "name, levels",
+    without_missed([(name, levels) for name in inscribed.NAMED for levels in (2, 3)]),
 )
 def test_inscribed_solids_become_spheres(name, levels):
     assert_sphere(inscribed.NAMED[name](), levels)
 
 
 @pytest.mark.parametrize("levels", [4, 5])
-@pytest.mark.parametrize("name", ["icosahedron", "octahedron", "tetrahedron", "cube", "cube_cut", "J1"])
+@pytest.mark.parametrize(
+    "name", ["icosahedron", "octahedron", "tetrahedron", "cube", "cube_cut", "J1"]
+)
 def test_more_levels(name, levels):
     assert_sphere(inscribed.NAMED[name](), levels)
 
@@ -215,7 +221,10 @@ def test_creases_are_the_thin_plates():
         curved = fair(mesh, 3, crease_edges=edges)
         plate = df.fair(*mesh, 3, crease_edges=edges)
         same = (curved.vertices == plate.vertices).all(1)
-        assert curved.report["curvature"][-1]["energy"] < curved.report["curvature"][-1]["plate_energy"]
+        assert (
+            curved.report["curvature"][-1]["energy"]
+            < curved.report["curvature"][-1]["plate_energy"]
+        )
         assert same[: len(mesh[0])].all()
         assert 8 * len(edges) <= same.sum() < len(same) / 2
     ring = np.arange(len(loop))
@@ -227,7 +236,9 @@ def test_creases_are_the_thin_plates():
 def caps(rim: np.ndarray):
     """A cone over a closed polyline: its boundary curve is that of the same crease."""
     k = np.arange(len(rim))
-    return np.concatenate([rim, [[0, 0, 1.0]]]), np.stack([k, (k + 1) % len(rim), 0 * k + len(rim)], -1)
+    return np.concatenate([rim, [[0, 0, 1.0]]]), np.stack(
+        [k, (k + 1) % len(rim), 0 * k + len(rim)], -1
+    )
 
 
 def test_a_region_leaves_the_rest():

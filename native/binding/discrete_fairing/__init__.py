@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair surfaces: refine a control mesh and place the new vertices so that a bending energy is minimal.
+"""Fair surfaces: refine a control mesh and minimize a bending energy of the refined one.
 
 >>> import discrete_fairing as df
 >>> result = df.fair(vertices, faces, levels=3)
@@ -7,8 +7,7 @@
 """
 
 from ._native import FairingError, Monitor, __version__
-from .arrays import predicted_size
-from .checking import Defect, check, repair_orientation
+from .checking import Defect, check, predicted_size, repair_orientation
 from .fairing import fair
 from .result import Result
 from .solver import Solver

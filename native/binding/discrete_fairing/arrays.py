@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What callers pass, as the plain arrays that the core reads: any layout, any integer or float type, read-only too."""
+"""Arrays as callers pass them, turned into those that the core reads.
+
+Callers may pass any memory layout, any integer or float type, and read-only arrays. The core reads
+C-contiguous float64 and int64.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
 from .errors import fairing_error
-
-MOST_LEVELS = 15  # as in check_options.cpp
 
 
 def vertex_array(vertices: ArrayLike) -> np.ndarray:
@@ -32,7 +33,8 @@ def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> n
         return none
     if array.shape[1:] != (count, 3):
         raise fairing_error(
-            "BAD_SHAPE", f"shapes has shape {array.shape}; it must be (k, {count}, 3), one row a vertex."
+            "BAD_SHAPE",
+            f"shapes has shape {array.shape}; it must be (k, {count}, 3), one row for each vertex.",
         )
     return np.ascontiguousarray(array, dtype=np.float64)
 
@@ -40,8 +42,8 @@ def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> n
 def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray]:
     """Corners and offsets, both int64: face f is corners[offsets[f]:offsets[f + 1]].
 
-    Takes an (m, k) array, a list of polygons of any size, or the pair (corners, offsets) itself, a tuple of two flat
-    NumPy arrays. Raises FairingError BAD_SHAPE.
+    Takes an (m, k) array, a list of polygons of any size, or the pair (corners, offsets) itself, a
+    tuple of two flat NumPy arrays. Raises FairingError BAD_SHAPE.
     """
     if is_flat_pair(faces):
         corners, offsets = faces
@@ -56,7 +58,10 @@ def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray,
 
 
 def is_flat_pair(faces: object) -> bool:
-    """Arrays only: two triangles in a tuple, (0, 1, 2) and (0, 2, 3), could pass for corners and offsets."""
+    """Whether this is a tuple of two flat arrays that fit each other.
+
+    Only arrays count: two triangles in a tuple, (0, 1, 2) and (0, 2, 3), could pass for the pair.
+    """
     if not (isinstance(faces, tuple) and len(faces) == 2):
         return False
     if not all(isinstance(part, np.ndarray) and part.ndim == 1 for part in faces):
@@ -66,28 +71,36 @@ def is_flat_pair(faces: object) -> bool:
 
 
 def uniform_faces(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of an (m, k) array, k >= 3."""
     if array.size == 0:
         return np.empty(0, np.int64), np.zeros(1, np.int64)
     if array.ndim != 2 or array.shape[1] < 3:
         raise fairing_error(
-            "BAD_SHAPE", f"faces has shape {array.shape}; it must be (m, 3), (m, 4) or a list of polygons."
+            "BAD_SHAPE",
+            f"faces has shape {array.shape}; it must be (m, 3), (m, 4) or a list of polygons.",
         )
     count, size = array.shape
     return array.reshape(-1), np.arange(count + 1, dtype=np.int64) * size
 
 
 def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray]:
+    """Of a list of polygons, each a sequence of vertex ids."""
     try:
         sizes = np.fromiter((len(face) for face in faces), np.int64, len(faces))
     except TypeError:
-        raise fairing_error("BAD_SHAPE", "faces must be (m, 3), (m, 4) or a list of polygons.") from None
+        raise fairing_error(
+            "BAD_SHAPE", "faces must be (m, 3), (m, 4) or a list of polygons."
+        ) from None
     offsets = np.concatenate([[0], np.cumsum(sizes)])
     parts = [index_array(face, "faces").reshape(-1) for face in faces]
     return np.concatenate(parts) if parts else np.empty(0, np.int64), offsets
 
 
 def index_array(values: ArrayLike, name: str) -> np.ndarray:
-    """int64, C-contiguous; unsigned ids that do not fit stay out of range. Raises FairingError BAD_SHAPE."""
+    """int64, C-contiguous. Raises FairingError BAD_SHAPE for anything but integers.
+
+    Unsigned ids that do not fit become the largest int64, which is out of range too.
+    """
     array = numbers(values, name, "iuf")
     if array.size and array.dtype.kind == "f":
         raise fairing_error("BAD_SHAPE", f"{name} has dtype {array.dtype}; it must hold integers.")
@@ -97,6 +110,7 @@ def index_array(values: ArrayLike, name: str) -> np.ndarray:
 
 
 def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
+    """An array of one of the NumPy `kinds` of dtype. Raises FairingError BAD_SHAPE, with `name`."""
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -104,31 +118,3 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
     if array.dtype.kind not in kinds:
         raise fairing_error("BAD_SHAPE", f"{name} has dtype {array.dtype}; it must hold numbers.")
     return array
-
-
-def predicted_size(
-    vertex_count: int,
-    faces: ArrayLike | Sequence[Sequence[int]],
-    levels: int,
-    shapes: int = 0,
-    energy: str = "thin_plate",
-) -> dict[str, int]:
-    """What a run would make and take, without running it (quads that will be split count as quads).
-
-    Returns "vertices" and "triangles" of the refined surface, and "bytes", the peak of the run's own arrays.
-    Raises FairingError BAD_SHAPE and BAD_OPTION.
-    """
-    if vertex_count < 0 or shapes < 0 or not 0 <= levels <= MOST_LEVELS:
-        raise fairing_error(
-            "BAD_OPTION",
-            f"{vertex_count} vertices and {shapes} shapes at {levels} levels; it must be from 0, and 0 to "
-            f"{MOST_LEVELS}.",
-        )
-    energies = _native.Energy.__members__
-    if energy not in energies:
-        listed = " or ".join(f'"{name}"' for name in energies)
-        raise fairing_error("BAD_OPTION", f"energy is {energy!r}; it must be {listed}.")
-    corners, offsets = face_arrays(faces)
-    return _native.predicted_size(
-        int(vertex_count), corners, offsets, int(levels), int(shapes), energies[energy]
-    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with a mesh, without a run."""
+"""What can be said of a mesh without a run: its defects, and the size of its surface."""
 
 from __future__ import annotations
 
@@ -11,15 +11,26 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, vertex_array
+from .errors import fairing_error
+from .options import choice
 
 
 @dataclass(frozen=True, slots=True)
 class Defect:
-    """One kind of thing that is wrong with a mesh, with all elements concerned.
+    """One kind of defect of a mesh, with all elements concerned.
 
-    code: as FairingError.code. message: for a person. kind: "vertex", "edge", "face" or "mesh", what the elements are;
-    edges are pairs (a, b) of vertices, a mesh has none. severity: "error" stops a run, "warning" does not.
-    repair: "orientation" where `fair(..., repair_orientation=True)` mends it, else None.
+    code: str
+        As FairingError.code.
+    message: str
+        What is wrong and what to do about it, for a person.
+    elements: list
+        Ids of vertices or faces, or edges as pairs (a, b) of vertices; empty for kind "mesh".
+    kind: "vertex", "edge", "face" or "mesh"
+        What the elements are.
+    severity: "error" or "warning"
+        An error stops a run, a warning does not.
+    repair: "orientation" or None
+        "orientation" if `fair(..., repair_orientation=True)` repairs it.
     """
 
     code: str
@@ -31,23 +42,55 @@ class Defect:
 
 
 def check(
-    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], repair_orientation: bool = False
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    repair_orientation: bool = False,
 ) -> list[Defect]:
-    """Every kind of defect of a mesh, in the order in which `fair` would meet them; empty: nothing is wrong.
+    """Every kind of defect of a mesh, in the order in which `fair` would meet them.
 
-    Tests that earlier defects leave without a meaning are left out: an index out of range ends the search. With
-    `repair_orientation` inconsistent orientation counts as a warning. Raises FairingError BAD_SHAPE for what are no
-    arrays of vertices and faces, and nothing else.
+    The list is empty if there is none. Skips tests that earlier defects make meaningless: an index
+    out of range ends the search. With `repair_orientation`, inconsistent orientation counts as a
+    warning. Raises only FairingError BAD_SHAPE, for arrays of a wrong shape or type.
     """
     corners, offsets = face_arrays(faces)
     found = _native.check(vertex_array(vertices), corners, offsets, bool(repair_orientation))
     return [Defect(**defect) for defect in found]
 
 
-def repair_orientation(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> np.ndarray:
-    """Ids (f,) of the faces to reverse for all neighbours to agree: the fewer ones of each component.
+def repair_orientation(
+    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]
+) -> np.ndarray:
+    """Ids (f,) int64 of the faces to reverse so that all neighbours agree.
 
-    Raises FairingError where there is no answer: NON_ORIENTABLE, NONMANIFOLD_EDGE, or arrays that make no faces.
+    They are the minority in each connected part. Raises FairingError where there is no answer:
+    NON_ORIENTABLE, NONMANIFOLD_EDGE, or arrays that make no faces.
     """
     corners, offsets = face_arrays(faces)
     return _native.faces_to_flip(vertex_array(vertices), corners, offsets)
+
+
+def predicted_size(
+    vertex_count: int,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    levels: int,
+    shapes: int = 0,
+    energy: str = "thin_plate",
+) -> dict[str, int]:
+    """The size of a surface and the memory of its run, without running it.
+
+    `faces`, `levels` and `energy` are those of fair(), `vertex_count` and `shapes` are numbers.
+    Returns "vertices" and "triangles" of the refined surface, and "bytes", the peak of the run's
+    own arrays. Quads that will be split count as quads. Raises FairingError BAD_SHAPE and
+    BAD_OPTION.
+    """
+    if vertex_count < 0 or shapes < 0 or not 0 <= levels <= _native.most_levels:
+        raise fairing_error(
+            "BAD_OPTION",
+            f"{vertex_count} vertices and {shapes} shapes at {levels} levels; vertices and shapes "
+            f"must be 0 or more, and levels from 0 to {_native.most_levels}.",
+        )
+    functional = choice(_native.Energy)("energy", energy)
+    corners, offsets = face_arrays(faces)
+    return _native.predicted_size(
+        int(vertex_count), corners, offsets, int(levels), int(shapes), functional
+    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one function that most callers need."""
+"""fair(): from a control mesh to its fair surface, in one call."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, shape_array, vertex_array
-from .options import native_options
+from .options import SETTINGS, native_options
 from .result import Result
 
 
@@ -26,6 +26,7 @@ def fair(
     tolerance: float = 0.0,
     weights: ArrayLike | None = None,
     epsilon: float = 0.0,
+    pad_size: float = 0.0,
     crease_edges: ArrayLike | None = None,
     crease_angle: float | None = None,
     corner_vertices: ArrayLike | None = None,
@@ -50,63 +51,77 @@ def fair(
 ) -> Result:
     """Refine a control mesh 1-to-4 and fair it: the new vertices minimize a bending energy.
 
-    After Kobbelt, *Fairing by Finite Difference Methods* (1997). Neither array is changed; any layout and any float or
-    integer type will do.
+    After Kobbelt, *Fairing by Finite Difference Methods* (1997). Neither array is changed. Any
+    layout and any float or integer type works.
 
     Parameters
     ----------
     vertices : (n, 3) float
         Control vertices, in any unit of length.
     faces : (m, 3) or (m, 4) int, a list of polygons, or the pair (corners, offsets) of flat arrays
-        Counter-clockwise. Polygons of five and more sides, and quads too concave or warped, are split by shape.
+        Counter-clockwise. Polygons of five and more sides, and quads too concave or warped, are
+        split by shape.
     levels : int
-        How often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels quads.
+        How often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels
+        quads.
     energy : "thin_plate", "total_curvature" or "minimum_variation"
-        Thin plate: the paper's quadratic energy over charts of the control mesh, one linear solve [Kobbelt 1997a,
-        section 4]. Total curvature: the integral of k1**2 + k2**2 over the surface itself, which makes spheres of points
-        on a sphere. Minimum variation: the change of curvature along the surface [Moreton, Sequin 1992]. Both take
-        Gauss-Newton steps from the thin plate's surface (report["curvature"]).
+        Thin plate: the paper's quadratic energy over charts of the control mesh, one linear solve
+        [Kobbelt 1997a, section 4]. Total curvature: the integral of k1**2 + k2**2 over the surface
+        itself, which turns points on a sphere into that sphere. Minimum variation: the change of
+        curvature along the surface [Moreton, Sequin 1992]. Both take Gauss-Newton steps from the
+        thin plate's surface (report["curvature"]).
     metric_exponent : float from 0 to 1
-        Control edge lengths to this power make the charts: 1 the paper's, 0 uniform, 0.5 centripetal.
+        Charts are made from control edge lengths to this power: 1 the paper's, 0 uniform, 0.5
+        centripetal.
     chart_blend : float from 0 to 1
         The paper's linear blend of charts: 0 uniform, 1 the chart itself.
     chart : "exponential" or "tangent"
         Exponential map of the control metric, or projection to its tangent planes.
     interpolation : "exact" or "approximate"
-        Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`.
-        Vertices on curves always stay.
+        Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
+        against `weights`. Vertices on curves always stay.
     tolerance : float, mesh units
-        Approximate: the farthest that any control vertex moves; the energy is as low as that allows.
+        Approximate: the farthest that any control vertex moves; the energy is as low as that
+        allows.
     weights : (n,) float, dimensionless
-        Approximate: the pull of each control vertex on the surface. 0 leaves a vertex free (where there is no
-        tolerance), infinity interpolates it.
+        Approximate: the pull of each control vertex on the surface. 0 leaves a vertex free (where
+        there is no tolerance), infinity interpolates it.
     epsilon : float, mesh units
-        Afterwards interpolated vertices are let go by as much, which takes off cusps [Kobbelt 1997a, section 5].
+        How far interpolated vertices may move after the solve, to remove cusps [Kobbelt 1997a,
+        section 5].
+    pad_size : float from 0 to 1
+        What holds control vertices off curves. 0: point forces, which leave a spot of curvature at
+        each. Otherwise forces spread over pads, which leave none; the size is the pad's width as a
+        share of the faces around the vertex. The surface still passes through every vertex.
     crease_edges : (k, 2) int
         Vertex pairs of the edges that are creases.
     crease_angle, corner_angle : float, radians
-        Edges folded by more are creases; curves that turn by more at a vertex end there. None: no such rule.
+        Edges folded by more are creases; curves that turn by more at a vertex end there. None: no
+        such rule.
     corner_vertices : (c,) int
-        Vertices where curves end; in the midst of a surface, the tip of a cone.
+        Vertices where curves end; inside a surface, the tip of a cone.
     boundary : "curve", "linear" or "free"
-        A smooth curve through the boundary's own vertices, the straight edges, or what the surface makes of it.
+        A smooth curve through the boundary's own vertices, its straight edges, or fixed at its
+        vertices only.
     region : (r,) int
         The faces to fair; all others are refined linearly, and stay. None: all faces.
     joint : "position", "tangent" or "curvature"
-        How the region meets the others: in a straight-edged line, in their tangent planes, or with curvature that
-        fades out as well. A crease on the joint makes it "position" there.
+        How the region meets the other faces: along straight edges, with their tangent planes, or
+        with curvature that fades out as well. A crease on the joint makes it "position" there.
     shapes : (k, n, 3) float, or a list of (n, 3)
-        Further positions of the same control vertices, such as shape keys. Each becomes a surface on the charts and
-        stencils of `vertices` (result.shapes), so the surface is one linear map of the positions.
+        Further positions of the same control vertices, such as shape keys. Each becomes a surface
+        on the charts and stencils of `vertices` (result.shapes), so the surface is one linear map
+        of the positions.
     repair_orientation : bool
-        Turn faces over where their neighbours disagree (report["flipped_faces"]).
+        Flip faces that are oriented against their neighbours (report["flipped_faces"]).
     method : "multigrid" or "back_leg"
-        The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps a level.
+        The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps
+        a level.
     relative_residual : float
-        Where the solver stops: residual relative to the control polyhedron's, and error relative to the solution in
-        the energy norm.
+        Where the solver stops: residual relative to the control polyhedron's, and error relative to
+        the solution in the energy norm.
     step_tolerance : float, share of the mesh's size
-        Where the Gauss-Newton steps end: where less is left to move.
+        The Gauss-Newton steps stop when the points still have to move less than this.
     max_steps : int
         The most Gauss-Newton steps on a level.
     max_iterations, smoother_degree, sweeps : int
@@ -132,36 +147,14 @@ def fair(
     FairingError
         With `code`, `elements` and a message that says what to do. CANCELLED after a cancel.
     """
-    o = native_options(
-        levels=levels,
-        energy=energy,
-        step_tolerance=step_tolerance,
-        max_steps=max_steps,
-        metric_exponent=metric_exponent,
-        chart_blend=chart_blend,
-        chart=chart,
-        interpolation=interpolation,
-        tolerance=tolerance,
-        epsilon=epsilon,
-        boundary=boundary,
-        joint=joint,
-        method=method,
-        repair_orientation=repair_orientation,
-        relative_residual=relative_residual,
-        max_iterations=max_iterations,
-        smoother_degree=smoother_degree,
-        sweeps=sweeps,
-        threads=threads,
-        memory_limit=memory_limit,
-        measure=measure,
-        weights=weights,
-        crease_edges=crease_edges,
-        crease_angle=crease_angle,
-        corner_vertices=corner_vertices,
-        corner_angle=corner_angle,
-        region=region,
-    )
+    # locals() holds just the arguments here, so that no setting is listed again.
+    settings = {name: value for name, value in locals().items() if name in SETTINGS}
+    options = native_options(**settings)
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     others = shape_array(shapes, len(points))
-    return Result(_native.fair(points, corners, offsets, others, o, monitor or _native.Monitor(), progress))
+    return Result(
+        _native.fair(
+            points, corners, offsets, others, options, monitor or _native.Monitor(), progress
+        )
+    )

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings as callers write them, checked and turned into the core's."""
+"""Settings as callers write them, turned into the core's.
+
+SETTINGS lists them all, each with what checks and converts it. fair() has their defaults, types and
+meaning; Solver takes the same. Ranges are the core's to check (native/fairing/options.cpp).
+"""
 
 from __future__ import annotations
 
 from math import isfinite
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
@@ -13,74 +18,90 @@ from .errors import fairing_error
 
 
 def native_options(**settings: object) -> _native.Options:
-    """The core's options. Those that are not given keep their defaults, and so do those that are None.
+    """The core's options; settings that are not given keep their defaults.
 
-    Raises FairingError BAD_OPTION and BAD_SHAPE, and TypeError for what is no setting.
+    Those of OPTIONAL may be None, which means the default too. Raises FairingError BAD_OPTION and
+    BAD_SHAPE, and TypeError for a name that is no setting.
     """
     options = _native.Options()
     for name, value in settings.items():
-        if name not in CONVERTERS:
-            raise TypeError(f"{name!r} is no setting; there are {', '.join(CONVERTERS)}")
+        if name not in SETTINGS:
+            raise TypeError(f"{name!r} is no setting; there are {', '.join(SETTINGS)}")
         if value is not None or name not in OPTIONAL:
-            setattr(options, name, CONVERTERS[name](name, value))
+            setattr(options, name, SETTINGS[name](name, value))
     return options
 
 
-def crease_pairs(name: str, edges: ArrayLike):
+# Each converter takes the setting's name, for messages, and the caller's value.
+
+
+def crease_pairs(name: str, edges: ArrayLike) -> np.ndarray:
+    """(k, 2) int64."""
     pairs = index_array(edges, name)
     if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
-        raise fairing_error("BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2).")
+        raise fairing_error(
+            "BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2)."
+        )
     return pairs.reshape(-1, 2)
 
 
-def corner_ids(name: str, vertices: ArrayLike):
+def corner_ids(name: str, vertices: ArrayLike) -> np.ndarray:
+    """(c,) int64."""
     return index_array(vertices, name).reshape(-1)
 
 
-def region_faces(name: str, region: ArrayLike):
+def region_faces(name: str, region: ArrayLike) -> np.ndarray:
+    """(r,) int64."""
     faces = index_array(region, name)
     if faces.ndim != 1:
-        raise fairing_error("BAD_SHAPE", f"region has shape {faces.shape}; it must be (r,), ids of faces.")
+        raise fairing_error(
+            "BAD_SHAPE", f"region has shape {faces.shape}; it must be (r,), ids of faces."
+        )
     return faces
 
 
-def weight_array(name: str, weights: ArrayLike):
+def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
+    """(n,) float64."""
     array = numbers(weights, name, "iuf").astype(float)
     if array.ndim != 1 or not array.size:
-        raise fairing_error("BAD_SHAPE", f"weights has shape {array.shape}; it must be (n,), one a vertex.")
+        raise fairing_error(
+            "BAD_SHAPE", f"weights has shape {array.shape}; it must be (n,), one for each vertex."
+        )
     return array
 
 
-def choice(options):
-    members = options.__members__
+def choice(enum: type):
+    """The converter of a setting whose values are the names of one of the core's enums."""
+    members = enum.__members__
+    listed = " or ".join(f'"{member}"' for member in members)
 
     def chosen(name: str, value: object):
         if not isinstance(value, str) or value not in members:
-            raise choice_error(name, value, tuple(members))
+            raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {listed}.")
         return members[value]
 
     return chosen
 
 
-def choice_error(name: str, value: object, options: tuple[str, ...]):
-    listed = " or ".join(f'"{option}"' for option in options)
-    return fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {listed}.")
-
-
 def whole(name: str, value: object) -> int:
+    """An integer of any type, from 0 to what the core's holds."""
     try:
         number = value.__index__()
     except AttributeError:
-        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a whole number.") from None
+        raise fairing_error(
+            "BAD_OPTION", f"{name} is {value!r}; it must be a whole number."
+        ) from None
     if not 0 <= number < 2**31 and not (name == "memory_limit" and 0 <= number < 2**63):
         raise fairing_error(
             "BAD_OPTION",
-            f"{name} is {number}; it must be 0 or more" + (", and below 2**31." if number > 0 else "."),
+            f"{name} is {number}; it must be 0 or more"
+            + (", and below 2**31." if number > 0 else "."),
         )
     return number
 
 
 def real(name: str, value: object) -> float:
+    """A finite number."""
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -91,36 +112,38 @@ def real(name: str, value: object) -> float:
 
 
 def switch(name: str, value: object) -> bool:
+    """Anything with a truth value."""
     return bool(value)
 
 
-CONVERTERS = {
+SETTINGS = {
     "levels": whole,
     "energy": choice(_native.Energy),
-    "step_tolerance": real,
-    "max_steps": whole,
     "metric_exponent": real,
     "chart_blend": real,
     "chart": choice(_native.Chart),
     "interpolation": choice(_native.Interpolation),
     "tolerance": real,
-    "epsilon": real,
-    "boundary": choice(_native.Boundary),
-    "joint": choice(_native.Joint),
-    "method": choice(_native.Method),
-    "repair_orientation": switch,
-    "relative_residual": real,
-    "max_iterations": whole,
-    "smoother_degree": whole,
-    "sweeps": whole,
-    "threads": whole,
-    "memory_limit": whole,
-    "measure": switch,
     "weights": weight_array,
+    "epsilon": real,
+    "pad_size": real,
     "crease_edges": crease_pairs,
     "crease_angle": real,
     "corner_vertices": corner_ids,
     "corner_angle": real,
+    "boundary": choice(_native.Boundary),
     "region": region_faces,
+    "joint": choice(_native.RegionContinuity),
+    "repair_orientation": switch,
+    "method": choice(_native.Method),
+    "relative_residual": real,
+    "max_iterations": whole,
+    "smoother_degree": whole,
+    "step_tolerance": real,
+    "max_steps": whole,
+    "sweeps": whole,
+    "threads": whole,
+    "memory_limit": whole,
+    "measure": switch,
 }
 OPTIONAL = ("weights", "crease_edges", "crease_angle", "corner_vertices", "corner_angle", "region")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run returns."""
+"""What fair() and Solver.solve() return."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ class Result:
 
     vertices: (N, 3) float64; rows 0 .. n-1 are the control vertices, in the caller's order.
     faces: (triangles (T, 3), quads (Q, 4)) int32, counter-clockwise; a control quad stays quads.
-    triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face that each output face comes from.
+    triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face that each output face comes
+    from.
     crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
     shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
     report: what the run did; see docs/numpy-api.md for its keys.
@@ -31,7 +32,7 @@ class Result:
 
     @cached_property
     def triangles(self) -> np.ndarray:
-        """(M, 3) int32: the whole surface as triangles; each quad is cut along its shorter diagonal."""
+        """(M, 3) int32: the whole surface; each quad is cut along its shorter diagonal."""
         triangles, quads = self.faces
         if not len(quads):
             return triangles
@@ -45,4 +46,6 @@ class Result:
 
     def __repr__(self) -> str:
         triangles, quads = self.faces
-        return f"Result({len(self.vertices)} vertices, {len(triangles)} triangles, {len(quads)} quads)"
+        return (
+            f"Result({len(self.vertices)} vertices, {len(triangles)} triangles, {len(quads)} quads)"
+        )

@@ -20,22 +20,24 @@ from .result import Result
 class Solver:
     """Fairs one control mesh again and again while its vertices move.
 
-    Keeps the check, the hierarchy, operators and buffers, and starts each time from its last surface.
+    Keeps the check, the hierarchy, operators and buffers, and starts each time from its last
+    surface.
 
     Parameters
     ----------
     vertices, faces, levels, energy
         As those of fair().
     **settings
-        Its keyword settings, but for shapes, progress and monitor. `measure` is False unless given; then no energy is
-        measured at all (NaN in the report). method="back_leg" is refused.
+        Its keyword settings, but for shapes, progress and monitor. `measure` is False unless given;
+        then no energy is measured at all (NaN in the report). method="back_leg" is refused.
 
     Raises
     ------
     FairingError
         As fair() does.
 
-    Checks and builds, and solves nothing yet. One call at a time: another one meanwhile raises FairingError BUSY.
+    The constructor checks and builds; it does not solve. Make one call at a time: a second one
+    meanwhile raises FairingError BUSY.
     """
 
     def __init__(
@@ -71,7 +73,7 @@ class Solver:
 
     @property
     def bytes(self) -> int:
-        """What the long arrays and factorizations take that are kept from call to call."""
+        """The memory of the long arrays and factorizations that are kept from call to call."""
         return self._native.bytes
 
     def solve(
@@ -83,22 +85,26 @@ class Solver:
     ) -> Result:
         """The surface of these positions (n, 3) of the control vertices; None: those given last.
 
-        Charts, stencils, the curves' parameters and split polygons stay those of the vertices at construction, or of the
-        last rebase. The first call's surface is that of fair(), to the last bit; later ones start from the last surface
-        and end at the same accuracy. result.vertices is new each time; result.faces, triangle_polygon, quad_polygon and
-        crease_edges are the same read-only arrays. report["warm"] says whether the last surface was the start.
+        Charts, stencils, the curves' parameters and split polygons stay those of the vertices at
+        construction, or of the last rebase. The first call's surface is that of fair(), to the last
+        bit; later ones start from the last surface and end at the same accuracy. result.vertices is
+        new each time; result.faces, triangle_polygon, quad_polygon and crease_edges are the same
+        read-only arrays. report["warm"] says whether the last surface was the start.
 
-        Raises FairingError: BAD_SHAPE, NON_FINITE, CANCELLED, BUSY. The solver can go on after any of them.
+        Raises FairingError: BAD_SHAPE, NON_FINITE, CANCELLED, BUSY. The solver can go on after any
+        of them.
         """
         points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
         with self._alone():
-            return Result({**self._constants, "shapes": [], **self._native.solve(points, monitor, progress)})
+            return Result(
+                {**self._constants, "shapes": [], **self._native.solve(points, monitor, progress)}
+            )
 
     def rebase(self, vertices: ArrayLike) -> None:
-        """From here on charts, stencils and curves are those of these positions (n, 3).
+        """Take charts, stencils and curves from these positions (n, 3) from now on.
 
-        As a new solver's, but creases that an angle chose, and the splits of polygons, stay. The next solve starts afresh.
-        Raises FairingError as fair() does for bad geometry; then all is as before.
+        Creases chosen by an angle, and the splits of polygons, stay. The next solve starts afresh.
+        Raises FairingError as fair() does for bad geometry, and then changes nothing.
         """
         points = self._positions(vertices)
         with self._alone():
@@ -109,7 +115,8 @@ class Solver:
         if len(points) != self._control_vertices:
             raise fairing_error(
                 "BAD_SHAPE",
-                f"vertices has shape {points.shape}; it must be ({self._control_vertices}, 3), as at the start.",
+                f"vertices has shape {points.shape}; it must be ({self._control_vertices}, 3), "
+                "as at the start.",
             )
         return points
 
@@ -117,7 +124,8 @@ class Solver:
     def _alone(self) -> Iterator[None]:
         if not self._busy.acquire(blocking=False):
             raise fairing_error(
-                "BUSY", "The solver is at work in another call. Wait for it, or make another solver."
+                "BUSY",
+                "The solver is at work in another call. Wait for it, or make another solver.",
             )
         try:
             yield
@@ -125,4 +133,7 @@ class Solver:
             self._busy.release()
 
     def __repr__(self) -> str:
-        return f"Solver({self._control_vertices} control vertices, levels={self._levels}, energy={self._energy!r})"
+        return (
+            f"Solver({self._control_vertices} control vertices, levels={self._levels}, "
+            f"energy={self._energy!r})"
+        )

@@ -13,5 +13,5 @@ op.use_sharp_edges = False
 op.use_crease_angle = False
 op.use_corner_angle = False
 op.metric_exponent = 0.5
-op.epsilon = 0.0
+op.vertex_release = 0.0
 op.shade_smooth = True

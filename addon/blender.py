@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's types as the add-on meets them: with its properties, and what is always there."""
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
+
+import bpy
+from bpy.props import PointerProperty
+
+Answer: TypeAlias = set[Any]  # of an operator: {"FINISHED"} and the like
+
+if TYPE_CHECKING:
+    from .inspection.settings import FAIRING_PG_display, FAIRING_PG_inspection
+    from .live.switch import FAIRING_PG_live
+    from .memory import FAIRING_PG_mesh, FAIRING_PG_surface
+    from .settings import FAIRING_PG_settings
+
+    class Mesh(bpy.types.Mesh):
+        """A mesh with what is kept beside its curvature colours."""
+
+        attributes: Any  # each kind has its own type of values
+        discrete_fairing: FAIRING_PG_mesh
+
+    class Object(bpy.types.Object):
+        """A mesh object: no other is ever worked on."""
+
+        data: Mesh
+        discrete_fairing: FAIRING_PG_surface
+        discrete_fairing_live: FAIRING_PG_live
+        discrete_fairing_inspection: FAIRING_PG_display
+
+    class Scene(bpy.types.Scene):
+        """A scene with the panel's settings."""
+
+        objects: Any
+        discrete_fairing: FAIRING_PG_settings
+        discrete_fairing_inspection: FAIRING_PG_inspection
+
+    class Context(bpy.types.Context):
+        """A context with a scene, as in any file that is open."""
+
+        scene: Scene
+        collection: bpy.types.Collection
+        preferences: bpy.types.Preferences
+        view_layer: bpy.types.ViewLayer
+        window_manager: bpy.types.WindowManager
+        workspace: bpy.types.WorkSpace
+        tool_settings: bpy.types.ToolSettings
+        active_object: Object | None
+        selected_objects: list[Object]  # type: ignore[assignment]
+        objects_in_mode_unique_data: list[Object]  # type: ignore[assignment]
+
+    OperatorBase = bpy.types.Operator
+else:
+    OperatorBase = object  # mixins are no operators: they only rely on what operators have
+    Mesh, Object, Scene = bpy.types.Mesh, bpy.types.Object, bpy.types.Scene
+    Context = bpy.types.Context
+
+
+def current_context() -> Context:
+    """Where no context is handed over."""
+    return cast(Context, bpy.context)
+
+
+def all_objects() -> Iterable[Object]:
+    """Every object of the file. Ask for its type before its mesh."""
+    return cast(Iterable[Object], bpy.data.objects)
+
+
+def all_scenes() -> Iterable[Scene]:
+    """Every scene of the file."""
+    return cast(Iterable[Scene], bpy.data.scenes)
+
+
+def attach(owner: type, name: str, group: type) -> None:
+    """Registers the property group `group` and gives all data-blocks of the type `owner` one by
+    that name.
+    """
+    make_property: Any = PointerProperty  # whose stub says None
+    bpy.utils.register_class(group)
+    setattr(owner, name, make_property(type=group))
+
+
+def detach(owner: type, name: str, group: type) -> None:
+    """Takes back what `attach` did."""
+    delattr(owner, name)
+    bpy.utils.unregister_class(group)
+
+
+def registration(*classes: type) -> tuple[Callable[[], None], Callable[[], None]]:
+    """The functions `register` and `unregister` for `classes`."""
+    factory: Any = bpy.utils.register_classes_factory  # whose stub says None
+    register, unregister = factory(classes)
+    return register, unregister

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a check found: kept with the object, and selected in Edit Mode."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import bmesh
+import bpy
+
+from .. import core, memory
+from ..blender import Context, Mesh, Object
+from ..mesh import mesh_changes
+from ..mesh.read import control_mesh, read_mesh
+
+_RANK = {"vertex": 0, "edge": 1, "face": 2}
+
+
+def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
+    """Runs the core's check on the mesh of `target`, in whatever mode, and remembers what it found.
+
+    Returns the defects as dicts.
+    """
+    with control_mesh(context, target) as mesh:
+        arrays = read_mesh(mesh)
+    found = core.module().check(arrays.positions, (arrays.corners, arrays.offsets))
+    defects = [
+        {
+            "code": defect.code,
+            "message": defect.message,
+            "kind": defect.kind,
+            "elements": [list(e) if isinstance(e, tuple) else int(e) for e in defect.elements],
+            "severity": defect.severity,
+        }
+        for defect in found
+    ]
+    store_defects(context, target, defects)
+    return defects
+
+
+def store_defects(context: Context, target: Object, defects: list[dict[str, Any]]) -> None:
+    """Remembers what a check of `target`, as it is now, has found."""
+    counts = mesh_changes.watch(context, target.data)
+    memory.keep(target, "defects", {"defects": defects, "counts": counts})
+
+
+def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:
+    """(defects, whether the mesh was changed since), or None if it was never checked."""
+    record = memory.recall(target, "defects")
+    if record is None:
+        return None
+    return record["defects"], mesh_changes.is_stale(target.data, record["counts"])
+
+
+def enter_edit_mode(context: Context, targets: list[Object]) -> None:
+    """Puts the mesh objects `targets`, and no other, into Edit Mode; the last one is active.
+
+    Raises RuntimeError if Blender will not.
+    """
+    if context.mode == "EDIT_MESH" and all(t.mode == "EDIT" for t in targets):
+        context.view_layer.objects.active = targets[-1]
+        return
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    for other in context.view_layer.objects.selected[:]:
+        other.select_set(False)
+    for target in targets:
+        target.hide_set(False)
+        target.select_set(True)
+    context.view_layer.objects.active = targets[-1]
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def select_defects(context: Context, target: Object, kind: str, elements: Sequence[Any]) -> int:
+    """Enters Edit Mode on `target` and selects exactly `elements`, unhidden, in the select mode of
+    their `kind`.
+
+    `kind`: "vertex", "edge" (elements are vertex pairs), "face" or "mesh", for which nothing can be
+    selected. Returns how many were selected.
+    """
+    return select_in_all(context, [(target, [(kind, elements)])])
+
+
+def select_in_all(
+    context: Context,
+    wanted: list[tuple[Object, list[tuple[str, Sequence[Any]]]]],
+) -> int:
+    """The same for several objects: `wanted` has (object, [(kind, elements), …]) pairs.
+
+    The first kind gives the select mode; of lower kinds nothing can be selected in it, of higher
+    ones all parts are.
+    """
+    targets = [target for target, _ in wanted]
+    enter_edit_mode(context, targets)
+    first = next((kind for _, groups in wanted for kind, _ in groups if kind in _RANK), "vertex")
+    context.tool_settings.mesh_select_mode = [_RANK[first] == rank for rank in range(3)]
+    bpy.ops.mesh.select_all(action="DESELECT")
+    return sum(_select(target.data, groups, _RANK[first]) for target, groups in wanted)
+
+
+def elements_of(bm: bmesh.types.BMesh, kind: str, elements: Sequence[Any]) -> list[Any]:
+    """BMesh elements for ids of the core; those that are gone are left out."""
+    vertices, faces = bm.verts, bm.faces
+    vertices.ensure_lookup_table()
+    faces.ensure_lookup_table()
+    if kind == "vertex":
+        return [vertices[i] for i in elements if i < len(vertices)]
+    if kind == "face":
+        return [faces[i] for i in elements if i < len(faces)]
+    if kind == "edge":
+        pairs = (
+            (vertices[a], vertices[b]) for a, b in elements if a != b and max(a, b) < len(vertices)
+        )
+        return [edge for edge in map(bm.edges.get, pairs) if edge is not None]
+    return []
+
+
+def _select(mesh: Mesh, groups: list[tuple[str, Sequence[Any]]], rank: int) -> int:
+    bm = bmesh.from_edit_mesh(mesh)
+    chosen = [
+        e for kind, ids in groups if _RANK.get(kind, -1) >= rank for e in elements_of(bm, kind, ids)
+    ]
+    for element in chosen:
+        element.hide_set(False)
+        element.select_set(True)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return len(chosen)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files in and out with Blender's own importers and exporters, in the files' own coordinates."""
+
+from pathlib import Path
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..blender import Mesh, Object, current_context
+from .places import file_format
+
+# Named alike both ways, no axis moves: the numbers in a file are those of the mesh.
+_AXES = {"forward_axis": "Y", "up_axis": "Z"}
+
+
+class FileError(Exception):
+    """Why a file cannot be read or written, as a sentence; `code` for programs."""
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+def read_file(path: Path, merge: bool = False) -> list[Object]:
+    """The mesh objects of a file, alone in an empty scene; the user's startup file stays out of it."""
+    _readable(path)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    operator: dict[str, Any] = {
+        "obj": bpy.ops.wm.obj_import,
+        "ply": bpy.ops.wm.ply_import,
+        "stl": bpy.ops.wm.stl_import,
+    }
+    try:
+        operator[file_format(path)](filepath=str(path), **_AXES)
+    except RuntimeError as error:
+        raise FileError("UNREADABLE", f"{path} cannot be read: {_reason(error)}") from error
+    found = [o for o in current_context().scene.objects if o.type == "MESH"]
+    if not found:
+        raise FileError("NO_MESH", f"{path} has no mesh that Blender can read.")
+    if merge:
+        for item in found:
+            _merge(item.data)
+    return found
+
+
+def write_file(path: Path) -> None:
+    """All objects of the scene as one file. A failure leaves no half of it."""
+    export: dict[str, Any] = {
+        "obj": _write_obj,
+        "ply": bpy.ops.wm.ply_export,
+        "stl": bpy.ops.wm.stl_export,
+    }
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"")  # says why not better than the exporters do
+    except OSError as error:
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {error.strerror}.") from error
+    try:
+        export[file_format(path)](filepath=str(path), check_existing=False, **_AXES)
+        reason = "Blender wrote nothing." if not path.stat().st_size else ""
+    except RuntimeError as error:
+        reason = _reason(error)
+    if reason:
+        path.unlink(missing_ok=True)
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}")
+
+
+def write_text(path: str, text: str) -> None:
+    """For the report."""
+    try:
+        Path(path).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {error.strerror}.") from error
+
+
+def _write_obj(**arguments: Any) -> set[Any]:
+    materials = any(mesh.materials for mesh in bpy.data.meshes)  # else no .mtl is left beside
+    export: Any = bpy.ops.wm.obj_export  # whose stub says None
+    return export(export_materials=materials, export_colors=True, **arguments)
+
+
+def _readable(path: Path) -> None:
+    """What the importers do not say, or say to the console only."""
+    try:
+        with path.open("rb") as stream:
+            if not stream.read(1):
+                raise FileError("UNREADABLE", f"{path} is empty.")
+    except OSError as error:
+        raise FileError("UNREADABLE", f"{path} cannot be read: {error.strerror}.") from error
+
+
+def _merge(mesh: Mesh) -> None:
+    """Joins vertices at the very same place.
+
+    (`remove_doubles` joins none within a distance of 0.)
+    """
+    positions = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    # + 0: a negative zero is at the same place
+    _, first, group = np.unique(
+        positions.reshape(-1, 3) + 0, axis=0, return_index=True, return_inverse=True
+    )
+    target = first[group.reshape(-1)]
+    doubles = np.flatnonzero(target != np.arange(len(target)))
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    edited.verts.ensure_lookup_table()
+    joined = {edited.verts[i]: edited.verts[target[i]] for i in doubles.tolist()}
+    bmesh.ops.weld_verts(edited, targetmap=joined)
+    edited.to_mesh(mesh)
+    edited.free()
+
+
+def _reason(error: Exception) -> str:
+    """The sentence in an operator's RuntimeError."""
+    return str(error).strip().removeprefix("Error: ")

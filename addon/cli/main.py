@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command: runs one input after another; says how it went by text, JSON and exit code."""
+
+import argparse
+import os
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import Any, TextIO
+
+import bpy
+
+from .. import core, memory
+from ..blender import Mesh, Object, current_context
+from ..errors import JobError
+from ..job import Job
+from . import report
+from .files import FileError, read_file, write_file, write_text
+from .options import parser, settings_of, shown
+from .places import BadPlaces, Place, places
+from .report import Progress
+
+ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+def main(argv: list[str]) -> int:
+    """The exit code. `argv`: what follows the command's name."""
+    try:
+        arguments, settings, ways = _understand(argv)
+    except SystemExit as end:  # argparse's, after --help, --version and errors
+        return int(end.code or ALL_DONE)
+    if core.why_missing():
+        _say(core.why_missing())
+        return NO_NATIVE_MODULE
+    with _standard_output(arguments.json) as output, _interruptible():
+        records, exit_code = _run_all(arguments, settings, ways)
+        return _write_report(arguments.json, output, exit_code, records)
+
+
+def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, list[Place]]:
+    """Options, settings and places; leaves by SystemExit if there is nothing to run."""
+    made = parser(" ".join(f"{name} {number}" for name, number in _versions().items()))
+    arguments = made.parse_intermixed_args(argv)
+    try:
+        return (
+            arguments,
+            settings_of(arguments),
+            places(arguments.inputs, arguments.output, arguments.format),
+        )
+    except (ValueError, BadPlaces) as error:
+        made.error(str(error))
+
+
+def _run_all(
+    arguments: argparse.Namespace, settings: SimpleNamespace, ways: list[Place]
+) -> tuple[list[dict[str, Any]], int]:
+    """Records of all inputs, also of those that an interruption left, and the exit code."""
+    records = [report.new_record(way, shown(settings)) for way in ways]
+    width = max(len(record["input"]) for record in records)
+    if not arguments.quiet:
+        _say(report.table_head(width, settings.energy))
+    for way, record in zip(ways, records):
+        try:
+            _run_one(way, record, arguments, settings)
+        except KeyboardInterrupt:
+            record["status"] = report.CANCELLED
+            record["error"] = report.error_entry("CANCELLED", "Interrupted.")
+            _say(f"{way.source}: interrupted")
+            return records, INTERRUPTED
+        if record["status"] == report.DONE and not arguments.quiet:
+            _say(report.table_line(record, width))
+    failed = any(record["status"] == report.FAILED for record in records)
+    return records, SOME_FAILED if failed else ALL_DONE
+
+
+def _run_one(
+    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
+) -> None:
+    """Fairs one file, and notes in its record how that went."""
+    start = time.perf_counter()
+    try:
+        if arguments.overwrite is False and way.target.exists():
+            raise FileError("EXISTS", f"{way.target} exists, and is kept.")
+        _fair_file(way, record, arguments, settings)
+        record["status"] = report.DONE
+    except (FileError, JobError) as error:
+        _fail(
+            record,
+            *_code_and_elements(error),
+            f"{way.source}: {error}" if isinstance(error, JobError) else str(error),
+        )
+    except Exception as error:  # a fault of ours: the other inputs need not suffer
+        traceback.print_exc()
+        _fail(record, "INTERNAL", (), f"{way.source}: {type(error).__name__}: {error}")
+    finally:
+        record["seconds"] = round(time.perf_counter() - start, 3)
+
+
+def _fair_file(
+    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
+) -> None:
+    sources = read_file(way.source, arguments.merge)
+    progress = Progress(sys.stderr, str(way.source), len(sources))
+    jobs = [Job(current_context(), source, settings) for source in sources]
+    try:
+        for job in jobs:
+            if arguments.threads is not None:
+                job.arguments["threads"] = arguments.threads
+            job.compute(**{} if arguments.quiet else {"progress": progress})
+            progress.next_run()
+    finally:
+        progress.clear()
+    for job, source in zip(jobs, sources):
+        record["objects"].append(_replace(job, source))
+        for warning in job.warnings():
+            record["warnings"].append(warning)
+            _say(f"{way.source}: warning: {warning}")
+    write_file(way.target)
+
+
+def _replace(job: Job, source: Object) -> dict[str, Any]:
+    """Puts a job's result in the place of its source, under its name, and returns the entry for the
+    report.
+    """
+    entry: dict[str, Any] = {"name": source.name, "control": _counts(source.data)}
+    target = job.write(current_context())
+    bpy.data.objects.remove(source)
+    target.name = entry["name"]
+    return entry | {"result": _counts(target.data), "report": memory.recall(target, "report")}
+
+
+def _counts(mesh: Mesh) -> dict[str, int]:
+    return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
+
+
+def _code_and_elements(error: Any) -> tuple[str, Sequence[Any]]:
+    """From the error itself, or from the core's below it."""
+    for part in (error, error.__cause__):
+        if getattr(part, "code", None):
+            return part.code, getattr(part, "elements", ())
+    return "REFUSED", ()
+
+
+def _fail(record: dict[str, Any], code: str, elements: Sequence[Any], message: str) -> None:
+    record["status"] = report.FAILED
+    record["error"] = report.error_entry(code, message, elements)
+    record["objects"].clear()
+    _say(f"error: {message}")
+
+
+def _write_report(
+    where: str | None, output: TextIO | None, exit_code: int, records: list[dict[str, Any]]
+) -> int:
+    """The final exit code: a report that cannot be written is a failure too."""
+    if not where:
+        return exit_code
+    text = report.document(_versions(), exit_code, records)
+    if output is not None:
+        output.write(text)
+        output.flush()
+        return exit_code
+    try:
+        write_text(where, text)
+    except FileError as error:
+        _say(f"error: {error}")
+        return exit_code or SOME_FAILED
+    return exit_code
+
+
+def _versions() -> dict[str, str]:
+    version = "none" if core.why_missing() else core.module().__version__
+    return {"discrete_fairing": version, "blender": bpy.app.version_string}
+
+
+@contextmanager
+def _standard_output(where: str | None) -> Iterator[TextIO | None]:
+    """For `--json -` a stream to standard output that Blender's own messages do not reach.
+
+    They go to standard error from now on, to the very end: the line that Blender writes at its
+    start is still in a buffer if standard output is no terminal, and would come out after the
+    report.
+    """
+    if where != "-":
+        yield None
+        return
+    sys.stdout.flush()
+    own = os.dup(1)
+    os.dup2(2, 1)
+    with os.fdopen(own, "w", encoding="utf-8") as stream:
+        yield stream
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """Ctrl-C as KeyboardInterrupt, which the core lets through; Blender would only take note of it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        if before is not None:  # None: Blender's own, which Python cannot name
+            signal.signal(signal.SIGINT, before)
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can be said on the command line: the list of settings, and what goes with files."""
+
+import argparse
+from collections.abc import Callable
+from math import degrees, radians
+from types import SimpleNamespace
+from typing import Any
+
+from ..settings import NAMES, FAIRING_PG_settings
+from .places import FORMATS
+
+# Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
+NOT_HERE = frozenset(
+    (
+        "mesh_source",
+        "use_selection",
+        "joint",
+        "use_shape_keys",
+        "copy_modifiers",
+        "hide_source",
+        "use_crease_attribute",
+        "crease_threshold",
+    )
+)
+
+_GROUPS = {
+    "shape": ("levels", "energy", "interpolation", "tolerance", "boundary", "shade_smooth"),
+    "creases": (
+        "use_sharp_edges",
+        "crease_angle",
+        "corner_angle",
+    ),
+}
+
+_PROGRAM = "blender --background --command discrete_fairing"
+_DESCRIPTION = """\
+Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
+names. Coordinates stay what they are: no axes are swapped, no units converted, whatever the formats."""
+_EXAMPLES = f"""\
+examples:
+  {_PROGRAM} in.obj out.obj --levels 4
+  {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
+  {_PROGRAM} parts/*.stl out/ --format ply
+  {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
+
+exit codes:
+  0 all done, 1 an input failed (the others are written), 2 wrong usage, 3 the native module is missing,
+  130 interrupted"""
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """An option for every setting that the command line has."""
+    groups = {name: parser.add_argument_group(name) for name in (*_GROUPS, "advanced")}
+    for name in NAMES:
+        if name in NOT_HERE or _switched_by_value(name):
+            continue
+        group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
+        _add(groups[group], name, _property(name))
+
+
+def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
+    """The parsed options as settings, with defaults for all that was not said.
+
+    Raises ValueError if they contradict.
+    """
+    given = {name: value for name, value in vars(arguments).items() if name in NAMES}
+    settings = {name: _default(_property(name)) for name in NAMES} | given
+    for name in given:
+        if "use_" + name in NAMES:
+            settings["use_" + name] = True
+    if "tolerance" in given:
+        if given.get("interpolation") == "EXACT":
+            raise ValueError("--tolerance needs --interpolation approximate")
+        settings["interpolation"] = "APPROXIMATE"
+    return SimpleNamespace(**settings)
+
+
+def shown(settings: SimpleNamespace) -> dict[str, Any]:
+    """The settings that the command line has, as a dict."""
+    return {name: value for name, value in vars(settings).items() if name not in NOT_HERE}
+
+
+def option(name: str) -> str:
+    """`--crease-angle` for crease_angle; the word "use" says nothing beside --x and --no-x."""
+    return "--" + name.removeprefix("use_").replace("_", "-")
+
+
+def _switched_by_value(name: str) -> bool:
+    """Whether giving `--x` says all that the switch `use_x` could say."""
+    return name.startswith("use_") and name.removeprefix("use_") in NAMES
+
+
+def _property(name: str) -> Any:
+    return FAIRING_PG_settings.bl_rna.properties[name]
+
+
+def _default(prop: Any) -> Any:
+    # Blender keeps single precision: 0.01 would come out as 0.0099999998
+    return float(f"{prop.default:.7g}") if prop.type == "FLOAT" else prop.default
+
+
+def _add(group: argparse._ArgumentGroup, name: str, prop: Any) -> None:
+    kind = _KINDS.get(prop.type)
+    if kind is None or getattr(prop, "is_array", False):
+        raise TypeError(f"the setting {name} has no option yet: {prop.type}")
+    # SUPPRESS: what is not said is absent, so that saying a default still counts as said
+    group.add_argument(option(name), dest=name, default=argparse.SUPPRESS, **kind(name, prop))
+
+
+def _boolean(_name: str, prop: Any) -> dict[str, Any]:
+    shown = "on" if prop.default else "off"
+    return {"action": argparse.BooleanOptionalAction, "help": _help(prop, shown)}
+
+
+def _number(name: str, prop: Any) -> dict[str, Any]:
+    angle = prop.subtype == "ANGLE"
+    shown = degrees(prop.default) if angle else prop.default
+    return {
+        "type": _bounded(prop, int if prop.type == "INT" else float, angle),
+        "metavar": "DEGREES" if angle else "N" if prop.type == "INT" else "X",
+        "help": _help(prop, "off" if "use_" + name in NAMES else f"{shown:.4g}"),
+    }
+
+
+def _choice(_name: str, prop: Any) -> dict[str, Any]:
+    spelled = {item.identifier.lower(): item for item in prop.enum_items}
+    listed = "; ".join(f"{word}: {item.description}" for word, item in spelled.items())
+    shown = prop.default.lower()
+
+    def parse(text: str) -> str:
+        word = text.replace("-", "_")  # as options themselves are spelled
+        if word not in spelled:
+            raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(spelled)}")
+        return spelled[word].identifier
+
+    return {"type": parse, "metavar": "|".join(spelled), "help": _help(prop, shown, listed)}
+
+
+def _text(_name: str, prop: Any) -> dict[str, Any]:
+    return {"metavar": "TEXT", "help": _help(prop, prop.default or "empty")}
+
+
+_KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice, "STRING": _text}
+
+
+def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
+    """A parser of numbers that keeps Blender's own limits; in degrees for angles."""
+    lowest, highest = (degrees(x) if angle else x for x in (prop.hard_min, prop.hard_max))
+
+    def parse(text: str) -> float:
+        try:
+            value = number(text)
+        except ValueError:
+            value = None
+        # the limits of angles went through radians in single precision
+        if value is None or not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle:
+            span = f"from {lowest:g}" + (f" to {highest:g}" if highest < 2**30 else "")
+            whole = "a whole number " if number is int else "a number "
+            raise argparse.ArgumentTypeError(f"{text!r} is not {whole}{span}")
+        return radians(value) if angle else value
+
+    return parse
+
+
+def _help(prop: Any, shown: str, more: str = "") -> str:
+    # argparse reads % as a format
+    return (
+        ". ".join(part for part in (prop.description, more) if part).replace("%", "%%")
+        + f" [{shown}]"
+    )
+
+
+def parser(version: str) -> argparse.ArgumentParser:
+    """The parser, which prints the text `version`.
+
+    Needs the add-on registered: its settings become options.
+    """
+    made = argparse.ArgumentParser(
+        prog=_PROGRAM,
+        usage=f"{_PROGRAM} IN [IN …] OUT [options]",
+        description=_DESCRIPTION,
+        epilog=_EXAMPLES,
+        formatter_class=_Formatter,
+        allow_abbrev=False,  # a script must not change its meaning when an option is added
+    )
+    made.add_argument("inputs", metavar="IN", nargs="+", help="OBJ, PLY or STL files")
+    made.add_argument(
+        "output",
+        metavar="OUT",
+        help="a file; for several inputs a folder (an existing one, or with / at its end) or a pattern with {name}, "
+        "which stands for an input's name without its ending. Missing folders are created. An existing file is overwritten, "
+        "but never an input",
+    )
+    made.add_argument(
+        "--format",
+        choices=FORMATS,
+        help="type of the files in an output folder [each like its input]",
+        metavar="obj|ply|stl",
+    )
+    made.add_argument(
+        "--overwrite",
+        action=argparse.BooleanOptionalAction,
+        default=None,
+        help="whether an existing output is replaced; if not, its input fails [on]",
+    )
+    made.add_argument(
+        "--merge",
+        action="store_true",
+        help="join vertices at the same place in OBJ and PLY files too; in STL files, which cannot share vertices, "
+        "they always are",
+    )
+    made.add_argument(
+        "--threads", type=_threads, metavar="N", help="0: all cores [as in the preferences]"
+    )
+    made.add_argument(
+        "--json",
+        metavar="FILE|-",
+        help="write a report to a file; -: to standard output, which then has nothing else",
+    )
+    made.add_argument(
+        "--quiet", action="store_true", help="no progress and no table; errors are still written"
+    )
+    made.add_argument(
+        "--version", action="version", version=version, help="print the versions and exit"
+    )
+    add_settings(made)
+    return made
+
+
+class _Formatter(argparse.RawDescriptionHelpFormatter):
+    """Texts as they are written; options in a column of their own."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=32, width=110)
+
+
+def _threads(text: str) -> int:
+    if not text.isdecimal() or int(text) > 1024:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to 1024")
+    return int(text)

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which file each input goes to: paths only, nothing is read or written."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+FORMATS = ("obj", "ply", "stl")
+_NAME = "{name}"
+
+
+class BadPlaces(Exception):
+    """Wrong usage, as a sentence."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """One file's way."""
+
+    source: Path
+    target: Path
+
+
+def places(inputs: Sequence[str], output: str, chosen_format: str | None = None) -> list[Place]:
+    """A Place for each input. Raises BadPlaces before anything is touched."""
+    sources = [Path(name) for name in inputs]
+    for source in sources:
+        _supported(source)
+    found = [
+        Place(source, _target(source, output, chosen_format, len(sources))) for source in sources
+    ]
+    _no_clash(found)
+    return found
+
+
+def file_format(path: Path) -> str:
+    """`obj`, `ply` or `stl`, by the name alone."""
+    return Path(path).suffix.lower().removeprefix(".")
+
+
+def _target(source: Path, output: str, chosen_format: str | None, count: int) -> Path:
+    if output.endswith(("/", "\\")) or Path(output).is_dir():
+        return Path(output) / f"{source.stem}.{chosen_format or file_format(source)}"
+    if chosen_format:
+        raise BadPlaces(f"--format is for an output folder: {output} sets the format already.")
+    if count > 1 and _NAME not in output:
+        raise BadPlaces(
+            f"{count} inputs need a folder, with / at its end, or a name with {_NAME} as output, not {output}."
+        )
+    target = Path(output.replace(_NAME, source.stem))
+    _supported(target)
+    return target
+
+
+def _supported(path: Path) -> None:
+    if file_format(path) not in FORMATS:
+        known = ", ".join(name.upper() for name in FORMATS)
+        raise BadPlaces(f"{path} is of no known type; the known types are {known}.")
+
+
+def _no_clash(found: list[Place]) -> None:
+    sources = {place.source.resolve() for place in found}
+    taken: dict[Path, Path] = {}
+    for place in found:
+        target = place.target.resolve()
+        if target in sources or _is_one_of(place.target, found):
+            raise BadPlaces(f"{place.target} is an input and will not be overwritten.")
+        if target in taken:
+            raise BadPlaces(
+                f"{taken[target]} and {place.source} would both be written to {place.target}."
+            )
+        taken[target] = place.source
+
+
+def _is_one_of(target: Path, found: list[Place]) -> bool:
+    """By the file, not its name: links, and names that differ in case only where that makes no
+    difference.
+    """
+    return target.exists() and any(
+        place.source.exists() and place.source.samefile(target) for place in found
+    )

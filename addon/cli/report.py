@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a call did: a line of progress, a table for people, JSON for programs."""
+
+import json
+from collections.abc import Iterable, Mapping
+from math import isfinite, nan
+from typing import Any, TextIO
+
+from .. import core
+from .places import Place
+
+SCHEMA = 1
+DONE, FAILED, CANCELLED, NOT_RUN = "done", "failed", "cancelled", "not_run"
+
+
+class Progress:
+    """Shows the runs of one file's objects, one after another, as one."""
+
+    def __init__(self, stream: TextIO, file_name: str, runs: int) -> None:
+        self._stream = stream
+        self._name = file_name
+        self._runs = runs
+        self._done = 0
+        self._shown: tuple[int, str] | None = None
+        self._over = stream.isatty()
+
+    def __call__(self, fraction: float, phase: str) -> None:
+        """What `discrete_fairing.fair` wants as its `progress`."""
+        percent = int(100 * (self._done + fraction) / self._runs)
+        state = (percent, phase) if self._over else (self._done, phase)
+        if state == self._shown:
+            return
+        self._shown = state
+        text = f"{self._name}: {percent:3d} % {phase}"
+        self._stream.write(f"\r{text:<79}" if self._over else text + "\n")
+        self._stream.flush()
+
+    def next_run(self) -> None:
+        self._done += 1
+
+    def clear(self) -> None:
+        """Leaves the line to whoever writes next."""
+        if self._over and self._shown is not None:
+            self._stream.write("\r" + " " * 79 + "\r")
+            self._shown = None
+
+
+def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:
+    """One input's entry, as if its turn never came. `settings`: a dict."""
+    return {
+        "input": str(place.source),
+        "output": str(place.target),
+        "status": NOT_RUN,
+        "error": None,
+        "warnings": [],
+        "seconds": 0.0,
+        "settings": settings,
+        "objects": [],
+    }
+
+
+def error_entry(code: str, message: str, elements: Iterable[int] = ()) -> dict[str, Any]:
+    return {"code": code, "message": message, "elements": [int(element) for element in elements]}
+
+
+def document(versions: dict[str, str], exit_code: int, records: list[dict[str, Any]]) -> str:
+    """The whole report as JSON text, without the NaN that JSON does not know."""
+    whole = {"schema": SCHEMA, **versions, "exit_code": exit_code, "inputs": records}
+    return json.dumps(_finite(whole), indent=2, allow_nan=False, default=str) + "\n"
+
+
+def table_head(width: int, energy: str) -> str:
+    """`energy`: a setting's identifier, which decides how accuracy is said."""
+    accuracy = f"{'residual':>9}" if energy == "THIN_PLATE" else f"{'steps':>6} {'decrement':>9}"
+    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'energy before → after':>25} {accuracy}"
+
+
+def table_line(record: dict[str, Any], width: int) -> str:
+    """A finished input's line: sums over its objects, and the accuracy of the worst one."""
+    objects = record["objects"]
+    faces_in, faces_out = (
+        sum(item[side]["faces"] for item in objects) for side in ("control", "result")
+    )
+    before, after = (
+        sum(_energy(item["report"], record, state) for item in objects)
+        for state in ("polyhedron", "result")
+    )
+    energies = f"{before:.4g} → {after:.4g}"
+    return (
+        f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
+        f"{energies:>25} {_accuracy([item['report'] for item in objects], record['settings']['energy'])}"
+    )
+
+
+def _accuracy(reports: list[Mapping[str, Any]], energy: str) -> str:
+    if energy == "THIN_PLATE":
+        return f"{max(report.get('residuals', [nan])[-1] for report in reports):>9.1e}"
+    most_steps = max(core.step_count(report) or 0 for report in reports)
+    decrement = max(core.last_decrement(report) or 0.0 for report in reports)
+    return f"{most_steps:>6} {decrement:>9.1e}"
+
+
+def _energy(report: Mapping[str, Any], record: dict[str, Any], state: str) -> float:
+    # before and after are told for two energies; the third makes little of the total curvature too
+    told = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
+    return report.get("energy", {}).get(state, {}).get(told, nan)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not isfinite(value) else value

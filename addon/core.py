@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The native core: loaded on first use, so that a missing wheel never keeps Blender from starting.
+
+The one place that knows both spellings of a setting, Blender's and that of `discrete_fairing.fair`.
+Plain arrays, no Blender.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
+
+
+@cache
+def _load() -> tuple[Any, str]:
+    try:
+        import discrete_fairing
+    except ImportError as error:
+        return None, f"{MISSING} ({error})"
+    return discrete_fairing, ""
+
+
+def module() -> Any:
+    """The module `discrete_fairing`; raises ImportError with a text for the user."""
+    found, reason = _load()
+    if found is None:
+        raise ImportError(reason)
+    return found
+
+
+def why_missing() -> str:
+    """Why the core cannot be used, in one sentence; empty when it can."""
+    return _load()[1]
+
+
+@dataclass(frozen=True)
+class ControlArrays:
+    """A control mesh of n vertices, e edges, m faces and c face corners."""
+
+    positions: np.ndarray  # (n, 3) float64
+    edges: np.ndarray  # (e, 2) int32, vertex pairs
+    corners: np.ndarray  # (c,) int32, vertices of the faces, face after face
+    corner_edges: np.ndarray  # (c,) int32, the edge that leaves each corner
+    offsets: np.ndarray  # (m + 1,) int32: face f has the corners offsets[f] … offsets[f + 1] - 1
+    edge_crease: np.ndarray | None  # (e,) float32
+    vertex_crease: np.ndarray | None  # (n,) float32
+    sharp_edge: np.ndarray | None  # (e,) bool
+
+    @property
+    def face_sizes(self) -> np.ndarray:
+        """(m,) int32: corners of each face."""
+        return self.offsets[1:] - self.offsets[:-1]
+
+
+def fair_arguments(
+    arrays: ControlArrays,
+    settings: Any,
+    preferences: Any,
+    region: np.ndarray | None = None,
+    shapes: np.ndarray | None = None,
+) -> dict[str, Any]:
+    """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
+
+    `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
+    such as shape keys.
+    """
+    threshold = settings.crease_threshold if settings.use_crease_attribute else None
+    approximate = settings.interpolation == "APPROXIMATE"
+    arguments = {
+        "vertices": arrays.positions,
+        "faces": (arrays.corners, arrays.offsets),
+        "levels": settings.levels,
+        "energy": settings.energy.lower(),
+        "metric_exponent": settings.metric_exponent,
+        "interpolation": settings.interpolation.lower(),
+        "tolerance": settings.tolerance if approximate else 0.0,
+        "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
+        "corner_vertices": corner_vertices(arrays, threshold),
+        "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
+        "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
+        "boundary": settings.boundary.lower(),
+        "epsilon": settings.vertex_release,
+        "repair_orientation": settings.repair_orientation,
+        "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
+        "threads": preferences.threads,
+    }
+    if region is not None:
+        arguments |= {"region": region, "joint": settings.joint.lower()}
+    if shapes is not None and len(shapes):
+        arguments["shapes"] = shapes
+    return arguments
+
+
+def crease_edges(
+    arrays: ControlArrays, crease_threshold: float | None = None, use_sharp: bool = False
+) -> np.ndarray:
+    """Vertex pairs (k, 2) int32 of the edges that are creased by `crease_threshold` at least or,
+    with `use_sharp`, marked sharp.
+
+    `crease_threshold` None ignores creases. A weight of 0 is never a crease, whatever the
+    threshold. Edges without a face are left out: they carry no surface.
+    """
+    chosen = np.zeros(len(arrays.edges), bool)
+    if crease_threshold is not None and arrays.edge_crease is not None:
+        chosen |= _creased(arrays.edge_crease, crease_threshold)
+    if use_sharp and arrays.sharp_edge is not None:
+        chosen |= arrays.sharp_edge
+    chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
+    return arrays.edges[chosen]
+
+
+def corner_vertices(arrays: ControlArrays, crease_threshold: float | None = None) -> np.ndarray:
+    """Vertices (c,) int32 with a vertex crease of `crease_threshold` at least; None ignores them.
+
+    Loose ones are left out.
+    """
+    if crease_threshold is None or arrays.vertex_crease is None:
+        return np.empty(0, np.int32)
+    chosen = _creased(arrays.vertex_crease, crease_threshold) & _occurs(
+        arrays.corners, len(arrays.positions)
+    )
+    return np.flatnonzero(chosen).astype(np.int32)
+
+
+def _creased(weights: np.ndarray, threshold: float) -> np.ndarray:
+    return (weights > 0.0) & (weights >= np.float32(threshold))
+
+
+def _occurs(ids: np.ndarray, count: int) -> np.ndarray:
+    occurs = np.zeros(count, bool)
+    occurs[ids] = True
+    return occurs
+
+
+def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
+    """The arguments of `discrete_fairing.fair` but the vertices: while they stay, one solver will
+    do.
+    """
+    return {name: value for name, value in arguments.items() if name != "vertices"}
+
+
+def are_equal(a: Any, b: Any) -> bool:
+    """Whether two values are equal: dictionaries and tuples by their parts, arrays by their
+    elements.
+    """
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(are_equal(a[name], b[name]) for name in a)
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all(map(are_equal, a, b))
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b)
+    return type(a) is type(b) and a == b
+
+
+def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The report's last entry on the energies that take several steps; None for the thin plate,
+    which takes one solve.
+    """
+    levels = report.get("curvature") or [None]
+    return levels[-1]
+
+
+def has_converged(report: Mapping[str, Any]) -> bool:
+    """Whether the steps came to their end; the one solve of the thin plate has a warning of its
+    own.
+    """
+    level = _finest_level(report)
+    return level is None or level["converged"]
+
+
+def step_count(report: Mapping[str, Any]) -> int | None:
+    """How many steps the finest level took, None for the thin plate."""
+    level = _finest_level(report)
+    return None if level is None else len(level["steps"])
+
+
+def last_decrement(report: Mapping[str, Any]) -> float | None:
+    """What the last step still found to gain, None where there was none: its square is a share of
+    the energy.
+    """
+    level = _finest_level(report)
+    return level["steps"][-1]["decrement"] if level and level["steps"] else None

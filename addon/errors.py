@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Why there is no surface: the core's own sentence, and what to do about it in Blender."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from . import core
+
+_REMEDIES = {
+    "EMPTY_MESH": "Add a mesh with faces first",
+    "NO_FACES": "Fill the edges with faces (F in Edit Mode)",
+    "NON_FINITE": "Delete these vertices, or type a position for them in the sidebar (N, Item)",
+    "REPEATED_VERTEX": "Run Mesh > Clean Up > Degenerate Dissolve",
+    "DUPLICATE_FACE": "Delete one of each pair",
+    "NONMANIFOLD_EDGE": "Find them with Check Mesh, or Select > All by Trait > Non Manifold, and delete the inner faces",
+    "NONMANIFOLD_VERTEX": "Separate the parts that touch in one vertex (Mesh > Split > Faces by Edges, or V)",
+    "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or switch on Repair Normals",
+    "NON_ORIENTABLE": "Cut it open along a row of edges (V in Edit Mode)",
+    "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
+    "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
+    "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
+    "UNDERDETERMINED": "Use Through instead of Near, or a smaller tolerance",
+    "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
+    "OUT_OF_MEMORY": "Use fewer levels",
+    "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
+}
+# code: what is wrong with one, with several
+_WHAT = {
+    "NON_FINITE": ("vertex has no proper position", "vertices have no proper position"),
+    "REPEATED_VERTEX": ("face uses a vertex twice", "faces use a vertex twice"),
+    "DUPLICATE_FACE": ("face lies on another one", "faces lie on one another"),
+    "NONMANIFOLD_EDGE": ("edge has more than two faces", "edges have more than two faces"),
+    "NONMANIFOLD_VERTEX": (
+        "vertex joins parts that touch only there",
+        "vertices join parts that touch only there",
+    ),
+    "INCONSISTENT_ORIENTATION": (
+        "face looks the other way than its neighbours",
+        "faces look the other way than their neighbours",
+    ),
+    "DEGENERATE_FACE": ("face has no area", "faces have no area"),
+    "COINCIDENT_VERTICES": (
+        "vertex lies on another one without being joined",
+        "vertices lie on others without being joined",
+    ),
+    "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
+}
+_WHOLE = {
+    "EMPTY_MESH": "The mesh is empty",
+    "NO_FACES": "The mesh has no faces",
+    "NON_ORIENTABLE": "The surface has only one side, like a Möbius strip, so it has no outside",
+}
+
+
+class JobError(Exception):
+    """Why an object cannot be faired, as a sentence for its user.
+
+    `code`, `kind`, `elements`: of the core's error, where it was the core that refused; else "",
+    "mesh", ().
+    """
+
+    def __init__(
+        self, sentence: str, code: str = "", kind: str = "mesh", elements: Iterable[Any] = ()
+    ) -> None:
+        super().__init__(sentence)
+        self.code = code
+        self.kind = kind
+        self.elements = list(elements)
+
+
+class JobCancelled(JobError):
+    """The user did not want it any more."""
+
+
+def what(defect: dict[str, Any]) -> str:
+    """What is wrong, with the number of elements, in one sentence.
+
+    `defect`: a dict of defects.check_object.
+    """
+    code, count = defect["code"], len(defect["elements"])
+    if code in _WHAT and count:
+        return f"{count:,} {_WHAT[code][count > 1]}."
+    return _sentence(_WHOLE.get(code, defect["message"]))
+
+
+def remedy(code: str) -> str:
+    """What to do about it, in one sentence; empty where nobody knows."""
+    return _sentence(_REMEDIES[code]) if code in _REMEDIES else ""
+
+
+def error_text(object_name: str, error: Any) -> str:
+    """One paragraph for a FairingError: which object, what is wrong where, what to do."""
+    return " ".join(
+        _sentence(part)
+        for part in (f"{object_name}: {error}", _REMEDIES.get(error.code, ""))
+        if part
+    )
+
+
+@contextmanager
+def explained(object_name: str) -> Iterator[None]:
+    """Inside the `with` an error of the core becomes a JobError, in words for the user."""
+    fairing_error = core.module().FairingError
+    try:
+        yield
+    except fairing_error as error:
+        kind = JobCancelled if error.code == "CANCELLED" else JobError
+        raise kind(
+            error_text(object_name, error), error.code, error.kind, error.elements
+        ) from error
+
+
+def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
+    return f"{object_name}: {warning['message']}"
+
+
+def unfinished_text(object_name: str, energy: str) -> str:
+    """For a surface whose steps ended early; `energy`: its name in the interface."""
+    return (
+        f"{object_name}: not converged. You have a surface, but {energy} could still make it a little calmer. "
+        "Make the faces of the source more even where they are very thin or sharply folded, or use Thin Plate."
+    )
+
+
+def _sentence(text: str) -> str:
+    return text if text.endswith((".", "!", "?")) else text + "."

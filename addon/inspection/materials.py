@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Zebra stripes and curvature colours as node materials."""
+
+from math import cos, sin
+from typing import Any
+
+import bpy
+
+from ..mesh.modifiers import INSPECTION_TAG
+
+# the colour attribute that the curvature material shows
+COLOUR = "Fairing Curvature"
+
+ZEBRA_NAME, ZEBRA_MODE = "Fairing Zebra", "ZEBRA"
+LIGHT, DARK = (0.88, 0.88, 0.865, 1.0), (0.012, 0.013, 0.016, 1.0)
+CURVATURE_NAME, CURVATURE_MODE = "Fairing Curvature", "CURVATURE"
+
+
+class Graph:
+    """Adds nodes to a tree; inputs may be sockets to link or plain values."""
+
+    def __init__(self, tree: Any) -> None:
+        self.tree = tree
+        tree.nodes.clear()
+
+    def node(self, kind: str, name: str = "", inputs: Any = (), **settings: Any) -> Any:
+        """A node with its properties `settings` and `inputs`: a dict by socket name or position."""
+        node = self.tree.nodes.new(kind)
+        if name:
+            node.name = node.label = name
+        for key, value in settings.items():
+            setattr(node, key, value)
+        for key, value in dict(inputs).items():
+            if isinstance(value, bpy.types.NodeSocket):
+                self.tree.links.new(value, node.inputs[key])
+            else:
+                node.inputs[key].default_value = value
+        return node
+
+    def math(self, operation: str, first: Any, second: Any = 0.0, name: str = "") -> Any:
+        return self.node(
+            "ShaderNodeMath", name, {0: first, 1: second}, operation=operation
+        ).outputs[0]
+
+
+def tagged(collection: Any, mode: str) -> Any:
+    """The member of a bpy.data collection that was made for `mode`, or None."""
+    return next(
+        (item for item in collection if item.get(INSPECTION_TAG) == mode and item.library is None),
+        None,
+    )
+
+
+def lay_out(tree: Any) -> None:
+    """Nodes in columns by how far they are from the output, for those who look inside."""
+    depth: dict[str, int] = {}
+
+    def visit(node: Any, at: int) -> None:
+        if depth.get(node.name, -1) < at:
+            depth[node.name] = at
+            for socket in node.inputs:
+                for link in socket.links:
+                    visit(link.from_node, at + 1)
+
+    for node in tree.nodes:
+        if not any(socket.is_linked for socket in node.outputs):
+            visit(node, 0)
+    filled: dict[int, int] = {}
+    for node in tree.nodes:
+        column = depth.get(node.name, 0)
+        node.location = (-220 * column, -220 * filled.get(column, 0))
+        filled[column] = filled.get(column, 0) + 1
+
+
+def zebra_material(settings: Any) -> bpy.types.Material:
+    """The one zebra material of the file, made if need be and set as `settings` says."""
+    material = tagged(bpy.data.materials, ZEBRA_MODE) or _build_zebra()
+    update_zebra(settings)
+    return material
+
+
+def update_zebra(settings: Any) -> None:
+    """Gives the material, if there is one, the values of `settings`: stripes, direction, sharpness,
+    fixed_to.
+    """
+    material = tagged(bpy.data.materials, ZEBRA_MODE)
+    if material is None:
+        return
+    nodes = material.node_tree.nodes
+    by_view = settings.fixed_to == "VIEW"
+    # upright is y for the view and z for the object
+    a = settings.direction
+    nodes["Direction"].inputs[1].default_value = (
+        (sin(a), cos(a), 0.0) if by_view else (sin(a), 0.0, cos(a))
+    )
+    nodes["Room"].convert_to = "CAMERA" if by_view else "OBJECT"
+    nodes["Stripes"].inputs[1].default_value = 2.0 * settings.stripes
+    width = 0.02 + (1.0 - settings.sharpness) * 0.98
+    nodes["Edge"].inputs["From Min"].default_value = -width
+    nodes["Edge"].inputs["From Max"].default_value = width
+
+
+def _begin(name: str, mode: str) -> tuple[bpy.types.Material, Graph]:
+    """A new material that shows a mode of inspection, and its empty graph."""
+    material = bpy.data.materials.new(name)
+    material[INSPECTION_TAG] = mode
+    if not material.use_nodes:  # since 5.0 always on, and setting it is deprecated
+        material.use_nodes = True
+    return material, Graph(material.node_tree)
+
+
+def _finish(graph: Graph, emission: bpy.types.Node) -> None:
+    """What the camera sees shines; other objects see grey, so that it does not light the scene."""
+    grey = graph.node("ShaderNodeBsdfDiffuse")
+    seen = graph.node("ShaderNodeLightPath")
+    mix = graph.node(
+        "ShaderNodeMixShader",
+        inputs={0: seen.outputs["Is Camera Ray"], 1: grey.outputs[0], 2: emission.outputs[0]},
+    )
+    graph.node("ShaderNodeOutputMaterial", inputs={"Surface": mix.outputs[0]})
+    lay_out(graph.tree)
+
+
+def _build_zebra() -> bpy.types.Material:
+    material, graph = _begin(ZEBRA_NAME, ZEBRA_MODE)
+
+    geometry = graph.node("ShaderNodeNewGeometry")
+    to_surface = graph.node(
+        "ShaderNodeVectorMath",
+        inputs={0: geometry.outputs["Incoming"], "Scale": -1.0},
+        operation="SCALE",
+    )
+    mirrored = graph.node(
+        "ShaderNodeVectorMath",
+        inputs={0: to_surface.outputs[0], 1: geometry.outputs["Normal"]},
+        operation="REFLECT",
+    )
+    room = graph.node(
+        "ShaderNodeVectorTransform",
+        "Room",
+        {0: mirrored.outputs[0]},
+        vector_type="VECTOR",
+        convert_from="WORLD",
+    )
+    # the object's scale would stretch the vector
+    even = graph.node("ShaderNodeVectorMath", inputs={0: room.outputs[0]}, operation="NORMALIZE")
+    along = graph.node(
+        "ShaderNodeVectorMath", "Direction", {0: even.outputs[0]}, operation="DOT_PRODUCT"
+    )
+    angle = graph.math("ARCSINE", along.outputs["Value"])
+    wave = graph.math("SINE", graph.math("MULTIPLY", angle, 2.0, name="Stripes"))
+    edge = graph.node(
+        "ShaderNodeMapRange", "Edge", {"Value": wave}, interpolation_type="SMOOTHSTEP"
+    )
+    stripes = graph.node("ShaderNodeMix", data_type="RGBA", blend_type="MIX")
+    _set_colours(graph, stripes, edge.outputs["Result"])
+    output = next(s for s in stripes.outputs if s.type == "RGBA")
+
+    emission = graph.node("ShaderNodeEmission", inputs={"Color": output})
+    _finish(graph, emission)
+    return material
+
+
+def _set_colours(graph: Graph, mix: Any, factor: bpy.types.NodeSocket) -> None:
+    """The Mix node has sockets of the same name for every type: find those for colours."""
+    colours = [socket for socket in mix.inputs if socket.type == "RGBA"]
+    colours[0].default_value, colours[1].default_value = DARK, LIGHT
+    graph.tree.links.new(factor, mix.inputs[0])
+
+
+def curvature_material() -> bpy.types.Material:
+    """The one curvature material of the file, made if need be."""
+    return tagged(bpy.data.materials, CURVATURE_MODE) or _build_curvature()
+
+
+def _build_curvature() -> bpy.types.Material:
+    material, graph = _begin(CURVATURE_NAME, CURVATURE_MODE)
+    colour = graph.node("ShaderNodeAttribute", attribute_name=COLOUR)
+    geometry = graph.node("ShaderNodeNewGeometry")
+    facing = graph.node(
+        "ShaderNodeVectorMath",
+        inputs={0: geometry.outputs["Incoming"], 1: geometry.outputs["Normal"]},
+        operation="DOT_PRODUCT",
+    )
+    # enough shade to see the shape, too little to change what the colour says; no lamp is needed
+    shade = graph.node(
+        "ShaderNodeMapRange",
+        "Shade",
+        {"Value": facing.outputs["Value"], "To Min": 0.45, "To Max": 1.0},
+    )
+    emission = graph.node(
+        "ShaderNodeEmission",
+        inputs={"Color": colour.outputs["Color"], "Strength": shade.outputs["Result"]},
+    )
+    _finish(graph, emission)
+    return material

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What each object shows; and, for the whole scene so that objects compare, how it is drawn."""
+
+from math import radians
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from ..blender import Context, Mesh, attach, detach
+from . import display, materials
+
+MODES = (
+    ("NONE", "Off", "The object in its own materials", "SHADING_SOLID", 0),
+    (
+        "ZEBRA",
+        "Zebra",
+        "Stripes as if the surface were a mirror among light tubes: a broken stripe is an edge, "
+        "a kinked stripe a jump in curvature, an even flow is fair",
+        "ALIGN_JUSTIFY",
+        1,
+    ),
+    (
+        "MEAN",
+        "Mean",
+        "Mean curvature: how much the surface bulges (red) or is hollow (blue), on average over all directions",
+        "COLOR",
+        2,
+    ),
+    (
+        "GAUSS",
+        "Gauss",
+        "Gaussian curvature: domes and bowls (red), saddles (blue), and what can be unrolled flat (white)",
+        "COLOR",
+        3,
+    ),
+    (
+        "TOTAL",
+        "Total",
+        "Total curvature: how strongly the surface bends, whichever way. Red spots are where it is least fair",
+        "COLOR",
+        4,
+    ),
+)
+
+
+def _mode_changed(group: Any, context: Context) -> None:
+    target = group.id_data
+    if isinstance(target.data, Mesh):
+        display.show(target, group.mode, context.scene.discrete_fairing_inspection)
+
+
+def _zebra_changed(group: Any, _context: Context) -> None:
+    materials.update_zebra(group)
+
+
+def _range_changed(group: Any, context: Context) -> None:
+    for target in context.scene.objects:
+        if target.type == "MESH":
+            display.recolour(target, group)
+
+
+def _smooth_changed(group: Any, context: Context) -> None:
+    for target in context.scene.objects:
+        if target.type == "MESH":
+            display.set_smooth(target, group)
+
+
+class FAIRING_PG_display(bpy.types.PropertyGroup):
+    """What an object shows; kept with the object."""
+
+    mode: EnumProperty(
+        name="Show",
+        description="What the object shows instead of its materials",
+        items=MODES,
+        update=_mode_changed,
+        options=set(),
+    )
+
+
+class FAIRING_PG_inspection(bpy.types.PropertyGroup):
+    """How it is drawn; kept with the scene."""
+
+    stripes: IntProperty(
+        name="Stripes",
+        description="How many pairs of light and dark stripes the room around the surface has. "
+        "More stripes find smaller faults",
+        default=10,
+        min=1,
+        max=200,
+        soft_max=60,
+        update=_zebra_changed,
+    )
+    direction: FloatProperty(
+        name="Direction",
+        description="How far the stripes lean. 0°: level; 90°: upright. Faults show best in stripes that cross them",
+        default=radians(20),
+        soft_min=radians(-90),
+        soft_max=radians(90),
+        subtype="ANGLE",
+        update=_zebra_changed,
+    )
+    sharpness: FloatProperty(
+        name="Sharpness",
+        description="How sharp the edges of the stripes are. Soft stripes are calmer on coarse meshes",
+        default=0.95,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        update=_zebra_changed,
+    )
+    fixed_to: EnumProperty(
+        name="Fixed to",
+        description="Where the light tubes stand",
+        items=(
+            (
+                "VIEW",
+                "View",
+                "The tubes stand around you: turn the view, and the stripes run over the surface",
+            ),
+            (
+                "OBJECT",
+                "Object",
+                "The tubes stand around the object, like lamps in a showroom, and turn with it",
+            ),
+        ),
+        update=_zebra_changed,
+    )
+    smooth: BoolProperty(
+        name="Smooth",
+        description="Shades the object smooth while it is inspected, whatever its faces say. Sharp edges stay sharp",
+        default=True,
+        update=_smooth_changed,
+    )
+    range_low: FloatProperty(
+        name="Range from",
+        description="This share of the vertices may lie below the lowest colour, so that a few extremes "
+        "do not use up all the colours",
+        default=2.0,
+        min=0.0,
+        max=49.0,
+        precision=1,
+        subtype="PERCENTAGE",
+        update=_range_changed,
+    )
+    range_high: FloatProperty(
+        name="to",
+        description="This share of the vertices lies below the highest colour; the rest have the highest colour",
+        default=98.0,
+        min=51.0,
+        max=100.0,
+        precision=1,
+        subtype="PERCENTAGE",
+        update=_range_changed,
+    )
+    use_fixed_range: BoolProperty(
+        name="Fixed Range",
+        description="The same colours for the same curvature on every object, so that they can be compared. "
+        "Off: each object uses all the colours",
+        default=False,
+        update=_range_changed,
+    )
+    fixed_range: FloatProperty(
+        name="Limit",
+        description="The curvature that gets the last colour: one over a radius, or over a radius squared, "
+        "in the object's own units",
+        default=2.0,
+        min=1e-6,
+        soft_max=100.0,
+        precision=3,
+        update=_range_changed,
+    )
+
+
+def register() -> None:
+    attach(bpy.types.Object, "discrete_fairing_inspection", FAIRING_PG_display)
+    attach(bpy.types.Scene, "discrete_fairing_inspection", FAIRING_PG_inspection)
+
+
+def unregister() -> None:
+    detach(bpy.types.Scene, "discrete_fairing_inspection", FAIRING_PG_inspection)
+    detach(bpy.types.Object, "discrete_fairing_inspection", FAIRING_PG_display)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object in another material, without a hand on its own: a geometry-nodes modifier that sets one
+material at the end.
+
+Swapping the material slots instead would have to put back slots of object and mesh, also of other
+objects with the same mesh, through undo, saving, and a recompute that brings a new mesh. The
+modifier is plain Blender data: without the add-on it still shows the material, and deleting it ends
+the matter.
+"""
+
+from typing import Any
+
+import bpy
+
+from ..blender import Object
+from ..mesh.modifiers import INSPECTION_TAG, inspection_modifier
+from .materials import Graph, lay_out, tagged
+
+NAME = "Fairing Inspection"
+
+
+def put_on(target: Object, mode: str, material: bpy.types.Material, smooth: bool) -> None:
+    """Shows `target` in `material`, shaded smooth if asked.
+
+    `mode` names what is shown, one node group for each.
+    """
+    modifier: Any = inspection_modifier(target) or target.modifiers.new(NAME, "NODES")
+    modifier.node_group = _group(mode, material, smooth)
+    modifier.show_expanded = False
+    modifier.show_viewport = modifier.show_render = True
+
+
+def take_off(target: Object) -> None:
+    """Shows `target` in its own materials again, and removes what showed it so if nobody else needs
+    it.
+    """
+    modifier = inspection_modifier(target)
+    if modifier is not None:
+        target.modifiers.remove(modifier)
+    collections: tuple[Any, ...] = (bpy.data.node_groups, bpy.data.materials)
+    for collection in collections:
+        for item in [
+            i for i in collection if INSPECTION_TAG in i and i.library is None and not i.users
+        ]:
+            collection.remove(item)
+
+
+def set_smooth(tree: bpy.types.NodeTree, smooth: bool) -> None:
+    tree.nodes["Smooth"].mute = not smooth
+
+
+def _group(mode: str, material: bpy.types.Material, smooth: bool) -> bpy.types.NodeTree:
+    tree: Any = tagged(bpy.data.node_groups, mode) or _build(mode)
+    tree.nodes["Material"].inputs["Material"].default_value = material
+    set_smooth(tree, smooth)
+    return tree
+
+
+def _build(mode: str) -> bpy.types.NodeTree:
+    tree: Any = bpy.data.node_groups.new(f"{NAME} {mode.title()}", "GeometryNodeTree")
+    tree[INSPECTION_TAG] = mode
+    tree.is_modifier = True
+    for in_out in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    graph = Graph(tree)
+    start = graph.node("NodeGroupInput")
+    smooth = graph.node("GeometryNodeSetShadeSmooth", "Smooth", {"Geometry": start.outputs[0]})
+    material = graph.node("GeometryNodeSetMaterial", "Material", {"Geometry": smooth.outputs[0]})
+    graph.node("NodeGroupOutput", inputs={0: material.outputs[0]})
+    lay_out(tree)
+    return tree

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object's way from its mesh to the new object, in three steps: read, compute, write.
+
+Reading and writing belong to Blender's main thread. Computing touches nothing of Blender and may
+run on any thread.
+"""
+
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+
+from . import core, errors, memory, size
+from .blender import Context, Object
+from .errors import JobError
+from .inspection import display
+from .mesh.layers import read_data, write_data
+from .mesh.modifiers import copy_modifiers, without_inspection
+from .mesh.object import new_object, replace_mesh
+from .mesh.read import control_mesh, read_mesh, selected_faces
+from .mesh.shape_keys import write_shape_keys
+from .mesh.write import attributes_left_out, write_mesh
+from .preferences import preferences
+from .settings import Settings, energy_name, is_evaluated, snapshot, wants_modifiers
+from .transfer.carrier import Carrier
+from .transfer.lattice import fine_edges
+from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
+
+
+class Job:
+    """The fairing of one object. A failed or cancelled job leaves everything as it was."""
+
+    def __init__(
+        self,
+        context: Context,
+        source: Object,
+        settings: Settings,
+        target: Object | None = None,
+        region: np.ndarray | None = None,
+    ) -> None:
+        """Reads all that will be needed; `settings` may change or go afterwards.
+
+        `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
+        (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
+        """
+        self.source = source
+        self.target = target
+        self.name = source.name
+        self.settings = snapshot(settings)
+        evaluated = is_evaluated(self.settings)
+        with (
+            without_inspection(context, source) if evaluated else nullcontext(),
+            control_mesh(context, source, evaluated) as mesh,
+        ):
+            self.arrays = read_mesh(mesh)
+            self.data = read_data(source, mesh, evaluated)
+            if not self.settings.use_selection:
+                region = None
+            elif region is None:
+                region = selected_faces(mesh, self.name)
+        self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
+        too_large = size.why_too_large(self.triangles)
+        if too_large:
+            raise JobError(f"{self.name}: {too_large}.", code="TOO_LARGE")
+        self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
+        self.arguments = core.fair_arguments(
+            self.arrays,
+            self.settings,
+            preferences(),
+            region,
+            self.keys.shapes if self.keys else None,
+        )
+        self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
+        if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
+            self.notes.append(
+                "Each shape key is faired by itself. Values in between blend these surfaces, which only Thin Plate keeps fair."
+            )
+        self.result: Any = None
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core; `watchers` are its `monitor` and `progress`."""
+        with errors.explained(self.name):
+            self.result = core.module().fair(**self.arguments, **watchers)
+        self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        if self.settings.keep_symmetry:
+            self._symmetrize()
+
+    def _symmetrize(self) -> None:
+        result, arguments = self.result, self.arguments
+        mirrors, notes = find_mirrors(
+            self.carrier, self.arrays, result.crease_edges, arguments["corner_vertices"]
+        )
+        self.notes += notes
+        self.notes += [
+            f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."
+            for axis in uneven_axes(result.vertices, mirrors)
+        ]
+        result.vertices = symmetrize(result.vertices, mirrors, self.arrays.positions)
+        result.shapes = [
+            symmetrize(shape, mirrors, positions)
+            for shape, positions in zip(result.shapes, arguments.get("shapes", ()))
+        ]
+
+    def is_writable(self) -> bool:
+        """Whether all objects that writing needs still exist: a long run leaves time to delete
+        them.
+        """
+        try:
+            return all(o.name and o.data for o in (self.source, self.target) if o is not None)
+        except ReferenceError:
+            return False
+
+    def write(self, context: Context) -> Object:
+        """Makes the object, or gives `target` its new mesh, and returns it."""
+        result, settings = self.result, self.settings
+        sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
+        mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, self.source.data.materials)
+        if self.target is None:
+            target = new_object(context, self.source, mesh)
+        else:
+            target = replace_mesh(self.target, mesh)
+        write_data(target, self.data, self.carrier, attributes_left_out(settings))
+        if self.keys:
+            write_shape_keys(target, self.keys, result.shapes, self.source)
+        if wants_modifiers(settings) and self.target is None:
+            self.notes += copy_modifiers(context, self.source, target)
+        memory.remember(target, self.source, settings, result.report)
+        display.refresh(target, context.scene.discrete_fairing_inspection)
+        return target
+
+    def warnings(self) -> list[str]:
+        """What the user should know of a finished job, a sentence each."""
+        report = self.result.report
+        sentences = [errors.warning_text(self.name, warning) for warning in report["warnings"]]
+        told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
+        if not told and not core.has_converged(report):
+            sentences.append(errors.unfinished_text(self.name, energy_name(self.settings.energy)))
+        return sentences

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Handlers and the timer: the only place where Blender calls live surfaces.
+
+All are registered with the add-on and return at once while nothing is live: taking a handler away
+from within another would make Blender skip one of somebody else's. Without a window no timer ever
+runs, so there is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, cast
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..blender import Context, Scene, current_context
+from . import registry
+from .registry import session_key
+
+if TYPE_CHECKING:
+    from .session import Session
+
+
+INTERVAL = 0.1  # seconds between two looks at what waits
+
+_rendering = False
+
+
+def start_timer() -> None:
+    """Starts the timer, for a session that was just added."""
+    if not bpy.app.background and not bpy.app.timers.is_registered(on_timer):
+        bpy.app.timers.register(on_timer, first_interval=INTERVAL)
+
+
+def on_timer() -> float | None:
+    """Ends what has lost its objects, follows settings, whose change Blender does not announce, and
+    sees to full levels.
+
+    As a timer: the seconds until the next look.
+    """
+    if _rendering:
+        return INTERVAL
+    for session in registry.sessions():
+        guarded(session, _advance)
+    _redraw()
+    return INTERVAL if registry.sessions() else None
+
+
+def look_at(session: Session) -> None:
+    """The first surface of a session, without waiting for a change."""
+    guarded(session, lambda it: it.follow(bpy.context.evaluated_depsgraph_get()))
+
+
+def complete(session: Session, context: Context) -> None:
+    """The full level now if it is due, and the end."""
+    guarded(session, lambda it: it.complete(context))
+    if session in registry.sessions():
+        registry.remove(session)
+
+
+def _advance(session: Session) -> None:
+    if session.needs_look():
+        session.follow(bpy.context.evaluated_depsgraph_get())
+    session.advance(current_context())
+    if session.ending and not session.is_waiting:
+        registry.remove(session)
+
+
+def guarded(session: Session, step: Callable[[Session], object]) -> None:
+    """An error must not stop Blender's timer, nor come again with each redraw: it ends the session
+    and is told.
+    """
+    gone = session.why_gone()
+    if gone:
+        registry.remove(session, gone)
+        return
+    try:
+        with registry.quiet():
+            step(session)
+    except Exception as error:
+        registry.remove(
+            session, f"Live has ended because of an unexpected error, please report it: {error!r}"
+        )
+        raise
+
+
+@persistent
+def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if not registry.sessions() or registry.is_quiet() or _rendering:
+        return
+    reshaped = {
+        session_key(cast(Any, change.id).original)
+        for change in depsgraph.updates
+        if change.is_updated_geometry
+    }
+
+    def step(session: Session) -> None:
+        if session.needs_look(reshaped):
+            session.follow(depsgraph)
+
+    for session in registry.sessions():
+        guarded(session, step)
+
+
+@persistent
+def _before_undo(*_: Any) -> None:
+    for session in registry.sessions():
+        session.cancel_full(wait=True)
+
+
+@persistent
+def _distrust_all(*_: Any) -> None:
+    for session in registry.sessions():
+        session.distrust()
+
+
+@persistent
+def _render_begins(*_: Any) -> None:
+    global _rendering
+    _rendering = True
+
+
+@persistent
+def _render_ends(*_: Any) -> None:
+    """May come on another thread: the timer does the rest."""
+    global _rendering
+    _rendering = False
+    _distrust_all()
+
+
+@persistent
+def _end_all(*_: Any) -> None:
+    """Before another file is loaded: nothing of this one may be touched any more."""
+    global _rendering
+    _rendering = False
+    registry.clear()
+    if bpy.app.timers.is_registered(on_timer):
+        bpy.app.timers.unregister(on_timer)
+
+
+def _redraw() -> None:
+    """The sidebars, which show how long updates take."""
+    for window in current_context().window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
+_HANDLERS = {
+    "depsgraph_update_post": _follow,
+    "undo_pre": _before_undo,
+    "redo_pre": _before_undo,
+    "undo_post": _distrust_all,
+    "redo_post": _distrust_all,
+    "render_init": _render_begins,
+    "render_complete": _render_ends,
+    "render_cancel": _render_ends,
+    "load_pre": _end_all,
+}
+
+
+def register() -> None:
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister() -> None:
+    _end_all()
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).remove(handler)

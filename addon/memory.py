@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a faired object remembers, and what was found on any mesh: hidden properties in the file.
+
+Records are JSON in text properties. Older files have them as custom properties in the user's
+sight, and one setting by another name. Both are taken over when such a file is opened or objects
+are appended from it.
+"""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+from bpy.props import FloatVectorProperty, PointerProperty, StringProperty
+
+from .blender import Mesh, Object, all_objects, all_scenes, attach, detach
+from .settings import FairingSettings, Settings, copy_settings
+
+# by the names of object and record: panels ask at every redraw, and records are long
+_parsed: dict[tuple[str, str], tuple[str, dict[str, Any] | None]] = {}
+
+
+class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
+    """What a faired object remembers: where it comes from, and how it was made."""
+
+    source: PointerProperty(
+        name="Source",
+        description="The object whose mesh controls this surface",
+        type=bpy.types.Object,
+    )
+    report: StringProperty(
+        name="Report", description="What the core has reported, as JSON", options={"HIDDEN"}
+    )
+    readout: StringProperty(
+        name="Read-out", description="What Measure has measured, as JSON", options={"HIDDEN"}
+    )
+    defects: StringProperty(
+        name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
+    )
+
+
+class FAIRING_PG_mesh(bpy.types.PropertyGroup):
+    """What goes with the curvature colours of a mesh."""
+
+    curvature_range: FloatVectorProperty(
+        name="Curvature Range",
+        description="The values that have the lowest and the highest colour",
+        size=2,
+        options={"HIDDEN"},
+    )
+    active_colour: StringProperty(
+        name="Active Colour",
+        description="The colour attribute that was active before",
+        options={"HIDDEN"},
+    )
+
+
+def remember(
+    target: Object,
+    source: Object,
+    settings: Settings,
+    report: Mapping[str, Any],
+) -> None:
+    """Notes on `target` where it comes from, so that it can be computed again, and what the core
+    reported.
+    """
+    target.discrete_fairing.source = source
+    copy_settings(settings, target.discrete_fairing)
+    keep(target, "report", report)
+
+
+def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
+    """Keeps a dict with the object `target`. `name`: report, readout or defects."""
+    setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
+
+
+def recall(target: Object, name: str) -> dict[str, Any] | None:
+    """What `keep` has kept, not to be changed; None if there is nothing, or nothing that can be
+    read.
+    """
+    text = getattr(target.discrete_fairing, name)
+    known = _parsed.get((target.name_full, name))
+    if known is None or known[0] != text:
+        known = _parsed[target.name_full, name] = (text, _parse(text))
+    return known[1]
+
+
+def _parse(text: str) -> dict[str, Any] | None:
+    try:
+        record = json.loads(text)
+    except ValueError:
+        return None
+    return record if isinstance(record, dict) else None
+
+
+def source_of(target: Object) -> Object | None:
+    """The mesh object that `target` was faired from, or None."""
+    source = target.discrete_fairing.source
+    return source if source is not None and source.type == "MESH" and source != target else None
+
+
+def _plain(value: Any) -> Any:
+    """NumPy scalars and arrays, and mappings that are no dict, for JSON."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if hasattr(value, "items"):
+        return dict(value)
+    return str(value)
+
+
+# --- older files
+
+_OLD_RECORDS = {
+    "fairing_report": "report",
+    "fairing_readout": "readout",
+    "fairing_check": "defects",
+}
+_OLD_RANGE, _OLD_COLOUR = "fairing_curvature_range", "fairing_active_colour"
+_OLD_RELEASE = "epsilon"
+
+
+@persistent
+def take_over_old_properties(*_: Any) -> None:
+    """Moves what older files keep in custom properties to the hidden ones.
+
+    Linked data stays as it is.
+    """
+    for owner in (*all_objects(), *all_scenes()):
+        if owner.library is None:
+            _rename_release(owner.discrete_fairing)
+    for target in all_objects():
+        if target.library is None:
+            for old, name in _OLD_RECORDS.items():
+                _move_text(target, old, name)
+    for mesh in bpy.data.meshes:
+        if mesh.library is None:
+            _move_range(mesh)
+            _move_text(mesh, _OLD_COLOUR, "active_colour")
+
+
+def _move_text(owner: Any, old: str, name: str) -> None:
+    value = owner.get(old)
+    if isinstance(value, str):
+        del owner[old]
+        if not owner.discrete_fairing.is_property_set(name):
+            setattr(owner.discrete_fairing, name, value)
+
+
+def _move_range(mesh: Mesh) -> None:
+    text = mesh.get(_OLD_RANGE)
+    if not isinstance(text, str):
+        return
+    del mesh[_OLD_RANGE]
+    try:
+        mesh.discrete_fairing.curvature_range = json.loads(text)
+    except (TypeError, ValueError):
+        return  # the next refresh of the colours makes it anew
+
+
+def _rename_release(group: Any) -> None:
+    # from Blender 5.0 on what add-ons have declared is kept apart from custom properties
+    system = getattr(group, "bl_system_properties_get", None)
+    stored = group if system is None else system()
+    if stored is not None and _OLD_RELEASE in stored:
+        group.vertex_release = stored[_OLD_RELEASE]
+        del stored[_OLD_RELEASE]
+
+
+# linking and appending has a handler since Blender 4.3
+_HANDLERS = [
+    getattr(bpy.app.handlers, name)
+    for name in ("load_post", "blend_import_post")
+    if hasattr(bpy.app.handlers, name)
+]
+
+
+def register() -> None:
+    attach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
+    attach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
+    for handlers in _HANDLERS:
+        handlers.append(take_over_old_properties)
+    # the file that is open now, as in preferences.py
+    if not bpy.app.background:
+        bpy.app.timers.register(take_over_old_properties, first_interval=0.0)
+
+
+def unregister() -> None:
+    if bpy.app.timers.is_registered(take_over_old_properties):
+        bpy.app.timers.unregister(take_over_old_properties)
+    for handlers in _HANDLERS:
+        handlers.remove(take_over_old_properties)
+    detach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
+    detach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)

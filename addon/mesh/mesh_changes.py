@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether what was measured still fits the mesh.
+
+Drawing only looks it up; the work is done when a mesh changes.
+"""
+
+import zlib
+from collections.abc import Sequence
+from typing import Any, cast
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ..blender import Context, Mesh, Scene
+from .object import session_key
+
+_watched: dict[
+    int | str, int | None
+] = {}  # mesh key: checksum of its positions when it was measured
+_changed: set[int | str] = set()  # keys of meshes that have changed since
+
+
+def watch(context: Context, mesh: Mesh) -> list[int]:
+    """What was measured of `mesh` fits from now on.
+
+    Returns its element counts, to be kept with the numbers.
+    """
+    context.view_layer.update()  # so that what we did ourselves does not come in as a change later
+    _watched[session_key(mesh)] = None if mesh.is_editmode else _checksum(mesh)
+    _changed.discard(session_key(mesh))
+    return counts(mesh)
+
+
+def counts(mesh: Mesh) -> list[int]:
+    """Vertices, edges, faces, as plain ints; in Edit Mode as of the last update."""
+    return [len(mesh.vertices), len(mesh.edges), len(mesh.polygons)]
+
+
+def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
+    """Whether `mesh` was changed since `watch` returned `counts_then`.
+
+    After loading a file only counts are compared.
+    """
+    return session_key(mesh) in _changed or (
+        not mesh.is_editmode and counts(mesh) != list(counts_then)
+    )
+
+
+@persistent
+def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    for update in depsgraph.updates:
+        if not isinstance(update.id, Mesh) or not update.is_updated_geometry:
+            continue
+        mesh = cast(Mesh, update.id.original)
+        key = session_key(mesh)
+        if key not in _watched:
+            continue
+        # new attributes are no change of shape, and leaving Edit Mode is none either
+        if mesh.is_editmode or (_watched[key] is not None and _watched[key] != _checksum(mesh)):
+            _changed.add(key)
+        elif _watched[key] is not None:
+            _changed.discard(key)  # undone
+
+
+@persistent
+def _forget(*_: Any) -> None:
+    _watched.clear()
+    _changed.clear()
+
+
+def _checksum(mesh: Mesh) -> int:
+    flat = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return zlib.crc32(corners.tobytes(), zlib.crc32(flat.tobytes()))
+
+
+def register() -> None:
+    bpy.app.handlers.depsgraph_update_post.append(_note_changes)
+    bpy.app.handlers.load_post.append(_forget)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_forget)
+    bpy.app.handlers.depsgraph_update_post.remove(_note_changes)
+    _forget()

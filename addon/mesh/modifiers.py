@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The modifiers of the source, copied to the refined object by Blender itself."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any, cast
+
+import bpy
+
+from ..blender import Context, Object
+from .object import copy_drivers
+
+# custom property of what shows an inspected object in another material; none of its source's own
+# modifiers
+INSPECTION_TAG = "fairing_inspection"
+
+# type: the operator that binds and unbinds, the property that says which
+_BOUND = {
+    "SURFACE_DEFORM": ("surfacedeform_bind", "is_bound"),
+    "MESH_DEFORM": ("meshdeform_bind", "is_bound"),
+    "LAPLACIANDEFORM": ("laplaciandeform_bind", "is_bind"),
+    "CORRECTIVE_SMOOTH": ("correctivesmooth_bind", "is_bind"),
+}
+_USELESS = {"MULTIRES": "its sculpted detail belongs to the faces of the control mesh"}
+
+
+def copy_modifiers(context: Context, source: Object, target: Object) -> list[str]:
+    """Replaces the modifiers of the object `target` with those of `source`, with their settings,
+    targets and drivers.
+
+    Both objects have to be in the view layer, in Object Mode. Returns what could not be copied, a
+    sentence each.
+    """
+    if not len(source.modifiers):
+        return []
+    both = [source, target]
+    with context.temp_override(
+        object=source, active_object=source, selected_objects=both, selected_editable_objects=both
+    ):
+        bpy.ops.object.make_links_data(type="MODIFIERS")
+    notes = _missing(source, target) + _drop_useless(target) + _unbind(context, target)
+    copy_drivers(source, target, "modifiers[")
+    inspection = inspection_modifier(target)
+    if inspection is not None:  # how the source is looked at
+        target.modifiers.remove(inspection)
+    return notes
+
+
+def inspection_modifier(target: Object) -> Any:
+    """The modifier that shows `target` in another material, or None."""
+    return next(
+        (
+            m
+            for m in cast(Iterable[Any], target.modifiers)
+            if m.type == "NODES" and m.node_group is not None and INSPECTION_TAG in m.node_group
+        ),
+        None,
+    )
+
+
+@contextmanager
+def without_inspection(context: Context, *targets: Object) -> Iterator[None]:
+    """Inside the `with` the evaluated meshes of `targets` are what they are without inspection, for
+    reading or export.
+    """
+    found = [inspection_modifier(target) for target in targets]
+    shown = [m for m in found if m is not None and (m.show_viewport or m.show_render)]
+    before = [(m.show_viewport, m.show_render) for m in shown]
+    for modifier in shown:
+        modifier.show_viewport = modifier.show_render = False
+    if shown:
+        context.view_layer.update()
+    try:
+        yield
+    finally:
+        for modifier, (viewport, render) in zip(shown, before, strict=True):
+            modifier.show_viewport, modifier.show_render = viewport, render
+
+
+def _missing(source: Object, target: Object) -> list[str]:
+    return [
+        f"The modifier '{modifier.name}' is not copied: Blender does not copy this kind."
+        for modifier in source.modifiers
+        if modifier.name not in target.modifiers
+    ]
+
+
+def _drop_useless(target: Object) -> list[str]:
+    notes = []
+    for modifier in [m for m in target.modifiers if m.type in _USELESS]:
+        notes.append(f"The modifier '{modifier.name}' is not copied: {_USELESS[modifier.type]}.")
+        target.modifiers.remove(modifier)
+    return notes
+
+
+def _unbind(context: Context, target: Object) -> list[str]:
+    """Bindings are lists of the control mesh's vertices: on another mesh they only raise errors."""
+    notes = []
+    for modifier in target.modifiers:
+        operator, bound = _BOUND.get(modifier.type, ("", ""))
+        if not operator or not getattr(modifier, bound):
+            continue
+        with context.temp_override(object=target, active_object=target):
+            getattr(bpy.ops.object, operator)(modifier=modifier.name)
+        notes.append(
+            f"The modifier '{modifier.name}' is copied without its binding: bind it again."
+        )
+    return notes

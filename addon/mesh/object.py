@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The new object beside its source: same place, same collections, same materials."""
+
+from typing import Any, cast
+
+import bpy
+
+from ..blender import Context, Mesh, Object
+
+_TRANSFORM = (
+    "rotation_mode",  # first: the others are read by it
+    "location",
+    "rotation_euler",
+    "rotation_quaternion",
+    "rotation_axis_angle",
+    "scale",
+    "delta_location",
+    "delta_rotation_euler",
+    "delta_rotation_quaternion",
+    "delta_scale",
+)
+_PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_parent_inverse")
+
+
+def session_key(block: bpy.types.ID) -> int | str:
+    """What a data-block is known by until its file is closed, undo or not."""
+    return getattr(block, "session_uid", None) or block.name_full
+
+
+def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
+    """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
+    target = cast(Object, bpy.data.objects.new(mesh.name, mesh))
+    for collection in _collections(context, source):
+        collection.objects.link(target)
+    _copy_place(context, source, target)
+    _copy_object_materials(source, target)
+    return target
+
+
+def replace_mesh(target: Object, mesh: Mesh) -> Object:
+    """Puts `mesh` in the place of the mesh of `target`, for all objects that share it, and returns
+    `target`.
+
+    The materials are those that the old mesh has by now, and its name goes on.
+    """
+    old = target.data
+    mesh.materials.clear()
+    for material in old.materials:
+        mesh.materials.append(material)
+    name = old.name
+    old.user_remap(mesh)
+    bpy.data.meshes.remove(old)
+    mesh.name = name
+    return target
+
+
+def select_only(context: Context, objects: list[Object]) -> None:
+    """Selects `objects` and nothing else; the last one becomes active."""
+    for other in context.view_layer.objects.selected[:]:
+        other.select_set(False)
+    for target in objects:
+        target.select_set(True)
+    context.view_layer.objects.active = objects[-1]
+
+
+def _collections(context: Context, source: Object) -> list[bpy.types.Collection]:
+    own = [collection for collection in source.users_collection if not collection.library]
+    return own or [context.collection]
+
+
+def _copy_place(context: Context, source: Object, target: Object) -> None:
+    if source.parent is not None:
+        for name in _PARENT:
+            setattr(target, name, getattr(source, name))
+    for name in _TRANSFORM:
+        setattr(target, name, getattr(source, name))
+    if source.constraints:  # not copied, what they did is
+        context.view_layer.update()
+        target.matrix_world = source.matrix_world
+
+
+def _copy_object_materials(source: Object, target: Object) -> None:
+    """Slots that hold their material in the object, not in the mesh."""
+    for own, theirs in zip(target.material_slots, source.material_slots):
+        if theirs.link == "OBJECT":
+            own.link = "OBJECT"
+            own.material = theirs.material
+
+
+def copy_drivers(source: Any, target: Any, prefix: str = "") -> None:
+    """Gives `target` the drivers of `source`, a data-block of the same kind, whose path begins with
+    `prefix`.
+    """
+    if source.animation_data is None:
+        return
+    for driver in source.animation_data.drivers:
+        if driver.data_path.startswith(prefix) and _resolves(target, driver.data_path):
+            drivers = target.animation_data_create().drivers
+            old = drivers.find(driver.data_path, index=driver.array_index)
+            if old is not None:
+                drivers.remove(old)
+            drivers.from_existing(src_driver=driver)
+
+
+def _resolves(target: bpy.types.ID, path: str) -> bool:
+    try:
+        target.path_resolve(path)
+    except ValueError:
+        return False
+    return True

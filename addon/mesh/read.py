@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The control mesh: which objects are faired, the mesh of each at this moment, and its arrays."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from typing import cast
+
+import bpy
+import numpy as np
+
+from ..blender import Context, Mesh, Object
+from ..core import ControlArrays
+from ..errors import JobError
+from .layers import STORAGE, find_layer, layer_values
+
+
+def source_objects(context: Context) -> list[Object]:
+    """The meshes to fair: the selected ones in Object Mode, those being edited in Edit Mode; the
+    active one alone if none.
+    """
+    active = context.active_object
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    selected = [o for o in context.selected_objects if o.type == "MESH"]
+    if not selected and active is not None and active.type == "MESH":
+        selected = [active]
+    # the active one last, so that its result becomes active
+    return sorted(selected, key=lambda o: o == active)
+
+
+@contextmanager
+def control_mesh(
+    context: Context,
+    source: Object,
+    evaluated: bool = False,
+    depsgraph: bpy.types.Depsgraph | None = None,
+) -> Iterator[Mesh]:
+    """The bpy.types.Mesh to read, with the edits of this moment; valid inside the `with` only.
+
+    `evaluated`: with the modifiers of `source` applied, as `depsgraph` has them already; None:
+    brought up to date first.
+    """
+    if source.mode == "EDIT":
+        source.update_from_editmode()
+    if evaluated:
+        known = (
+            nullcontext(source.evaluated_get(depsgraph))
+            if depsgraph
+            else _evaluated(context, source)
+        )
+        with known as owner, _copy_of_mesh(owner) as mesh:
+            yield mesh
+    elif (
+        source.mode == "EDIT"
+    ):  # then it lists the attributes of the edit, not its own: read a copy
+        with _copy_of_mesh(source) as mesh:
+            yield mesh
+    else:
+        yield source.data
+
+
+@contextmanager
+def _copy_of_mesh(owner: Object) -> Iterator[Mesh]:
+    try:
+        yield cast(Mesh, owner.to_mesh())
+    finally:
+        owner.to_mesh_clear()
+
+
+@contextmanager
+def _evaluated(context: Context, source: Object) -> Iterator[Object]:
+    """`source` with its modifiers applied.
+
+    Blender evaluates no object that is hidden, so it is shown meanwhile.
+    """
+    hidden = source.hide_get()
+    if hidden:
+        source.hide_set(False)
+    try:
+        yield source.evaluated_get(context.evaluated_depsgraph_get())
+    finally:
+        if hidden:
+            source.hide_set(True)
+
+
+def read_mesh(mesh: Mesh) -> ControlArrays:
+    """`mesh` (bpy.types.Mesh, not in Edit Mode) as ControlArrays."""
+    vertices, edges, corners, faces = (
+        len(mesh.vertices),
+        len(mesh.edges),
+        len(mesh.loops),
+        len(mesh.polygons),
+    )
+    return ControlArrays(
+        positions=_required(mesh, "position", "POINT", "FLOAT_VECTOR", vertices)
+        .reshape(-1, 3)
+        .astype(np.float64),
+        edges=_required(mesh, ".edge_verts", "EDGE", "INT32_2D", edges).reshape(-1, 2),
+        corners=_required(mesh, ".corner_vert", "CORNER", "INT", corners),
+        corner_edges=_required(mesh, ".corner_edge", "CORNER", "INT", corners),
+        offsets=_offsets(mesh, faces, corners),
+        edge_crease=_optional(mesh, "crease_edge", "EDGE", "FLOAT"),
+        vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT"),
+        sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
+    )
+
+
+def _optional(mesh: Mesh, name: str, domain: str, data_type: str) -> np.ndarray | None:
+    layer = find_layer(mesh, name, data_type, domain)
+    return None if layer is None else layer_values(layer)
+
+
+def _required(mesh: Mesh, name: str, domain: str, data_type: str, size: int) -> np.ndarray:
+    """Part of every mesh, but not listed while it is empty."""
+    values = _optional(mesh, name, domain, data_type)
+    if values is None and size:
+        raise RuntimeError(
+            f"The mesh '{mesh.name}' has no attribute '{name}' ({data_type} on {domain})"
+        )
+    return np.empty(0, STORAGE[data_type].dtype) if values is None else values
+
+
+def _offsets(mesh: Mesh, faces: int, corners: int) -> np.ndarray:
+    offsets = np.empty(faces + 1, np.int32)
+    mesh.polygons.foreach_get("loop_start", offsets[:-1])
+    offsets[-1] = corners
+    return offsets
+
+
+def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
+    """(r,) int32: ids of the selected and visible faces of a bpy.types.Mesh; JobError if there are
+    none.
+    """
+    selected, hidden = np.empty(len(mesh.polygons), bool), np.empty(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("select", selected)
+    mesh.polygons.foreach_get("hide", hidden)
+    found = np.flatnonzero(selected & ~hidden).astype(np.int32)
+    if not len(found):
+        raise JobError(
+            f"{source_name}: no face is selected. Select the faces to fair in Edit Mode, "
+            "or switch off Selected Faces Only."
+        )
+    return found

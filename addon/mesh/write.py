@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A result of the core as a new Blender mesh, in bulk."""
+
+from collections.abc import Iterable
+from typing import Any, cast
+
+import bpy
+import numpy as np
+
+from ..blender import Mesh, Object
+from ..core import ControlArrays
+from ..settings import Settings
+from ..transfer.carrier import Carrier
+from ..transfer.lattice import fine_edges, mark_pairs
+from .layers import SurfaceData, fill_layer, make_layer, write_data
+
+
+def write_mesh(
+    name: str,
+    result: Any,
+    sharp_pairs: np.ndarray,
+    materials: Iterable[bpy.types.Material | None] = (),
+) -> Mesh:
+    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices
+    come first.
+
+    The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
+    """
+    mesh = cast(Mesh, bpy.data.meshes.new(name))
+    for material in materials:
+        mesh.materials.append(material)
+    fill_mesh(mesh, result, sharp_pairs)
+    return mesh
+
+
+def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray) -> None:
+    """The same into a `mesh` that has no geometry. Its materials stay."""
+    _write_faces(mesh, result.vertices, *result.faces)
+    mesh.update(calc_edges=True)
+    if len(sharp_pairs):
+        _mark_sharp(mesh, sharp_pairs)
+
+
+def rebuild_mesh(
+    target: Object,
+    result: Any,
+    arrays: ControlArrays,
+    data: SurfaceData,
+    settings: Settings,
+    level: int,
+) -> None:
+    """Gives the mesh of `target` the geometry of `result` and what the control mesh carries, shape
+    keys excepted.
+
+    The mesh, its materials and the object's modifiers stay.
+    """
+    mesh = target.data
+    if mesh.shape_keys is not None:
+        target.shape_key_clear()
+    mesh.clear_geometry()
+    fill_mesh(mesh, result, fine_edges(result.faces, result.crease_edges, level))
+    write_data(target, data, Carrier(result, arrays, level), attributes_left_out(settings))
+
+
+def attributes_left_out(settings: Settings) -> tuple[str, ...]:
+    """Names of the attributes that a surface does not take over from its source."""
+    return ("sharp_face",) if settings.shade_smooth else ()
+
+
+def has_faces_of(mesh: Mesh, result: Any) -> bool:
+    """Whether `mesh` can have been built of the faces of `result`: nobody has put another one in
+    its place.
+    """
+    triangles, quads = result.faces
+    return (
+        len(mesh.vertices) == len(result.vertices)
+        and len(mesh.polygons) == len(triangles) + len(quads)
+        and mesh.shape_keys is None
+    )
+
+
+def write_positions(mesh: Mesh, vertices: np.ndarray) -> None:
+    """Moves the points of `mesh` to `vertices` (N, 3): single precision goes in as one block."""
+    mesh.attributes["position"].data.foreach_set("vector", vertices.astype(np.float32).ravel())
+    mesh.update()
+
+
+def _write_faces(
+    mesh: Mesh, vertices: np.ndarray, triangles: np.ndarray, quads: np.ndarray
+) -> None:
+    corners = np.concatenate([triangles.ravel(), quads.ravel()]).astype(np.int32, copy=False)
+    starts = np.concatenate(
+        [3 * np.arange(len(triangles)), triangles.size + 4 * np.arange(len(quads))]
+    ).astype(np.int32)
+    mesh.vertices.add(len(vertices))
+    mesh.loops.add(len(corners))
+    mesh.polygons.add(len(starts))
+    mesh.attributes["position"].data.foreach_set("vector", vertices.astype(np.float32).ravel())
+    mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
+    mesh.polygons.foreach_set("loop_start", starts)
+
+
+def _mark_sharp(mesh: Mesh, pairs: np.ndarray) -> None:
+    edges = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.attributes[".edge_verts"].data.foreach_get("value", edges)
+    sharp = make_layer(mesh, "sharp_edge", "BOOLEAN", "EDGE")
+    fill_layer(sharp, mark_pairs(edges.reshape(-1, 2), pairs))

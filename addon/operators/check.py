@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check Mesh, and what follows from it: show a defect, mend a defect."""
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import bpy
+from bpy.props import IntProperty
+
+from .. import core, errors
+from ..blender import Answer, Context, Object, registration
+from ..check import repair
+from ..check.defects import (
+    check_object,
+    recall_defects,
+    select_defects,
+    select_in_all,
+    store_defects,
+)
+from ..mesh.read import source_objects
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+
+def poll_reason(context: Context) -> str:
+    """Why nothing can be checked here, in one sentence; empty when it can."""
+    if core.why_missing():
+        return core.why_missing()
+    if context.mode not in {"OBJECT", "EDIT_MESH"}:
+        return "Check Mesh works in Object Mode and Edit Mode"
+    return mesh_poll_reason(source_objects(context))
+
+
+class _Checking(ExplainedPoll):
+    poll_reason = staticmethod(poll_reason)
+
+
+class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
+    """Find every defect in the selected meshes that would stop or disturb fairing, and select it in Edit Mode"""
+
+    bl_idname = "object.fairing_check"
+    bl_label = "Check Mesh"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> Answer:
+        found = [(t, check_object(context, t)) for t in source_objects(context)]
+        bad = [(t, defects) for t, defects in found if defects]
+        for target, defects in bad:
+            self.report({"WARNING"}, f"{target.name}: {errors.what(defects[0])}")
+        if not bad:
+            self.report({"INFO"}, "Nothing is wrong")
+            return {"FINISHED"}
+        try:
+            select_in_all(context, [(t, _groups(defects)) for t, defects in bad])
+        except RuntimeError as error:  # a hidden collection, an object that cannot be edited
+            self.report({"WARNING"}, f"The elements cannot be shown: {error}")
+        for target, defects in found:
+            store_defects(context, target, defects)
+        return {"FINISHED"}
+
+
+class _AtDefect(_Checking):
+    index: IntProperty(
+        name="Defect", description="Which line of the check", min=0, options={"HIDDEN"}
+    )
+
+    def _defect(
+        self, context: Context
+    ) -> tuple[Object, dict[str, Any] | None, list[dict[str, Any]]]:
+        """(object, defect, all its defects), checked anew if the mesh was changed since; the defect
+        is None if it is gone.
+        """
+        target = cast(Object, context.active_object)
+        known = recall_defects(target)
+        code = known[0][self.index]["code"] if known and self.index < len(known[0]) else None
+        defects = known[0] if known and not known[1] else check_object(context, target)
+        return target, next((d for d in defects if d["code"] == code), None), defects
+
+
+class OBJECT_OT_fairing_select_defect(_AtDefect, bpy.types.Operator):
+    """Select the elements of this line in Edit Mode"""
+
+    bl_idname = "object.fairing_select_defect"
+    bl_label = "Select"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> Answer:
+        target, defect, defects = self._defect(context)
+        if defect is None:
+            self.report({"INFO"}, "This defect is no longer there")
+            return {"FINISHED"}
+        select_defects(context, target, defect["kind"], defect["elements"])
+        store_defects(context, target, defects)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
+    """Repair this defect in the mesh itself. Undo restores the mesh"""
+
+    bl_idname = "object.fairing_repair"
+    bl_label = "Repair"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> Answer:
+        target, defect, _ = self._defect(context)
+        if defect is None or repair.label(defect["code"]) is None:
+            self.report({"INFO"}, "There is nothing to repair here")
+            return {"CANCELLED"}
+        select_defects(context, target, defect["kind"], defect["elements"])
+        repair.repair(target, defect)
+        left = check_object(context, target)
+        select_in_all(context, [(target, _groups(left))])
+        store_defects(context, target, left)
+        self.report(
+            {"INFO"}, errors.what(left[0]) if left else "Repaired: nothing is wrong any more"
+        )
+        return {"FINISHED"}
+
+
+def _groups(defects: list[dict[str, Any]]) -> list[tuple[str, Sequence[Any]]]:
+    return [(d["kind"], d["elements"]) for d in defects]
+
+
+CLASSES = (OBJECT_OT_fairing_check, OBJECT_OT_fairing_select_defect, OBJECT_OT_fairing_repair)
+
+register, unregister = registration(*CLASSES)

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Buttons of the inspection: show, measure anew, read out, and turn the viewport so that it shows."""
+
+from typing import Any, cast
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..blender import Answer, Context, Object, registration
+from ..inspection import display, readout
+from ..inspection.settings import MODES
+from ..memory import source_of
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+
+def meshes(context: Context) -> list[Object]:
+    """The mesh objects that a button acts on: those selected, or else the active one."""
+    chosen = [o for o in context.selected_objects if o.type == "MESH"]
+    active = context.active_object
+    return chosen or ([active] if active is not None and active.type == "MESH" else [])
+
+
+def poll_reason(context: Context) -> str:
+    """Why nothing can be shown or measured here, in one sentence; empty when it can."""
+    if context.mode != "OBJECT":
+        return "Inspecting works in Object Mode: press Tab first"
+    return mesh_poll_reason(meshes(context))
+
+
+class _Inspecting(ExplainedPoll):
+    bl_options = {"REGISTER", "UNDO"}
+
+    poll_reason = staticmethod(poll_reason)
+
+
+class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
+    """Show the selected objects in stripes or curvature colours. Their own materials stay and come back with Off"""
+
+    bl_idname = "object.fairing_inspect"
+    bl_label = "Inspect Surface"
+
+    mode: EnumProperty(name="Show", description="What the objects show", items=MODES)
+
+    @classmethod
+    def description(cls, _context: Context, properties: Any) -> str:
+        return next(text for key, _, text, *_ in MODES if key == properties.mode)
+
+    def execute(self, context: Context) -> Answer:
+        for target in meshes(context):
+            target.discrete_fairing_inspection.mode = self.mode
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
+    """Measure the curvature anew, after the mesh was changed"""
+
+    bl_idname = "object.fairing_refresh"
+    bl_label = "Refresh Colours"
+
+    def execute(self, context: Context) -> Answer:
+        for target in meshes(context):
+            display.refresh(target, context.scene.discrete_fairing_inspection)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
+    """Measure how fair the selected surfaces are, and the meshes they were made from"""
+
+    bl_idname = "object.fairing_measure"
+    bl_label = "Measure"
+
+    def execute(self, context: Context) -> Answer:
+        for target in meshes(context):
+            readout.take(context, target, source_of(target))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
+    """Switch this viewport so that what is inspected can be seen"""
+
+    bl_idname = "object.fairing_viewport"
+    bl_label = "Show in This Viewport"
+
+    shading: EnumProperty(
+        name="Shading",
+        description="How the viewport is drawn",
+        items=(
+            ("MATERIAL", "Material Preview", "Stripes and colours, as in a render"),
+            ("ATTRIBUTE", "Solid with Attribute", "Curvature colours in Solid shading"),
+        ),
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        space = context.space_data
+        return "" if space is not None and space.type == "VIEW_3D" else "Only in a 3D viewport"
+
+    def execute(self, context: Context) -> Answer:
+        shading = cast(bpy.types.SpaceView3D, context.space_data).shading
+        shading.type = "MATERIAL" if self.shading == "MATERIAL" else "SOLID"
+        if self.shading == "ATTRIBUTE":
+            shading.color_type = "VERTEX"
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_fairing_inspect,
+    OBJECT_OT_fairing_refresh,
+    OBJECT_OT_fairing_measure,
+    OBJECT_OT_fairing_viewport,
+)
+
+register, unregister = registration(*CLASSES)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The switch Live."""
+
+from typing import cast
+
+import bpy
+
+from .. import core, memory
+from ..blender import Answer, Context, Mesh, Object, registration
+from ..live import switch
+from ..mesh.modifiers import copy_modifiers
+from ..mesh.object import new_object
+from ..poll import ExplainedPoll
+from ..settings import wants_modifiers
+
+_MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
+
+
+class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
+    """Let the faired surface follow while you edit the control mesh; the full level comes when you pause. Makes the surface if there is none yet"""
+
+    bl_idname = "object.fairing_live"
+    bl_label = "Live"
+    bl_options = {"REGISTER", "UNDO"}
+
+    state: bpy.props.EnumProperty(
+        name="State",
+        description="What to do with Live",
+        items=(
+            ("TOGGLE", "Toggle", "On if it is off, off if it is on"),
+            ("ON", "On", "The surface follows its source"),
+            ("OFF", "Off", "The surface stays as it is, at its full level"),
+        ),
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if core.why_missing():
+            return core.why_missing()
+        if context.mode not in _MODES:
+            return "Live works in Object Mode, Edit Mode and Sculpt Mode"
+        active = context.active_object
+        if active is None or active.type != "MESH":
+            return "Select a mesh object first"
+        return switch.poll_reason(active) if active.discrete_fairing.source is not None else ""
+
+    def execute(self, context: Context) -> Answer:
+        targets = switch.surfaces_at_hand(context)
+        on = self.state == "ON" or (self.state == "TOGGLE" and not any(map(switch.is_on, targets)))
+        if not on:
+            for target in targets:
+                switch.switch_off(target, context)
+            return {"FINISHED"}
+        for target in targets or [self._make(context)]:
+            _show(context, target.discrete_fairing.source)
+            switch.switch_on(target)
+            if switch.problem(target):
+                self.report({"WARNING"}, switch.problem(target))
+        return {"FINISHED"}
+
+    def _make(self, context: Context) -> Object:
+        """A faired object of the active mesh, with the panel's settings; its first surface is a
+        live one.
+        """
+        source, settings = cast(Object, context.active_object), context.scene.discrete_fairing
+        mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
+        for material in source.data.materials:
+            mesh.materials.append(material)
+        target = new_object(context, source, mesh)
+        memory.remember(target, source, settings, {})
+        if wants_modifiers(settings):
+            if context.mode == "OBJECT":
+                copy_modifiers(context, source, target)
+            else:
+                self.report({"INFO"}, "Modifiers are copied in Object Mode only")
+        return target
+
+
+def _show(context: Context, source: Object) -> None:
+    """What is hidden can neither be edited nor does Blender look at it."""
+    if context.view_layer.objects.get(source.name) == source:
+        source.hide_set(False)
+
+
+register, unregister = registration(OBJECT_OT_fairing_live)

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long runs in a window: the view stays alive, the status bar shows how far, ESC ends it."""
+
+import bpy
+
+from .. import core
+from ..blender import Answer, Context, OperatorBase
+from ..job import Job
+from ..queue import Queue, set_running, status_text
+
+# what may still be done to the view meanwhile
+_NAVIGATION = {
+    "MIDDLEMOUSE",
+    "WHEELUPMOUSE",
+    "WHEELDOWNMOUSE",
+    "WHEELINMOUSE",
+    "WHEELOUTMOUSE",
+    "TRACKPADPAN",
+    "TRACKPADZOOM",
+    "NDOF_MOTION",
+}
+_INTERVAL = 0.05  # seconds between two looks at the thread
+
+
+class ModalRun(OperatorBase):
+    """Mix-in of an operator that computes jobs on a thread and calls `finish(context, jobs)` when
+    all are done.
+    """
+
+    def finish(self, context: Context, jobs: list[Job]) -> Answer:
+        """For the operator to say."""
+        raise NotImplementedError
+
+    def start(self, context: Context, jobs: list[Job]) -> Answer:
+        """Begins; the operator returns what this returns."""
+        self._queue = Queue(jobs, core.module().Monitor)
+        set_running(self._queue)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
+        manager.modal_handler_add(self)
+        self._queue.start()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Context, event: bpy.types.Event) -> Answer:
+        if event.type == "ESC" and event.value == "PRESS":
+            self._queue.cancel()
+        if event.type == "TIMER":
+            if self._queue.finished:
+                return self._end(context)
+            self._show(context, status_text(self._queue) + "     ESC: Cancel")
+        return {"PASS_THROUGH"} if event.type in _NAVIGATION else {"RUNNING_MODAL"}
+
+    def cancel(self, context: Context) -> None:
+        """Called by Blender when it ends the operator itself, as on quitting."""
+        self._queue.cancel()
+        self._clean_up(context)
+
+    def _end(self, context: Context) -> Answer:
+        queue = self._queue
+        self._clean_up(context)
+        if queue.error:
+            self.report({"ERROR"}, queue.error)
+        elif queue.cancelled:
+            self.report({"INFO"}, "Fairing was cancelled: nothing has changed")
+        else:
+            return self.finish(context, list(queue.jobs))
+        return {"CANCELLED"}
+
+    def _clean_up(self, context: Context) -> None:
+        self._queue.join()
+        set_running(None)
+        context.window_manager.event_timer_remove(self._timer)
+        self._show(context, None)
+
+    @staticmethod
+    def _show(context: Context, text: str | None) -> None:
+        """Status bar and panels; None puts back what Blender shows there itself."""
+        context.workspace.status_text_set(text)
+        for window in context.window_manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets through Blender's own machinery: shipped ones lie in addon/presets, the user's in their
+own folder.
+
+A preset is a script that sets the active operator's properties, as Blender's redo panel has it. The
+panel runs and keeps the same scripts with the scene's settings in the operator's place.
+"""
+
+from pathlib import Path
+from typing import Any, cast
+
+import bpy
+from bl_operators.presets import AddPresetBase
+from bpy.props import StringProperty
+
+from ..blender import Answer, Context, registration
+from ..settings import NAMES
+from ..ui.main import PRESET_FOLDER
+
+_FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
+# belongs to the work at hand, not to the kind of thing that is made
+_NOT_KEPT = {"use_selection", "memory_limit"}
+
+
+def _settings_as_operator(context: Context) -> Any:
+    return context.temp_override(active_operator=context.scene.discrete_fairing)
+
+
+class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
+    """Take over the settings of this preset"""
+
+    bl_idname = "object.fairing_preset_apply"
+    bl_label = "Apply Fairing Preset"
+    bl_options = {"INTERNAL"}
+
+    filepath: StringProperty(
+        name="File", description="The preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+
+    def execute(self, context: Context) -> Answer:
+        with _settings_as_operator(context):
+            execute: Any = bpy.ops.script.execute_preset  # whose stub says None
+            return execute(filepath=self.filepath, menu_idname="VIEW3D_PT_fairing_presets")
+
+
+class OBJECT_OT_fairing_preset_add(AddPresetBase, bpy.types.Operator):
+    """Keep the settings of the panel under a name, or remove a name"""
+
+    bl_idname = "object.fairing_preset_add"
+    bl_label = "Add Fairing Preset"
+    preset_menu = "VIEW3D_PT_fairing_presets"
+    preset_subdir = PRESET_FOLDER
+    preset_defines = ["op = bpy.context.active_operator"]
+    preset_values = [f"op.{name}" for name in NAMES if name not in _NOT_KEPT]
+
+    def execute(self, context: Context) -> Answer:
+        with _settings_as_operator(context):
+            return cast(Any, super()).execute(context)
+
+
+CLASSES = (OBJECT_OT_fairing_preset_add, OBJECT_OT_fairing_preset_apply)
+
+_register_classes, _unregister_classes = registration(*CLASSES)
+
+
+def register() -> None:
+    _register_classes()
+    bpy.utils.register_preset_path(_FOLDER)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_preset_path(_FOLDER)
+    _unregister_classes()

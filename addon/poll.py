@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators that say why they are grey."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+LINKED = (
+    "This mesh is linked from another file: make it local first (Object > Relations > Make Local)"
+)
+
+
+class ExplainedPoll:
+    """Mixin of operators with `poll_reason(context)`: why they cannot run, in one sentence; empty
+    when they can.
+    """
+
+    if TYPE_CHECKING:  # what the operator and Blender have
+
+        @staticmethod
+        def poll_reason(context: Any) -> str: ...
+
+        @classmethod
+        def poll_message_set(cls, message: str) -> None: ...
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        reason = cls.poll_reason(context)
+        if reason:
+            cls.poll_message_set(reason)
+        return not reason
+
+
+def mesh_poll_reason(targets: Sequence[Any]) -> str:
+    """Why mesh objects cannot be worked on, in one sentence; empty when they can."""
+    if not targets:
+        return "Select a mesh object first"
+    return LINKED if any(t.library or t.data.library for t in targets) else ""

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every setting once, for operator, panel, command line and a surface's memory.
+
+A new setting goes here, into core.fair_arguments and into ui/layout.py; the command line follows by
+itself.
+"""
+
+from math import radians
+from types import SimpleNamespace
+from typing import Any, TypeAlias
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from .blender import attach, detach
+
+# of the operator, the panel and the command line alike
+DEFAULT_ENERGY = "THIN_PLATE"
+
+# numbered, because files keep the number
+ENERGIES = (
+    (
+        "THIN_PLATE",
+        "Thin Plate",
+        "Bends like a thin sheet of spring steel. Fast, and linear: the classic. Flattens a little between vertices",
+        0,
+    ),
+    (
+        "TOTAL_CURVATURE",
+        "Total Curvature",
+        "The roundest surface: from vertices on a sphere it makes the sphere. Takes 3 to 5 times as long as Thin Plate on even meshes, 7 to 34 times on crumpled meshes and those with slivers",
+        1,
+    ),
+    (
+        "MINIMUM_VARIATION",
+        "Minimum Variation",
+        "Curvature changes as little as possible: the calmest reflections. Slower still",
+        2,
+    ),
+)
+
+# what the panel has room for
+ENERGY_MEANINGS = {
+    "THIN_PLATE": "Fast, flattens between vertices",
+    "TOTAL_CURVATURE": "Roundest, 3 to 34× the time",
+    "MINIMUM_VARIATION": "Calmest reflections, slowest",
+}
+
+INTERPOLATIONS = (
+    ("EXACT", "Through", "The surface passes exactly through every vertex of the source"),
+    (
+        "APPROXIMATE",
+        "Near",
+        "The surface may miss each vertex of the source by at most the tolerance, which makes it calmer",
+    ),
+)
+
+BOUNDARIES = (
+    (
+        "CURVE",
+        "Smooth",
+        "Open borders become smooth curves through their own vertices, so that neighbouring parts with the same border fit",
+    ),
+    ("LINEAR", "Straight", "Open borders keep the straight edges of the source"),
+    ("FREE", "Free", "Open borders go where the surface takes them, fixed only at their vertices"),
+)
+
+
+MESH_SOURCES = (
+    ("ORIGINAL", "As Modelled", "The mesh itself, as Edit Mode shows it"),
+    ("EVALUATED", "With Modifiers", "What the modifiers of the source make of its mesh"),
+)
+
+JOINTS = (
+    ("POSITION", "Touching", "The surface meets the rest without a gap, at any angle (G0)"),
+    (
+        "TANGENT",
+        "Tangent",
+        "The surface leaves the rest in the direction of the neighbouring faces (G1)",
+    ),
+    (
+        "CURVATURE",
+        "Curvature",
+        "As Tangent, and the surface begins to bend gently, so that reflections flow across (like G2)",
+    ),
+)
+
+
+class FairingSettings:
+    """Mix-in of annotations for an operator or a property group."""
+
+    levels: IntProperty(
+        name="Levels",
+        description="How often every face is split in four. Two or three show the shape; four and more are for close-ups",
+        default=3,
+        min=1,
+        max=10,
+        soft_max=5,
+    )
+    energy: EnumProperty(
+        name="Energy",
+        description="The quantity to minimize: how bending is measured",
+        items=ENERGIES,
+        default=DEFAULT_ENERGY,
+    )
+    interpolation: EnumProperty(
+        name="Vertices",
+        description="Whether the surface passes through the vertices of the source or near them",
+        items=INTERPOLATIONS,
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="How far the surface may pass from a vertex of the source, before the object's scale. "
+        "A small tolerance removes most bumps",
+        default=0.01,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+    )
+    boundary: EnumProperty(
+        name="Boundary", description="What happens to open borders", items=BOUNDARIES
+    )
+
+    mesh_source: EnumProperty(
+        name="Control Mesh", description="Which state of the source is faired", items=MESH_SOURCES
+    )
+    use_selection: BoolProperty(
+        name="Selected Faces Only",
+        description="Fairs the faces that are selected in Edit Mode, on the mesh as modelled. "
+        "All others keep their shape and are subdivided to match",
+        default=False,
+    )
+    joint: EnumProperty(
+        name="Joint",
+        description="How the faired faces meet those that keep their shape",
+        items=JOINTS,
+        default="TANGENT",
+    )
+    keep_symmetry: BoolProperty(
+        name="Keep Symmetry",
+        description="Where the source is its own mirror image in the object's X, Y or Z, so is the surface, to the last digit",
+        default=True,
+    )
+
+    use_crease_attribute: BoolProperty(
+        name="Edge Creases",
+        description="Edges with a crease (Shift E in Edit Mode) become sharp curves; "
+        "vertices with a vertex crease become corners where such curves end",
+        default=True,
+    )
+    crease_threshold: FloatProperty(
+        name="Threshold",
+        description="The least crease weight that counts",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    use_sharp_edges: BoolProperty(
+        name="Sharp Edges",
+        description="Edges marked sharp become sharp curves as well",
+        default=False,
+    )
+    use_crease_angle: BoolProperty(
+        name="Crease Angle",
+        description="Edges folded by more than this angle become sharp curves",
+        default=False,
+    )
+    crease_angle: FloatProperty(
+        name="Angle",
+        description="The angle between two faces above which their edge stays sharp",
+        default=radians(40),
+        min=0.0,
+        max=radians(180),
+        subtype="ANGLE",
+    )
+    use_corner_angle: BoolProperty(
+        name="Corner Angle",
+        description="Borders and creases that turn by more than this angle at a vertex get a corner there, not a bend",
+        default=False,
+    )
+    corner_angle: FloatProperty(
+        name="Angle",
+        description="The turn of a border or crease above which its vertex is a corner",
+        default=radians(60),
+        min=0.0,
+        max=radians(180),
+        subtype="ANGLE",
+    )
+
+    metric_exponent: FloatProperty(
+        name="Spacing",
+        description="How much the size of the source's faces shapes the surface. 1: faces keep their proportions; "
+        "0: all count the same; ½ is the calmest on uneven meshes",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    vertex_release: FloatProperty(
+        name="Vertex Release",
+        description="Lets the vertices of the source move by up to this distance at the very end, to take the "
+        "last small cusps out of the reflections",
+        default=0.0,
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+        subtype="DISTANCE",
+    )
+    repair_orientation: BoolProperty(
+        name="Repair Normals",
+        description="Flips faces that are oriented against their neighbours, instead of refusing the mesh",
+        default=False,
+    )
+    use_shape_keys: BoolProperty(
+        name="Shape Keys",
+        description="Fairs every shape key of the source too, so that you can animate the surface with them",
+        default=True,
+    )
+    copy_modifiers: BoolProperty(
+        name="Copy Modifiers",
+        description="Gives the surface the modifiers of the source, such as its armature",
+        default=False,
+    )
+    hide_source: BoolProperty(
+        name="Hide Source",
+        description="Hides the source afterwards, because source and surface overlap. Its eye in the Outliner shows it again",
+        default=True,
+    )
+    shade_smooth: BoolProperty(
+        name="Shade Smooth",
+        description="Shades every face of the result smooth. Off: each face is shaded like the one it comes from",
+        default=False,
+    )
+    memory_limit: IntProperty(
+        name="Memory Limit",
+        description="Refuses to start a result that would need more memory than this, in megabytes. "
+        "0: the limit in the add-on's preferences",
+        default=0,
+        min=0,
+        soft_max=65536,
+        subtype="NONE",
+    )
+
+
+# of an operator, a property group, or a copy of their values
+Settings: TypeAlias = FairingSettings | SimpleNamespace
+
+NAMES = tuple(FairingSettings.__annotations__)
+
+
+def energy_name(identifier: str) -> str:
+    """`Thin Plate` for THIN_PLATE."""
+    return next(name for key, name, *_ in ENERGIES if key == identifier)
+
+
+def is_evaluated(settings: Settings) -> bool:
+    """Whether the source is faired with its modifiers; never where faces are selected, on the mesh
+    as modelled.
+    """
+    return settings.mesh_source == "EVALUATED" and not settings.use_selection
+
+
+def wants_modifiers(settings: Settings) -> bool:
+    """Whether a new surface gets the modifiers of its source: not what is in the faired mesh
+    already.
+    """
+    return settings.copy_modifiers and settings.mesh_source == "ORIGINAL"
+
+
+def copy_settings(source: Settings, target: Any) -> None:
+    """Every setting of `source` onto `target` (operator properties or property group)."""
+    for name in NAMES:
+        setattr(target, name, getattr(source, name))
+
+
+def snapshot(settings: Settings) -> SimpleNamespace:
+    """The settings as plain values, which stay as they are."""
+    return SimpleNamespace(**{name: getattr(settings, name) for name in NAMES})
+
+
+class FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
+    """What the panel shows; kept with the scene."""
+
+
+def register() -> None:
+    attach(bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings)
+
+
+def unregister() -> None:
+    detach(bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How large a result will be, from the face sizes of the control mesh alone."""
+
+from typing import Any
+
+import numpy as np
+
+LARGE = 4_000_000  # triangles; from here on the user is asked first
+MOST_CORNERS = 2**31 - 1  # Blender counts face corners in 32 bits
+
+
+def face_sizes(mesh: Any) -> np.ndarray:
+    """Corners of each face of a bpy.types.Mesh: (m,) int32. In Edit Mode as of the last update."""
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    return sizes
+
+
+def coarse_triangles(face_sizes: np.ndarray) -> int:
+    """Triangles that the control mesh stands for: 1 per triangle, 2 per quad, n per larger n-gon
+    (split from its centre).
+    """
+    sizes = np.asarray(face_sizes, np.int64)
+    return int(np.where(sizes > 4, sizes, sizes - 2).sum())
+
+
+def triangle_count(face_sizes: np.ndarray, levels: int) -> int:
+    """Triangles after `levels` refinements; a control quad counts two for each fine quad."""
+    return coarse_triangles(face_sizes) * 4**levels
+
+
+def count_text(triangles: int) -> str:
+    """`12,345 triangles`, shortened where nobody reads the digits."""
+    if triangles >= 100_000_000:
+        return f"{triangles / 1e6:,.0f} M triangles"
+    if triangles >= 1_000_000:
+        return f"{triangles / 1e6:.1f} M triangles"
+    return f"{triangles:,} triangles"
+
+
+def why_too_large(triangles: int) -> str:
+    """A sentence if Blender itself could not hold that many faces; else empty."""
+    if 3 * triangles > MOST_CORNERS:
+        return f"{count_text(triangles)} are more than a Blender mesh can hold: use fewer levels"
+    return ""

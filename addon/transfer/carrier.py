@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All control faces of one kind with their refined faces, and how values spread over them.
+
+In chunks: no large copies.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..core import ControlArrays
+from .control_faces import Centres, ControlFaces, find_control_faces
+from .lattice import Cells, make_cells, pair_keys, sides
+
+CHUNK = 1 << 18  # values at a time: these fit in a processor's cache
+
+_NEVER = np.iinfo(np.int32).max
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The refined faces `fine` (F n², k) of the F control faces `faces`; their first corner is the
+    mesh's `start`.
+    """
+
+    cells: Cells
+    faces: ControlFaces
+    fine: np.ndarray
+    start: int
+
+    def mix_corners(self, known: np.ndarray, out: np.ndarray) -> None:
+        """Writes the mixed values at all refined corners; `known` (corners and centres, w), `out`
+        (corners, w) float32.
+        """
+        own = self._own(out)
+        for part, values in self._mixed(known, self.faces.corners):
+            for w, lattice in enumerate(values):
+                own[part, :, w] = np.take(lattice, self.cells.corner_point, axis=1)
+
+    def mix_points(self, known: np.ndarray, out: np.ndarray) -> None:
+        """The same at all refined vertices; `known` (vertices and centres, w), `out` (refined
+        vertices, w) float32.
+        """
+        ids = self.fine.reshape(len(self.faces.polygon), -1)
+        for part, values in self._mixed(known, self.faces.vertices):
+            points = ids[part][:, self.cells.first_corner]
+            out[points] = np.moveaxis(values, 0, 2)
+
+    def pick_corners(
+        self, values: np.ndarray, ids: np.ndarray, fans: np.ndarray, out: np.ndarray
+    ) -> None:
+        """Writes the nearest of `values` (corners, …) at all refined corners; `ids` (F, k): where
+        those of a face are.
+
+        `fans` (F,) bool: faces whose last corner is a centre.
+        """
+        own = self._own(out)
+        for part, picked in self._picked(ids, fans):
+            own[part] = values[np.take(picked, self.cells.corner_point, axis=1)]
+
+    def pick_points(
+        self, values: np.ndarray, ids: np.ndarray, fans: np.ndarray, out: np.ndarray
+    ) -> None:
+        """The same at all refined vertices."""
+        fine = self.fine.reshape(len(self.faces.polygon), -1)
+        for part, picked in self._picked(ids, fans):
+            out[fine[part][:, self.cells.first_corner]] = values[picked]
+
+    def _own(self, out: np.ndarray) -> np.ndarray:
+        """The part of `out` (corners, …) that belongs to these faces, by control face."""
+        own = out[self.start : self.start + self.fine.size]
+        return own.reshape(len(self.faces.polygon), -1, *out.shape[1:])
+
+    def _chunks(self, width: int) -> Iterator[slice]:
+        faces = len(self.faces.polygon)
+        step = max(1, CHUNK // (len(self.cells.points) * width))
+        return (slice(begin, min(begin + step, faces)) for begin in range(0, faces, step))
+
+    def _mixed(self, known: np.ndarray, ids: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
+        """Chunks of faces, and their values (w, faces, P) float32 at all points."""
+        width, size = known.shape[1], self.faces.size
+        spread = self.cells.weights.T / self.cells.total
+        for part in self._chunks(width):
+            corners = np.moveaxis(known[ids[part]].astype(np.float64, copy=False), 2, 0)
+            mixed = np.ascontiguousarray(corners).reshape(-1, size) @ spread
+            yield part, mixed.astype(np.float32).reshape(width, -1, len(self.cells.points))
+
+    def _picked(self, ids: np.ndarray, fans: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
+        """Chunks of faces, and the id (faces, P) int32 of `ids` (F, k) that is nearest to each
+        point.
+        """
+        nearest = _nearest(self.cells)
+        for part in self._chunks(self.faces.size):
+            # of equally near ones the lowest vertex, so that faces with a common edge agree on it
+            order = np.where(
+                nearest[fans[part].astype(np.intp)], self.faces.vertices[part, None, :], _NEVER
+            )
+            yield part, np.take_along_axis(ids[part], order.argmin(axis=2), axis=1)
+
+
+def _nearest(cells: Cells) -> np.ndarray:
+    """(2, P, k) bool: the corners nearest to each point; in a plain face, and in one whose last
+    corner is a centre.
+
+    A centre is nearest to itself only.
+    """
+    plain = cells.weights == cells.weights.max(axis=1, keepdims=True)
+    rest = cells.weights[:, :-1]
+    fan = np.zeros_like(plain)
+    fan[:, :-1] = rest == rest.max(axis=1, keepdims=True)
+    fan[cells.apex] = plain[cells.apex]
+    return np.stack([plain, fan])
+
+
+class Carrier:
+    """Carries values from the n vertices, c corners, m faces and e edges of a control mesh to a
+    refined one.
+
+    The refined corners are those of the result's triangles, then of its quads, as in a mesh that is
+    made of them.
+    """
+
+    def __init__(self, result: Any, arrays: ControlArrays, levels: int) -> None:
+        """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions,
+        edges, corners, offsets).
+        """
+        self.control_count = len(arrays.positions)
+        self.vertex_count = len(result.vertices)
+        self._arrays = arrays
+        self.patches: list[Patch] = []
+        start = 0
+        for fine, polygon in zip(
+            result.faces, (result.triangle_polygon, result.quad_polygon), strict=True
+        ):
+            cells = make_cells(fine.shape[1], levels)
+            faces = find_control_faces(fine, polygon, cells, arrays)
+            if faces.size == 3:
+                self._centres = Centres(faces, arrays)
+            if len(fine):
+                self.patches.append(Patch(cells, faces, fine, start))
+            start += fine.size
+        self.corner_count = start
+        self._polygon = np.concatenate([result.triangle_polygon, result.quad_polygon])
+
+    def used_vertices(self) -> np.ndarray:
+        """(n,) bool: which control vertices belong to a face."""
+        used = np.zeros(self.vertex_count, bool)
+        for patch in self.patches:
+            used[patch.faces.vertices] = True
+        return used[: self.control_count]
+
+    def corner(self, values: np.ndarray) -> np.ndarray:
+        """(c,) or (c, w) numbers on corners → (refined corners, w) float32.
+
+        A face's come from its own corners only.
+        """
+        values = _table(values)
+        known = np.concatenate([values, self._centres.corner(values)])
+        out = np.empty((self.corner_count, values.shape[1]), np.float32)
+        for patch in self.patches:
+            patch.mix_corners(known, out)
+        return out
+
+    def point(self, values: np.ndarray) -> np.ndarray:
+        """(n,) or (n, w) numbers on vertices → (refined vertices, w) float32; the first n are the
+        given ones.
+        """
+        values = _table(values)
+        known = np.concatenate([values, self._centres.point(values)])
+        out = np.zeros((self.vertex_count, values.shape[1]), np.float32)
+        for patch in self.patches:
+            patch.mix_points(known, out)
+        out[: len(known)] = known
+        return out
+
+    def own_point(self, values: np.ndarray) -> np.ndarray:
+        """(n, …) → (refined vertices, …): as given on the control vertices, 0 or False on all
+        others.
+        """
+        out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
+        out[: len(values)] = values
+        return out
+
+    def face(self, values: np.ndarray) -> np.ndarray:
+        """(m, …) of any type on faces → (refined faces, …)."""
+        return values[self._polygon]
+
+    def edge_origin(self, corner_edge: np.ndarray, edge_count: int) -> np.ndarray:
+        """(refined edges,) int32: the control edge that each is a piece of, -1 for edges inside of
+        faces.
+
+        `corner_edge` (refined corners,): the edge that leaves each corner; `edge_count`: how many
+        there are.
+        """
+        origin = np.full(edge_count, -1, np.int32)
+        for patch in self.patches:
+            _edge_origin(patch, self._arrays.edges, corner_edge, origin)
+        return origin
+
+    def pick_corner(self, values: np.ndarray) -> np.ndarray:
+        """(c, …) of any type on corners → (refined corners, …): the value of the nearest corner of
+        the same polygon.
+
+        Of several that are equally near, that of the vertex with the lowest id.
+        """
+        out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
+        _, lowest = self._centres.lowest()
+        for patch in self.patches:
+            patch.pick_corners(
+                values,
+                self._replace(patch.faces.corners, lowest, len(values)),
+                self._fans(patch),
+                out,
+            )
+        return out
+
+    def pick_point(self, values: np.ndarray) -> np.ndarray:
+        """(n, …) of any type on vertices → (refined vertices, …): the value of the nearest vertex
+        of the control face.
+
+        Of several that are equally near, the one with the lowest id.
+        """
+        out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
+        lowest, _ = self._centres.lowest()
+        for patch in self.patches:
+            patch.pick_points(
+                values,
+                self._replace(patch.faces.vertices, lowest, len(values)),
+                self._fans(patch),
+                out,
+            )
+        out[: len(values)] = values
+        return out
+
+    def _fans(self, patch: Patch) -> np.ndarray:
+        fans = np.zeros(len(patch.faces.polygon), bool)
+        if patch.faces.size == 3:
+            fans[self._centres.members] = True
+        return fans
+
+    @staticmethod
+    def _replace(ids: np.ndarray, lowest: np.ndarray, count: int) -> np.ndarray:
+        """`ids` with the centres, which have no values to pick, replaced by what is picked for
+        them.
+        """
+        replaced = ids.copy()
+        centre = replaced >= count
+        replaced[centre] = lowest[replaced[centre] - count]
+        return replaced
+
+
+def _table(values: np.ndarray) -> np.ndarray:
+    values = np.asarray(values)
+    return values.reshape(len(values), -1)
+
+
+def _edge_origin(
+    patch: Patch, control_edges: np.ndarray, corner_edge: np.ndarray, origin: np.ndarray
+) -> None:
+    """Writes the id of the control edge to `origin` (refined edges,) for all pieces of control
+    edges in `patch`.
+
+    `control_edges` (e, 2): their vertices; `corner_edge` (refined corners,): the refined edge that
+    leaves each corner.
+    """
+    vertices, size = patch.faces.vertices, patch.faces.size
+    if not len(vertices) or not len(control_edges):
+        return
+    keys = pair_keys(control_edges)
+    order = np.argsort(keys)
+    leaving = corner_edge[patch.start : patch.start + patch.fine.size].reshape(len(vertices), -1)
+    n = int(np.sqrt(leaving.shape[1] // size))
+    for side, (run, start, _) in enumerate(sides(size, n)):
+        wanted = pair_keys(np.stack([vertices[:, side], vertices[:, (side + 1) % size]], axis=1))
+        place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
+        edge = order[place]
+        is_edge = keys[edge] == wanted  # a cut through a polygon is none
+        origin[leaving[is_edge][:, run * size + start]] = edge[is_edge, None]

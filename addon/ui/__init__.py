@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels of the sidebar. They know operators by their names alone."""

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel "Check": what is wrong with the mesh, and how to mend it."""
+
+from typing import Any
+
+import bpy
+
+from .. import errors
+from ..blender import Context, registration
+from ..check import repair
+from ..check.defects import recall_defects
+from .layout import Folded
+from .notice import draw_notice
+
+_SHOWN = 8  # lines; a mesh with more kinds of defects has not been seen
+
+
+class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
+    bl_label = "Check"
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.operator("object.fairing_check", icon="CHECKMARK")
+        target = context.active_object
+        known = recall_defects(target) if target is not None and target.type == "MESH" else None
+        if known is None:
+            return
+        defects, stale = known
+        if stale:
+            draw_notice(layout, "The mesh was changed since: press Check Mesh again", icon="INFO")
+        elif not defects:
+            draw_notice(layout, "Nothing is wrong with this mesh", icon="CHECKMARK")
+        for index, defect in enumerate(defects[:_SHOWN]):
+            _draw_defect(layout, index, defect, stale)
+
+
+def _draw_defect(
+    layout: bpy.types.UILayout, index: int, defect: dict[str, Any], stale: bool
+) -> None:
+    column = layout.column(align=True)
+    column.active = not stale
+    icon = "CANCEL" if defect["severity"] == "error" else "INFO"
+    draw_notice(column, f"{errors.what(defect)} {errors.remedy(defect['code'])}", icon=icon)
+    row = column.row(align=True)
+    if defect["elements"]:
+        row.operator("object.fairing_select_defect", icon="RESTRICT_SELECT_OFF").index = index
+    label = repair.label(defect["code"])
+    if label:
+        row.operator("object.fairing_repair", text=label, icon="TOOL_SETTINGS").index = index
+
+
+CLASSES = (VIEW3D_PT_fairing_check,)
+
+register, unregister = registration(*CLASSES)

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel "Inspect": zebra stripes, curvature colours, and the numbers before and after."""
+
+from typing import Any
+
+import bpy
+
+from ..blender import Context, Object, registration
+from ..inspection import display, readout
+from ..inspection.display import CURVATURES
+from ..inspection.settings import MODES
+from ..memory import recall
+from .layout import Folded
+from .notice import draw_notice
+
+
+class VIEW3D_PT_fairing_inspect(Folded, bpy.types.Panel):
+    bl_label = "Inspect"
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        target = context.active_object
+        if target is not None and target.type != "MESH":
+            target = None
+        mode = target.discrete_fairing_inspection.mode if target is not None else "NONE"
+        _draw_modes(layout, mode)
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        if mode != "NONE":
+            _draw_viewport(layout, context, mode)
+            settings = context.scene.discrete_fairing_inspection
+            (draw_range if mode in CURVATURES else draw_zebra)(layout, settings)
+            layout.prop(settings, "smooth")
+        if target is not None and mode in CURVATURES:
+            _draw_legend(layout, target, mode)
+        layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
+        record = recall(target, "readout") if target is not None else None
+        if target is not None and record is not None:
+            _draw_readout(layout, target, record)
+
+
+def draw_zebra(layout: bpy.types.UILayout, settings: Any) -> None:
+    for name in ("stripes", "direction", "sharpness", "fixed_to"):
+        layout.prop(settings, name)
+
+
+def draw_range(layout: bpy.types.UILayout, settings: Any) -> None:
+    layout.prop(settings, "use_fixed_range")
+    if settings.use_fixed_range:
+        layout.prop(settings, "fixed_range")
+    else:
+        column = layout.column(align=True)
+        column.prop(settings, "range_low")
+        column.prop(settings, "range_high")
+
+
+def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
+    column = layout.column(align=True)
+    for part in (MODES[:2], MODES[2:]):
+        row = column.row(align=True)
+        for mode, label, *_ in part:
+            button = row.operator("object.fairing_inspect", text=label, depress=mode == current)
+            button.mode = mode
+
+
+def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> None:
+    """A button if this viewport shows nothing of it; it is never switched unasked."""
+    shading = getattr(context.space_data, "shading", None)
+    if shading is None or shading.type in {"MATERIAL", "RENDERED"}:
+        return
+    if mode in CURVATURES and shading.type == "SOLID" and shading.color_type == "VERTEX":
+        return
+    draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
+    row = layout.row(align=True)
+    row.operator("object.fairing_viewport", text="Material Preview").shading = "MATERIAL"
+    if mode in CURVATURES:
+        row.operator("object.fairing_viewport", text="Solid").shading = "ATTRIBUTE"
+
+
+_ENDS = {
+    "MEAN": ("hollow", "bulging"),
+    "GAUSS": ("saddle", "dome or bowl"),
+    "TOTAL": ("calm", "bent"),
+}
+
+
+def _draw_legend(layout: bpy.types.UILayout, target: Object, mode: str) -> None:
+    limits = display.legend(target.data)
+    if limits is None:
+        draw_notice(layout, "Not measured yet: press Refresh Colours in Object Mode", icon="INFO")
+    else:
+        low, high = _ENDS[mode]
+        colours = ("Grey", "red") if mode == "TOTAL" else ("Blue", "red")
+        column = layout.column(align=True)
+        column.label(text=f"{colours[0]}: {low}, {limits[0]:.3g}", icon="COLOR")
+        column.label(text=f"{colours[1].title()}: {high}, {limits[1]:.3g}", icon="BLANK1")
+    layout.operator("object.fairing_refresh", icon="FILE_REFRESH")
+
+
+def _draw_readout(layout: bpy.types.UILayout, target: Object, record: dict[str, Any]) -> None:
+    if readout.is_stale(target, record):
+        draw_notice(layout, "The mesh was changed since: press Measure again", icon="INFO")
+    split = layout.box().split(factor=0.46)
+    columns = split.column(align=True), split.column(align=True), split.column(align=True)
+    heads = ("", "Before" if record["before"] else "", "After" if record["before"] else "Now")
+    for row in (heads, *readout.table(record)):
+        for column, text in zip(columns, row, strict=True):
+            column.label(text=text)
+
+
+CLASSES = (VIEW3D_PT_fairing_inspect,)
+
+register, unregister = registration(*CLASSES)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where panels stand, and how settings are laid out: sidebar, redo panel and memory alike."""
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..settings import ENERGY_MEANINGS, Settings, is_evaluated
+
+
+class Sidebar:
+    """Mix-in of every panel in the tab."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fairing"
+
+    if TYPE_CHECKING:
+        layout: bpy.types.UILayout
+
+
+class Folded(Sidebar):
+    """Mix-in of the panels below the first one."""
+
+    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+def draw_shape(layout: bpy.types.UILayout, settings: Settings, triangle_text: str = "") -> None:
+    """The few that everyone needs; `triangle_text` stands under the levels: beside them a narrow
+    sidebar cuts it.
+    """
+    layout.prop(settings, "levels")
+    if triangle_text:
+        _remark(layout, triangle_text)
+    layout.prop(settings, "energy")
+    _remark(layout, ENERGY_MEANINGS[settings.energy])
+    layout.prop(settings, "interpolation")
+    if settings.interpolation == "APPROXIMATE":
+        layout.prop(settings, "tolerance")
+    layout.prop(settings, "boundary")
+
+
+def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:
+    layout.prop(settings, "use_selection")
+    if settings.use_selection:
+        layout.prop(settings, "joint")
+    row = layout.row()
+    row.enabled = not settings.use_selection
+    row.prop(settings, "mesh_source")
+    if settings.use_selection:
+        _reason(layout, "Faces are selected on the mesh as modelled")
+    layout.prop(settings, "keep_symmetry")
+    layout.prop(settings, "repair_orientation")
+
+
+def draw_creases(layout: bpy.types.UILayout, settings: Settings) -> None:
+    _switched(layout, settings, "use_crease_attribute", "crease_threshold")
+    layout.prop(settings, "use_sharp_edges")
+    _switched(layout, settings, "use_crease_angle", "crease_angle")
+    _switched(layout, settings, "use_corner_angle", "corner_angle")
+
+
+def draw_result(layout: bpy.types.UILayout, settings: Settings) -> None:
+    layout.prop(settings, "shade_smooth")
+    layout.prop(settings, "hide_source")
+    evaluated = is_evaluated(settings)
+    column = layout.column()
+    column.enabled = not evaluated
+    column.prop(settings, "use_shape_keys")
+    column.prop(settings, "copy_modifiers")
+    if evaluated:
+        _reason(layout, "Both are already in the mesh With Modifiers")
+
+
+def draw_advanced(layout: bpy.types.UILayout, settings: Settings) -> None:
+    layout.prop(settings, "metric_exponent")
+    layout.prop(settings, "vertex_release")
+    layout.prop(settings, "memory_limit")
+
+
+FOLDED = (
+    ("Source", draw_source),
+    ("Creases", draw_creases),
+    ("Result", draw_result),
+    ("Advanced", draw_advanced),
+)
+
+
+def draw_settings(
+    layout: bpy.types.UILayout, settings: Settings, identifier: str, triangle_text: str = ""
+) -> None:
+    """All of them, the rare ones folded; `identifier` tells Blender which of them are open."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    draw_shape(layout, settings, triangle_text)
+    for label, draw in FOLDED:
+        header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
+        header.label(text=label)
+        if body is not None:
+            draw(body, settings)
+
+
+def _reason(layout: bpy.types.UILayout, text: str) -> None:
+    """Why what stands above is grey."""
+    _remark(layout, text, icon="INFO")
+
+
+def _remark(layout: bpy.types.UILayout, text: str, icon: Any = "NONE") -> None:
+    """A few words on what stands above."""
+    row = layout.row()
+    row.alignment = "RIGHT"
+    row.label(text=text, icon=icon)
+
+
+def _switched(layout: bpy.types.UILayout, settings: Any, switch: str, value: str) -> None:
+    """A value with its switch before it, grey while that is off."""
+    row = layout.row(align=True, heading=settings.bl_rna.properties[switch].name)
+    row.prop(settings, switch, text="")
+    sub = row.row(align=True)
+    sub.active = getattr(settings, switch)
+    sub.prop(settings, value, text="")

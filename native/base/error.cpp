@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/error.h"
+
+#include <algorithm>
+
+namespace fairing {
+namespace {
+
+constexpr std::size_t shown = 5;
+
+template <class Item>
+std::string list(Words noun, std::size_t count, Item item, Words verb) {
+  std::string text = std::to_string(count) + " " + (count == 1 ? noun.one : noun.many) + " (";
+  for (std::size_t i = 0; i < std::min(count, shown); ++i) text += (i ? ", " : "") + item(i);
+  return text + (count > shown ? ", …) " : ") ") + (count == 1 ? verb.one : verb.many);
+}
+
+}  // namespace
+
+const char* name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::empty_mesh: return "EMPTY_MESH";
+    case ErrorCode::no_faces: return "NO_FACES";
+    case ErrorCode::bad_shape: return "BAD_SHAPE";
+    case ErrorCode::non_finite: return "NON_FINITE";
+    case ErrorCode::index_out_of_range: return "INDEX_OUT_OF_RANGE";
+    case ErrorCode::repeated_vertex: return "REPEATED_VERTEX";
+    case ErrorCode::duplicate_face: return "DUPLICATE_FACE";
+    case ErrorCode::nonmanifold_edge: return "NONMANIFOLD_EDGE";
+    case ErrorCode::nonmanifold_vertex: return "NONMANIFOLD_VERTEX";
+    case ErrorCode::inconsistent_orientation: return "INCONSISTENT_ORIENTATION";
+    case ErrorCode::non_orientable: return "NON_ORIENTABLE";
+    case ErrorCode::degenerate_face: return "DEGENERATE_FACE";
+    case ErrorCode::coincident_vertices: return "COINCIDENT_VERTICES";
+    case ErrorCode::isolated_vertices: return "ISOLATED_VERTICES";
+    case ErrorCode::bad_feature_edge: return "BAD_FEATURE_EDGE";
+    case ErrorCode::bad_option: return "BAD_OPTION";
+    case ErrorCode::underdetermined: return "UNDERDETERMINED";
+    case ErrorCode::too_large: return "TOO_LARGE";
+    case ErrorCode::out_of_memory: return "OUT_OF_MEMORY";
+    case ErrorCode::cancelled: return "CANCELLED";
+  }
+  return "UNKNOWN";
+}
+
+const char* name(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::mesh: return "mesh";
+    case ElementKind::vertex: return "vertex";
+    case ElementKind::edge: return "edge";
+    case ElementKind::face: return "face";
+  }
+  return "unknown";
+}
+
+ElementKind usual_kind(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_shape:
+    case ErrorCode::index_out_of_range:
+    case ErrorCode::repeated_vertex:
+    case ErrorCode::duplicate_face:
+    case ErrorCode::inconsistent_orientation:
+    case ErrorCode::non_orientable:
+    case ErrorCode::degenerate_face:
+    case ErrorCode::too_large: return ElementKind::face;
+    case ErrorCode::non_finite:
+    case ErrorCode::nonmanifold_vertex:
+    case ErrorCode::coincident_vertices:
+    case ErrorCode::isolated_vertices:
+    case ErrorCode::bad_option:
+    case ErrorCode::underdetermined: return ElementKind::vertex;
+    case ErrorCode::nonmanifold_edge:
+    case ErrorCode::bad_feature_edge: return ElementKind::edge;
+    case ErrorCode::empty_mesh:
+    case ErrorCode::no_faces:
+    case ErrorCode::out_of_memory:
+    case ErrorCode::cancelled: return ElementKind::mesh;
+  }
+  return ElementKind::mesh;
+}
+
+std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb) {
+  return list(noun, ids.size(), [&](std::size_t i) { return std::to_string(ids[i]); }, verb);
+}
+
+std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
+  const auto pair = [&](std::size_t i) {
+    return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
+  };
+  return list(noun, ids.size() / 2, pair, verb);
+}
+
+}  // namespace fairing

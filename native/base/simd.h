@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inner loops on packs of numbers, compiled twice: with packs of 16 bytes for baseline
+// instructions, and of 32 bytes for AVX2. The machine chooses at run time. In both, every number
+// sees the same operations in the same order (no fused multiply-add, no sums across a pack): the
+// same bits.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#define DF_INLINE __attribute__((always_inline)) inline
+
+#if defined(__x86_64__)
+#define DF_HAS_WIDE 1
+#else
+#define DF_HAS_WIDE 0
+#endif
+
+namespace fairing {
+
+template <class T, int Bytes>
+struct PackOf {
+  typedef T Type __attribute__((vector_size(Bytes)));
+};
+
+// Loads and stores of consecutive numbers, aligned or not. Packs are passed by reference only: by
+// value, the two forms would have different calling conventions.
+template <class T, int Bytes>
+struct Packs {
+  using Pack = typename PackOf<T, Bytes>::Type;
+  using Mask = decltype(Pack{} < Pack{});
+  static constexpr int size = Bytes / int(sizeof(T));
+  DF_INLINE static void load(const T* from, Pack& pack) { std::memcpy(&pack, from, sizeof pack); }
+  DF_INLINE static void store(const Pack& pack, T* to) { std::memcpy(to, &pack, sizeof pack); }
+  DF_INLINE static void root(const Pack& of, Pack& out) {
+    for (int l = 0; l < size; ++l) out[l] = std::sqrt(of[l]);
+  }
+};
+
+#if DF_HAS_WIDE
+inline bool machine_is_wide() {
+  static const bool wide = __builtin_cpu_supports("avx2");
+  return wide;
+}
+
+template <template <class, int> class Loop, class T, class... Arguments>
+__attribute__((target("avx2"), noinline)) void run_wide(Arguments... arguments) {
+  Loop<T, 32>::run(arguments...);
+}
+#endif
+
+// Calls Loop<T, bytes of a pack>::run(arguments…). Mark run() DF_INLINE: it has to be compiled into
+// the function that has the instructions.
+template <template <class, int> class Loop, class T, class... Arguments>
+inline void run_loop(Arguments... arguments) {
+#if DF_HAS_WIDE
+  if (machine_is_wide()) return run_wide<Loop, T, Arguments...>(arguments...);
+#endif
+  Loop<T, 16>::run(arguments...);
+}
+
+}  // namespace fairing

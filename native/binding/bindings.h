@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of the module _native, which module.cpp puts together.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace fairing {
+
+// Adds the class Options, with one attribute a setting, and the enums of those that are choices.
+void bind_options(pybind11::module_& m);
+
+// Adds the class Solver, which the package wraps.
+void bind_solver(pybind11::module_& m);
+
+}  // namespace fairing

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// FairOptions as Python sees it: flat, one attribute a setting, under the names of fair()'s
+// keywords. The package converts what callers write (discrete_fairing/options.py); here types are
+// exact.
+#include "fairing/options.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <utility>
+
+#include "binding/bindings.h"
+
+namespace py = pybind11;
+
+namespace fairing {
+namespace {
+
+void bind_choices(py::module_& m) {
+  py::enum_<BoundaryMode>(m, "Boundary")
+      .value("curve", BoundaryMode::curve)
+      .value("linear", BoundaryMode::linear)
+      .value("free", BoundaryMode::free);
+  py::enum_<RegionContinuity>(m, "RegionContinuity")
+      .value("position", RegionContinuity::position)
+      .value("tangent", RegionContinuity::tangent)
+      .value("curvature", RegionContinuity::curvature);
+  py::enum_<ChartKind>(m, "Chart")
+      .value("exponential", ChartKind::exponential)
+      .value("tangent", ChartKind::tangent);
+  py::enum_<Interpolation>(m, "Interpolation")
+      .value("exact", Interpolation::exact)
+      .value("approximate", Interpolation::approximate);
+  py::enum_<Energy>(m, "Energy")
+      .value("thin_plate", Energy::thin_plate)
+      .value("total_curvature", Energy::total_curvature)
+      .value("minimum_variation", Energy::minimum_variation);
+  py::enum_<Method>(m, "Method")
+      .value("multigrid", Method::multigrid)
+      .value("back_leg", Method::back_leg);
+}
+
+// Adds a setting: a member of FairOptions, or of a part of it.
+template <class... Member>
+void bind_setting(py::class_<FairOptions>& options, const char* name, Member... member) {
+  using Value = std::remove_cvref_t<decltype((std::declval<FairOptions&>().*....*member))>;
+  options.def_property(
+      name, [=](const FairOptions& o) -> Value { return (o.*....*member); },
+      [=](FairOptions& o, Value value) { (o.*....*member) = std::move(value); });
+}
+
+}  // namespace
+
+void bind_options(py::module_& m) {
+  bind_choices(m);
+  m.attr("most_levels") = most_levels;
+  py::class_<FairOptions> options(m, "Options", "All settings; new ones hold the defaults.");
+  options.def(py::init<>());
+  const auto setting = [&](const char* name, auto... member) {
+    bind_setting(options, name, member...);
+  };
+  using O = FairOptions;
+  setting("levels", &O::levels);
+  setting("energy", &O::energy);
+  setting("step_tolerance", &O::step_tolerance);
+  setting("max_steps", &O::max_steps);
+  setting("chart", &O::chart, &ChartOptions::kind);
+  setting("metric_exponent", &O::chart, &ChartOptions::exponent);
+  setting("chart_blend", &O::chart, &ChartOptions::blend);
+  setting("crease_edges", &O::features, &FeatureOptions::crease_edges);
+  setting("corner_vertices", &O::features, &FeatureOptions::corner_vertices);
+  setting("crease_angle", &O::features, &FeatureOptions::crease_angle);
+  setting("corner_angle", &O::features, &FeatureOptions::corner_angle);
+  setting("boundary", &O::features, &FeatureOptions::boundary);
+  // Once it is set there is a region, be it an empty one.
+  options.def_property(
+      "region", [](const O& o) { return o.features.region.faces; },
+      [](O& o, std::vector<std::int64_t> faces) {
+        o.features.region.given = true;
+        o.features.region.faces = std::move(faces);
+      });
+  setting("joint", &O::features, &FeatureOptions::region, &RegionOptions::joint);
+  setting("repair_orientation", &O::repair_orientation);
+  setting("interpolation", &O::interpolation);
+  setting("tolerance", &O::tolerance);
+  setting("weights", &O::weights);
+  setting("epsilon", &O::epsilon);
+  setting("pad_size", &O::pad_size);
+  setting("method", &O::method);
+  setting("relative_residual", &O::relative_residual);
+  setting("max_iterations", &O::max_iterations);
+  setting("smoother_degree", &O::smoother_degree);
+  setting("sweeps", &O::sweeps);
+  setting("threads", &O::threads);
+  setting("memory_limit", &O::memory_limit);
+  setting("measure", &O::measure);
+}
+
+}  // namespace fairing

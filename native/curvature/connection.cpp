@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/connection.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// What is known of one point of a ring.
+struct TensorPoint {
+  const double *x, *normal, *axis, *tensor;
+  double area;
+};
+
+struct TurnedEdge {
+  double weight;        // clamped
+  double cosine, sine;  // of twice the angle from the neighbour's chart to the point's
+};
+
+Vec2 direction(const Vec3& along, const TensorPoint& p) {
+  const Eigen::Map<const Vec3> normal(p.normal), axis(p.axis);
+  return Vec2(along.dot(axis), along.dot(normal.cross(axis))).normalized();
+}
+
+// The turn between two charts, by the edge that both see (its two directions there differ by half a
+// turn, which twice the angle does not notice).
+TurnedEdge edge_between(const TensorPoint& a, const TensorPoint& b, double weight) {
+  if (!(weight > 0) || !(b.area > 0)) return {0, 1, 0};
+  const Vec3 along = Eigen::Map<const Vec3>(b.x) - Eigen::Map<const Vec3>(a.x);
+  const Vec2 p = direction(along, a), q = direction(along, b);
+  const double c = p.dot(q), s = q.x() * p.y() - q.y() * p.x();
+  if (!std::isfinite(c) || !std::isfinite(s)) return {0, 1, 0};
+  return {weight, c * c - s * s, 2 * c * s};
+}
+
+// Reads the weights of a run's point i, writes its rows; returns the energy of half its edges.
+template <class Neighbour>
+double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own,
+                 Neighbour&& neighbour, double* force) {
+  double energy = 0, sum = 0, moment[3] = {0, 0, 0};
+  const double root = std::sqrt(own.area);
+  for (int s = 1; s < run.slots; ++s) {
+    const TensorPoint other = neighbour(s);
+    const TurnedEdge edge =
+        own.area > 0 ? edge_between(own, other, double(run.at(0, s, i))) : TurnedEdge{0, 1, 0};
+    const double scale = edge.weight > 0 ? edge.weight / (root * std::sqrt(other.area)) : 0;
+    run.at(0, s, i) = float(-scale);
+    run.at(1, s, i) = float(-scale * edge.cosine);
+    run.at(2, s, i) = float(-scale * edge.sine);
+    if (!(edge.weight > 0)) continue;
+    const double *m = own.tensor, *o = other.tensor;
+    const double d[3] = {m[0] - o[0], m[1] - (edge.cosine * o[1] - edge.sine * o[2]),
+                         m[2] - (edge.sine * o[1] + edge.cosine * o[2])};
+    for (int c = 0; c < 3; ++c) {
+      moment[c] += edge.weight * d[c];
+      energy += 0.5 * edge.weight * d[c] * d[c];
+    }
+    sum += edge.weight;
+  }
+  run.at(0, 0, i) = own.area > 0 ? float(sum / own.area) : 0.0f;
+  for (int c = 0; c < 3; ++c) force[c] = own.area > 0 ? moment[c] / root : 0.0;
+  return energy;
+}
+
+// z <- the rows of a run on y, whose neighbours' tensors are at y[s] + 3 i.
+template <class T>
+void apply_run(const RowRun<const float>& run, T damping, const T* const* y, T* z) {
+  for (std::size_t i = 0; i < run.count; ++i) {
+    const T* own = y[0] + 3 * i;
+    const T diagonal = T(run.at(0, 0, i)) + damping;
+    for (int c = 0; c < 3; ++c) z[3 * i + std::size_t(c)] = diagonal * own[c];
+  }
+  for (int s = 1; s < run.slots; ++s) {
+    const float *weight = &run.at(0, s, 0), *cosine = &run.at(1, s, 0), *sine = &run.at(2, s, 0);
+    const T* from = y[s];
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const T* o = from + 3 * i;
+      z[3 * i] += T(weight[i]) * o[0];
+      z[3 * i + 1] += T(cosine[i]) * o[1] - T(sine[i]) * o[2];
+      z[3 * i + 2] += T(sine[i]) * o[1] + T(cosine[i]) * o[2];
+    }
+  }
+}
+
+// What a thread gathers of the surface: the points and their rings.
+struct SurfaceGather {
+  SurfaceGather(const GridLevel& grid, const Connection::Surface& surface, const double* tensor)
+      : x(grid, surface.x, buffer[0]),
+        normal(grid, surface.normal, buffer[1]),
+        axis(grid, surface.axis, buffer[2]),
+        tensors(grid, tensor, buffer[3]),
+        area(grid, surface.area, buffer[4]) {}
+  SurfaceGather(const SurfaceGather&) = delete;
+
+  std::vector<double> buffer[5];
+  RunGather<double, 3> x, normal, axis, tensors;
+  RunGather<double> area;
+};
+
+}  // namespace
+
+double Connection::set(const Surface& surface, const double* tensor, Workers& workers,
+                       double* force) {
+  const GridLevel& grid = rows_.grid();
+  ElementSums energy(grid.mesh());
+  for_each_run(
+      grid, workers, [&] { return SurfaceGather(grid, surface, tensor); },
+      [&](const Run& run, SurfaceGather& gather) {
+        const double *const *x = gather.x(run), *const *normal = gather.normal(run),
+                            *const *axis = gather.axis(run), *const *m = gather.tensors(run),
+                            *const *area = gather.area(run);
+        const RowRun<float> rows = rows_.of(run);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          const auto point = [&](int s) -> TensorPoint {
+            return {x[s] + 3 * i, normal[s] + 3 * i, axis[s] + 3 * i, m[s] + 3 * i, area[s][i]};
+          };
+          energy.of(run) += set_point(rows, i, point(0), point, force + 3 * (run.first + i));
+        }
+      });
+  return energy.total();
+}
+
+template <class T>
+void Connection::apply(double damping, Workers& workers, const T* y, T* z) const {
+  for_each_run(
+      rows_.grid(), workers, [&] { return RunGather<T, 3>(rows_.grid(), y); },
+      [&](const Run& run, RunGather<T, 3>& gather) {
+        apply_run(rows_.of(run), T(damping), gather(run), z + 3 * run.first);
+      });
+}
+
+template void Connection::apply<float>(double, Workers&, const float*, float*) const;
+template void Connection::apply<double>(double, Workers&, const double*, double*) const;
+
+}  // namespace fairing

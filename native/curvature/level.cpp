@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/level.h"
+
+#include <cmath>
+
+#include "parallel/reductions.h"
+#include "sparse/unknown_points.h"
+
+namespace fairing {
+
+CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
+    : shared_(shared), grid_(grid), rows_(grid), suits_square_(NormalMatrix::suits(rows_)) {}
+
+void CurvatureLevel::apply_rows(const double* x, double* y) {
+  apply_square(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, x, y);
+}
+
+void CurvatureLevel::apply_rows(const float* x, float* y) {
+  if (!suits_square_) {
+    apply_square(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, x, y);
+    return;
+  }
+  if (std::exchange(square_is_old_, false)) {
+    if (square_vertices_ != shared_.unknowns.vertex)
+      square_.reset();  // some have been held, or let go
+    if (!square_) square_ = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
+    square_vertices_ = shared_.unknowns.vertex;
+    square_->update(rows_, shared_.workers);
+  }
+  square_->apply(x, shared_.workers, y);
+}
+
+template <class T>
+void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
+  if (varies()) {
+    auto& [moment, turned] = shared_.moments<T>();
+    if (moment.size() < 3 * grid_.size()) {
+      moment.resize(3 * grid_.size());
+      turned.resize(3 * grid_.size());
+    }
+    visit_moments(rows_, shared_.workers, x, [&](const Run& run, const T* lanes) {
+      for (std::size_t i = 0; i < run.count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
+    });
+    connection_->apply(shared_.total_curvature_share, shared_.workers, moment.data(),
+                       turned.data());
+    apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
+  } else {
+    apply_rows(x, y);
+  }
+  for (std::size_t v = 0; v < vertex_weight_.size(); ++v) y[v] += T(vertex_weight_[v]) * x[v];
+  if (!damping_.empty())
+    for_each_index(shared_.workers, damping_.size(),
+                   [&](std::size_t i) { y[i] += T(damping_[i]) * x[i]; });
+}
+
+void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<float>& predicted) {
+  predicted.resize(3 * grid_.size());
+  // the moments are sqrt(w) J h
+  visit_moments(rows_, shared_.workers, h, [&](const Run& run, const double* moment) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const std::size_t p = run.first + i;
+      const float* m = &shape[4 * p];
+      for (std::size_t c = 0; c < 3; ++c)
+        predicted[3 * p + c] =
+            m[3] > 0 ? m[c] + float(moment[c * run.count + i] / double(m[3])) : 0.0f;
+    }
+  });
+}
+
+void CurvatureLevel::set_damping(const Array<float>& mu) {
+  damping_.clear();
+  inverse_diagonal_.resize(grid_.size());
+  if (!mu.empty()) {
+    damping_.resize(grid_.size());
+    for (std::size_t i = 0; i < damping_.size(); ++i) damping_[i] = mu[i] * diagonal_[i];
+  }
+  for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
+    const float d = diagonal_[i] + (mu.empty() ? 0.0f : damping_[i]);
+    inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
+  }
+}
+
+// For the variation that of J^T diag(L + share W) J, which is as good a scale as its own.
+void CurvatureLevel::update_diagonal() {
+  const std::size_t points = grid_.size();
+  Array<float> weight;
+  if (varies()) {
+    weight.resize(points);
+    visit_rows(connection_->rows(),
+               [&](Index p, const RowRun<const float>& run, std::size_t i, const auto&) {
+                 weight[std::size_t(p)] = run.at(0, 0, i) + float(shared_.total_curvature_share);
+               });
+  }
+  diagonal_.resize(points);
+  square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
+                  varies() ? weight.data() : nullptr, diagonal_.data());
+  for (std::size_t v = 0; v < vertex_weight_.size(); ++v) diagonal_[v] += float(vertex_weight_[v]);
+  set_damping({});
+}
+
+AssembledSystem CurvatureLevel::assemble() const {
+  AssembledSystem system;
+  const std::vector<Index> number = number_unknowns(grid_, shared_.unknowns);
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] >= 0) system.unknown_points.push_back(Index(p));
+  const auto size = Eigen::Index(system.unknown_points.size()),
+             moments = Eigen::Index(3 * grid_.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  visit_rows(rows_, [&](Index p, const RowRun<const float>& run, std::size_t i,
+                        const std::vector<Index>& at) {
+    for (int s = 0; s < run.slots; ++s) {
+      const Index column = number[std::size_t(at[std::size_t(s)])];
+      for (int c = 0; c < 3 && column >= 0; ++c)
+        entries.emplace_back(3 * p + c, column, double(run.at(c, s, i)));
+    }
+  });
+  SparseMatrix jacobian(moments, size);
+  jacobian.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix transposed = jacobian.transpose();
+  if (varies()) {
+    entries.clear();
+    visit_rows(connection_->rows(), [&](Index p, const RowRun<const float>& run, std::size_t i,
+                                        const std::vector<Index>& at) {
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(3 * p + c, 3 * p + c,
+                             double(run.at(0, 0, i)) + shared_.total_curvature_share);
+      for (int s = 1; s < run.slots; ++s) {
+        const Index q = at[std::size_t(s)];
+        const double cosine = run.at(1, s, i), sine = run.at(2, s, i);
+        entries.emplace_back(3 * p, 3 * q, double(run.at(0, s, i)));
+        entries.emplace_back(3 * p + 1, 3 * q + 1, cosine);
+        entries.emplace_back(3 * p + 1, 3 * q + 2, -sine);
+        entries.emplace_back(3 * p + 2, 3 * q + 1, sine);
+        entries.emplace_back(3 * p + 2, 3 * q + 2, cosine);
+      }
+    });
+    SparseMatrix connection(moments, moments);
+    connection.setFromTriplets(entries.begin(), entries.end());
+    const SparseMatrix turned = connection * jacobian;
+    system.matrix = transposed * turned;
+  } else {
+    system.matrix = transposed * jacobian;
+  }
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
+    double extra = system.matrix.coeff(i, i) > 0 ? 0.0 : 1.0;
+    if (p < vertex_weight_.size()) extra += vertex_weight_[p];
+    if (!damping_.empty()) extra += double(damping_[p]);
+    if (extra > 0) system.matrix.coeffRef(i, i) += extra;
+  }
+  return system;
+}
+
+}  // namespace fairing

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Gauss-Newton system of a curvature energy on one level, about one surface: for scalar
+// displacements h along the normals,
+//
+//   total curvature     E = sum_i w_i |M_i|^2                       K = J^T W J
+//   minimum variation   E = sum_ij c_ij |M_i - T_ij M_j T_ij^T|^2   K = J^T (L + share W) J
+//
+// where M_i is the second fundamental form (point_curvature.h), w_i its point's area, J its change
+// with h, c_ij the cotangent weight of the edge ij, T_ij the rotation from one chart to the other,
+// and L the connection Laplacian.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "curvature/connection.h"
+#include "curvature/normal_matrix.h"
+#include "curvature/point_curvature.h"
+#include "curvature/ring_jacobian.h"
+#include "multigrid/level_operator.h"
+#include "stencil/weights.h"
+
+namespace fairing {
+
+// What all levels share.
+struct CurvatureShared {
+  const ControlMesh& mesh;
+  Unknowns unknowns;
+  CurvatureEnergy energy;
+  Workers& workers;
+  VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
+  std::vector<Vec3> targets{};
+  double total_curvature_share = 0;  // minimum variation: of W beside L
+  ElementSlots<double, 1> double_slots{};
+  ElementSlots<float, 1> float_slots{};
+  std::pair<Array<double>, Array<double>> double_moments{};
+  std::pair<Array<float>, Array<float>> float_moments{};
+
+  template <class T>
+  auto& moments() {
+    if constexpr (std::is_same_v<T, float>)
+      return float_moments;
+    else
+      return double_moments;
+  }
+};
+
+// What linearizing about a surface gives beside K. Numbers are zero where a point carries no fit.
+struct Linearization {
+  // Minus half the energy's gradient along the normals, on the unknowns: K h = force is the step.
+  Array<double> force;
+  Array<double> normal;    // 3 a point, of unit length
+  Array<float> shape;      // 4 a point: M's orthonormal components, and the root of its area
+  bool with_axes = false;  // set beforehand: whether `axis` is wanted
+  Array<float> axis;       // 3 a point: the chart's u axis in space
+};
+
+class CurvatureLevel final : public LevelOperator {
+ public:
+  CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
+
+  // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
+  double linearize(const double* x, Linearization* out = nullptr);
+
+  // The latest energy without the weights' part.
+  double bending() const { return bending_; }
+
+  // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what apply() and
+  // assemble() look up.
+  void update_diagonal();
+
+  // M as it would be after the displacement h, to first order: 3 numbers a point.
+  void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
+
+  // mu_i K_ii is added to the diagonal from here on; empty: nothing.
+  void set_damping(const Array<float>& mu);
+
+  const Array<float>& diagonal() const { return diagonal_; }  // zero where a point is no unknown
+
+  std::size_t points() const override { return grid_.size(); }
+  std::size_t components() const override { return 1; }
+  void apply(const double* x, double* y) override { apply_any(x, y, shared_.double_slots); }
+  void apply(const float* x, float* y) override { apply_any(x, y, shared_.float_slots); }
+  bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
+  const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
+  AssembledSystem assemble() const override;
+
+ private:
+  struct Tensors;
+  double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
+  double add_vertex_weights(const double* x, const double* normal, double* force);
+  template <class T>
+  void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
+  void apply_rows(const double* x, double* y);
+  void apply_rows(const float* x, float* y);
+  bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
+
+  CurvatureShared& shared_;
+  const GridLevel& grid_;
+  double bending_ = 0;
+  RingJacobian rows_;                          // sqrt(w) J
+  std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
+  std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
+  bool suits_square_, square_is_old_ = true;
+  std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
+  std::unique_ptr<Connection> connection_;  // minimum variation only
+  Array<float> diagonal_, inverse_diagonal_, damping_;
+};
+
+}  // namespace fairing

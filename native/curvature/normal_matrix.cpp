@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/normal_matrix.h"
+
+#include "parallel/cancel.h"
+#include "sparse/unknown_points.h"
+
+namespace fairing {
+namespace {
+
+// Products a point, on average, up to which the matrix is worth its pattern: a vertex of valence v
+// has (v + 1)^2 of them. Regular rings have 49 or 81.
+constexpr std::size_t most_products = 128;
+// Room that is reserved a row: inside a quad, the ring's rings.
+constexpr std::size_t regular_columns = 25;
+constexpr std::uint16_t none = 0xffff;
+constexpr std::size_t grain = 1024;  // rows worth a thread
+
+}  // namespace
+
+bool NormalMatrix::suits(const RingJacobian& rows) {
+  const GridLevel& grid = rows.grid();
+  if (grid.n() > most_pieces_of_matrix) return false;
+  std::size_t products = 81 * grid.size();
+  for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
+    const auto slots = std::size_t(rows.of(vertex_run(v)).slots);
+    products += slots * slots;
+  }
+  return products < most_products * grid.size();
+}
+
+NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
+    : grid_(rows.grid()) {
+  const float* origin = rows.data();
+  visit_rows(rows, [&](Index, const RowRun<const float>& run, std::size_t i,
+                       const std::vector<Index>& points) {
+    stop_if_cancelled(ring_.size());
+    ring_.push_back({std::size_t(&run.at(0, 0, i) - origin), std::uint32_t(member_.size()),
+                     std::uint32_t(run.count)});
+    member_.insert(member_.end(), points.begin(), points.end());
+  });
+  ring_.push_back({0, std::uint32_t(member_.size()), 0});
+  jacobian_.resize(3 * member_.size());
+  const std::vector<Index> unknown = number_unknowns(grid_, unknowns);
+  find_ring_slots(unknown);
+  find_columns(unknown);
+  number_.resize(column_.size());
+}
+
+void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
+  ring_slot_begin_.assign(unknown.size() + 1, 0);
+  for (std::size_t m = 0; m < member_.size(); ++m) {
+    stop_if_cancelled(m);
+    if (const auto q = std::size_t(member_[m]); unknown[q] >= 0) ++ring_slot_begin_[q + 1];
+  }
+  for (std::size_t p = 0; p < unknown.size(); ++p) ring_slot_begin_[p + 1] += ring_slot_begin_[p];
+  ring_slot_.resize(ring_slot_begin_.back());
+  Array<std::size_t> next(ring_slot_begin_.begin(), ring_slot_begin_.end() - 1);
+  for (std::uint32_t r = 0; r < unknown.size(); ++r) {
+    stop_if_cancelled(r);
+    for (std::uint32_t k = ring_[r].begin; k < ring_[r + 1].begin; ++k) {
+      const auto q = std::size_t(member_[k]);
+      if (unknown[q] >= 0) ring_slot_[next[q]++] = {r, k - ring_[r].begin};
+    }
+  }
+}
+
+void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
+  std::size_t targets = 0;
+  for (const RingSlot& entry : ring_slot_)
+    targets += ring_[entry.ring + 1].begin - ring_[entry.ring].begin;
+  target_.reserve(targets);
+  column_.reserve(regular_columns * unknown.size());
+  // 1 + the place among all columns, for those of this row
+  std::vector<std::size_t> seen(unknown.size(), 0);
+  for (std::size_t p = 0; p < unknown.size(); ++p) {
+    stop_if_cancelled(p);
+    const std::size_t first = column_.size();
+    column_begin_.push_back(first);
+    target_begin_.push_back(target_.size());
+    for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
+      const std::uint32_t r = ring_slot_[k].ring;
+      for (std::uint32_t m = ring_[r].begin; m < ring_[r + 1].begin; ++m) {
+        const auto q = std::size_t(member_[m]);
+        if (unknown[q] < 0) {
+          target_.push_back(none);
+          continue;
+        }
+        if (seen[q] <= first) {
+          column_.push_back(Index(q));
+          seen[q] = column_.size();
+        }
+        target_.push_back(LocalColumn(seen[q] - 1 - first));
+      }
+    }
+  }
+  column_begin_.push_back(column_.size());
+  target_begin_.push_back(target_.size());
+}
+
+void NormalMatrix::update(const RingJacobian& rows, Workers& workers) {
+  const float* origin = rows.data();
+  const std::size_t points = grid_.size();
+  workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const Ring& ring = ring_[p];
+      const std::size_t slots = ring_[p + 1].begin - ring.begin;
+      for (std::size_t s = 0; s < slots; ++s)
+        for (std::size_t c = 0; c < 3; ++c)
+          jacobian_[3 * (ring.begin + s) + c] = origin[ring.first + (c * slots + s) * ring.stride];
+    }
+  });
+  workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      float* row = number_.data() + column_begin_[p];
+      std::fill(row, number_.data() + column_begin_[p + 1], 0.0f);
+      const LocalColumn* target = target_.data() + target_begin_[p];
+      for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
+        const RingSlot entry = ring_slot_[k];
+        const float* own = jacobian_.data() + 3 * (ring_[entry.ring].begin + entry.slot);
+        const float* other = jacobian_.data() + 3 * ring_[entry.ring].begin;
+        for (const float* last = jacobian_.data() + 3 * ring_[entry.ring + 1].begin; other < last;
+             other += 3)
+          if (const LocalColumn to = *target++; to != none)
+            row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
+      }
+    }
+  });
+}
+
+void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
+  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      float sum[2] = {0, 0};
+      std::size_t k = column_begin_[p];
+      const std::size_t last = column_begin_[p + 1];
+      for (; k + 1 < last; k += 2) {
+        sum[0] += number_[k] * x[column_[k]];
+        sum[1] += number_[k + 1] * x[column_[k + 1]];
+      }
+      if (k < last) sum[0] += number_[k] * x[column_[k]];
+      y[p] = sum[0] + sum[1];
+    }
+  });
+}
+
+}  // namespace fairing

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// R^T R as one sparse matrix in single precision, for levels whose faces have few points: there
+// most points lie on control edges and at control vertices, and passes over runs cost several times
+// what an index a number does.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "curvature/ring_jacobian.h"
+
+namespace fairing {
+
+// Pieces of a control edge up to which a level is for it: with more, most points lie inside faces.
+constexpr int most_pieces_of_matrix = 8;
+
+class NormalMatrix {
+ public:
+  // Whether a level is better served so: few points a face, and no rings so large that their
+  // squares are not linear.
+  static bool suits(const RingJacobian& rows);
+
+  // The pattern: the unknowns that share a ring. The grid of `rows` must outlive it. Throws
+  // ErrorCode::cancelled.
+  NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns);
+
+  // The numbers of rows with that pattern.
+  void update(const RingJacobian& rows, Workers& workers);
+
+  // y <- R^T R x; zero where a point is no unknown.
+  void apply(const float* x, Workers& workers, float* y) const;
+
+ private:
+  using LocalColumn = std::uint16_t;
+
+  // The ring of a point, itself first: its members begin at member_[begin]. In RingJacobian row c's
+  // coefficient for slot s is data()[first + (c * slots + s) * stride].
+  struct Ring {
+    std::size_t first;
+    std::uint32_t begin, stride;
+  };
+  // A point's part in a ring: it is in this slot.
+  struct RingSlot {
+    std::uint32_t ring, slot;
+  };
+  void find_ring_slots(const std::vector<Index>& unknown);
+  void find_columns(const std::vector<Index>& unknown);
+
+  const GridLevel& grid_;
+  Array<Ring> ring_;       // one a point, and one more
+  Array<Index> member_;    // of all rings
+  Array<float> jacobian_;  // three numbers a member
+  // By point, and one more: where its ring slots, columns and targets begin.
+  Array<std::size_t> ring_slot_begin_, column_begin_, target_begin_;
+  Array<RingSlot> ring_slot_;
+  // For each ring slot of a point, for each member of that ring: the column, counted within the
+  // point's row, to which their product is added; `none` where the member is no unknown.
+  Array<LocalColumn> target_;
+  Array<Index> column_;
+  Array<float> number_;
+};
+
+}  // namespace fairing

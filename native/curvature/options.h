@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the Gauss-Newton solver is asked, and what it answers. Lengths and energies are in working
+// coordinates, where the mesh's size is about one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fairing {
+
+// The functional whose rows are assembled. Displacing a surface by h along its normals turns its
+// metric by -2 h M, so that J h has a term of h itself beside the Hessian of h:
+//
+//   total_curvature     h (M^2 - tr(M) M / 2): the variation of |M|^2 dA, the change of area in it
+//   minimum_variation   h M^2: the variation of the shape operator alone
+enum class CurvatureEnergy { total_curvature, minimum_variation };
+
+struct GaussNewtonOptions {
+  // What the finest level's surface minimizes. Coarser levels minimize total curvature always.
+  CurvatureEnergy energy = CurvatureEnergy::total_curvature;
+  // Steps end where less is left to move, in working units (the mesh's size is about one).
+  double step_tolerance = 1e-6;
+  int max_steps = 20;        // on each level, for each way of stepping that is tried there
+  int max_iterations = 200;  // of each linear solve
+  int smoother_degree = 0;   // Chebyshev's; 0: chosen from how the solves go
+};
+
+// One Gauss-Newton step.
+struct StepReport {
+  bool variation = false;  // of minimum variation; else of total curvature
+  double energy = 0;       // before the step
+  // sqrt(h . K h / energy): the share of the energy's root that a full step would take off.
+  double decrement = 0;
+  double length = 1;    // the share of the step that was taken; 0: rejected
+  double movement = 0;  // the farthest that the last trial took any point
+  int iterations = 0;   // of the linear solve
+  double residual = 0;  // of the linear solve, relative to its start
+  bool direct = false;  // solved by a factorization, without iterations
+};
+
+struct CurvatureLevelReport {
+  int level = 0;
+  double plate_energy = 0;  // total curvature of the thin plate's surface
+  double start_energy = 0;  // of the surface that the steps started from
+  double energy = 0;        // of the surface returned
+  // Minimum variation's energy before its steps and after them; on the finest level alone.
+  double start_variation = 0, variation = 0;
+  // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
+  std::size_t folds_before = 0, folds = 0;
+  std::vector<StepReport> steps;
+  // The steps came to their end, at a decrement of 3e-2 at most: what a full step could still gain
+  // is below a thousandth of the energy.
+  bool converged = false;
+  bool accurate = false;  // what is left to move is below the step tolerance
+};
+
+}  // namespace fairing

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/solver.h"
+
+#include <cmath>
+#include <utility>
+
+#include "curvature/hold.h"
+#include "curvature/start.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Plain steps until plain_decrement, where nothing is known of how they go.
+constexpr int long_patience = 14;
+
+// After control vertices have moved: a change of the energy, relative, at which what only
+// preconditions may stay as it is.
+constexpr double nearby = 0.02;
+
+bool has_settled(const CurvatureLevelReport& report) {
+  return report.converged && report.energy <= report.plate_energy;
+}
+
+}  // namespace
+
+GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
+                                     const std::vector<CurvatureGrid>& levels, int base,
+                                     const Stencils& stencils, const Unknowns& unknowns,
+                                     const GaussNewtonOptions& options, ControlHold hold,
+                                     double epsilon, Mirrors mirrors, Workers& workers,
+                                     Monitor& monitor)
+    : options_(options),
+      epsilon_(epsilon),
+      hold_(std::move(hold)),
+      system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
+              monitor),
+      iterate_{system_},
+      folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
+      steps_(iterate_, hold_, options_),
+      unfolding_(iterate_, hold_, folded_faces_, steps_),
+      variation_(iterate_, options_) {
+  system_.shared().weights = hold_.weights();
+  if (hold_.any()) system_.shared().targets.assign(hold_.targets().begin(), hold_.targets().end());
+}
+
+CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
+  CurvatureLevelReport report;
+  report.level = level;
+  if (level < system_.base()) return report;
+  choose_start(iterate_, level, plate, plate_below_, report);
+  const StepStart start{iterate_.current.points, report};
+  minimize(start, report);
+  plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
+  if (is_finest()) finish(start, plate, report);
+  return report;
+}
+
+// Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
+// They stand if they settle and have never failed so far; else damped steps from the same start
+// show whether they have found a worse surface.
+void GaussNewtonSolver::minimize(const StepStart& start, CurvatureLevelReport& report) {
+  const bool doubtful = is_finest() && stepping_ == Stepping::damped;
+  const StepEnd end = is_finest() ? accurate_end() : StepEnd{plain_decrement, 0};
+  steps_.run_plain(end, doubtful ? short_patience : long_patience, report);
+  if (has_settled(report) && stepping_ == Stepping::plain) return;
+  LinearizedSurface plain = iterate_.current;
+  const CurvatureLevelReport plain_report = std::exchange(report, start.report);
+  iterate_.current.points = start.points;
+  LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
+  steps_.run_damped(damping, report);
+  if (is_finest()) steps_.polish_damped(report);
+  const bool plain_is_as_good =
+      has_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
+  stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
+  if (!plain_is_as_good) return;
+  iterate_.current = std::move(plain);
+  report = plain_report;
+}
+
+// What the finest level's surface has beyond those of coarser ones.
+void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plate,
+                               CurvatureLevelReport& report) {
+  unfolding_.run(start, report);
+  if (hold_.any()) fix_held(iterate_, hold_, steps_, report);
+  if (epsilon_ > 0) release_by_epsilon(iterate_, epsilon_, steps_, report);
+  if (!(report.energy <= report.plate_energy)) fall_back(plate, report);
+  if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
+  solved_folds_ = report.folds = unfolding_.find().count();
+  solved_energy_ = report.energy;
+  is_sound_ = report.converged;
+}
+
+// Steps may end in a fold; then the thin plate's surface is the better one.
+void GaussNewtonSolver::fall_back(const Array<double>& plate, CurvatureLevelReport& report) {
+  start_at_plate(iterate_, iterate_.level, plate);
+  iterate_.linearize();
+  report.energy = iterate_.op().bending();
+  report.converged = report.accurate = false;
+}
+
+// Where steps had to be damped, or control vertices take part in them, all levels are needed.
+bool GaussNewtonSolver::can_move() const {
+  return is_sound_ && stepping_ == Stepping::plain && !hold_.any() && !(epsilon_ > 0);
+}
+
+void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
+  for_each_index(iterate_.workers(), surface().size(),
+                 [&](std::size_t i) { surface()[i] -= plate[i]; });
+}
+
+bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
+                                    CurvatureLevelReport& report) {
+  system_.symmetrizer().set_mirrors(std::move(mirrors));
+  folded_faces_ = folded_control_faces(system_.mesh(), hold_.targets(), iterate_.workers());
+  for_each_index(iterate_.workers(), surface().size(),
+                 [&](std::size_t i) { surface()[i] += plate[i]; });
+  system_.symmetrizer().points(iterate_.grid(), surface());
+  iterate_.linearize();
+  iterate_.is_linearized = true;
+  report.level = iterate_.level;
+  report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
+  report.start_energy = report.energy = iterate_.op().bending();
+  if (!(report.start_energy <= unlike_energy * solved_energy_ + flat_energy)) return false;
+  iterate_.is_near_earlier =
+      std::abs(report.start_energy - solved_energy_) <= nearby * solved_energy_;
+  report.converged = true;
+  if (options_.energy == CurvatureEnergy::minimum_variation)
+    variation_.run(report);
+  else
+    steps_.run_plain(accurate_end(), short_patience, report);
+  report.folds_before = report.folds = unfolding_.find().count();
+  is_sound_ = report.converged &&
+              report.energy <= equal_energy * report.start_energy + flat_energy &&
+              report.folds <= solved_folds_;
+  solved_energy_ = report.energy;
+  return is_sound_;
+}
+
+}  // namespace fairing

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of least total curvature, or of least variation of curvature: Gauss-Newton steps along
+// the normals, level by level, from the thin plate's surface. What is done in which order; how, is
+// with the parts: start.h, steps.h, unfold.h, hold.h, variation.h.
+#pragma once
+
+#include "curvature/unfold.h"
+#include "curvature/variation.h"
+
+namespace fairing {
+
+class GaussNewtonSolver {
+ public:
+  // `levels`: all from 0 on; those below `base` have no unknowns. `epsilon` in working units: how
+  // far interpolated control vertices are let go at the end; 0: not at all. `mirrors`: the
+  // symmetries that the surface is to keep. The references must outlive the solver.
+  GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
+                    const Stencils& stencils, const Unknowns& unknowns,
+                    const GaussNewtonOptions& options, ControlHold hold, double epsilon,
+                    Mirrors mirrors, Workers& workers, Monitor& monitor);
+
+  // The surface of a level, from `plate`, the thin plate's (3 numbers a point, in working
+  // coordinates). Levels have to come in order; on each but the first the level below helps to
+  // start. Throws ErrorCode::cancelled, and std::bad_alloc; the solver is of no use then.
+  CurvatureLevelReport solve_level(int level, const Array<double>& plate);
+
+  // The finest level's surface again after control vertices have moved, by steps on that level
+  // alone, from the surface before: leave_plate() subtracts the thin plate's surface of before,
+  // solve_moved() adds the present one. False: the steps do not go well that way, and another
+  // solver has to solve level by level. Both need can_move(). Throws as solve_level().
+  bool can_move() const;
+  void leave_plate(const Array<double>& plate);
+  bool solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report);
+
+  // The latest level's surface: 3 numbers a point.
+  Array<double>& surface() { return iterate_.current.points; }
+
+ private:
+  enum class Stepping { undecided, plain, damped };
+
+  void minimize(const StepStart& start, CurvatureLevelReport& report);
+  void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
+  void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
+  StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
+  bool is_finest() const { return iterate_.level == system_.finest(); }
+
+  GaussNewtonOptions options_;
+  double epsilon_;
+  ControlHold hold_;
+  GaussNewtonSystem system_;
+  SurfaceIterate iterate_;
+  std::vector<std::uint8_t> folded_faces_;  // of the control mesh
+  TotalCurvatureSteps steps_;
+  Unfolding unfolding_;
+  VariationSteps variation_;
+  Stepping stepping_ = Stepping::undecided;  // what went well on the latest level
+  Array<double> plate_below_;                // the thin plate's surface on the level before
+
+  // Of the finest level's latest solution.
+  bool is_sound_ = false;
+  double solved_energy_ = 0;
+  std::size_t solved_folds_ = 0;
+};
+
+}  // namespace fairing

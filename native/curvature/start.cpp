@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/start.h"
+
+#include <utility>
+
+#include "curvature/steps.h"
+#include "parallel/reductions.h"
+#include "transfer/point_normal.h"
+#include "transfer/quadratic.h"
+
+namespace fairing {
+namespace {
+
+constexpr double real_gain = 1 - 1e-9;  // of the energy: less may be rounding
+// An energy that is this many times the level below's calls for the refined surface, and for the
+// polyhedron: each costs a linearization.
+constexpr double far_above = unlike_energy, desperately_above = 10;
+
+// The candidates after the first. `below` is the level below's solution; a candidate that is taken
+// becomes iterate.current.
+class Candidates {
+ public:
+  Candidates(SurfaceIterate& iterate, const Array<double>& plate, CurvatureLevelReport& report)
+      : it_(iterate), plate_(plate), diagonal_(iterate.op().diagonal()), report_(report) {
+    it_.trial.points.resize(plate_size());
+  }
+
+  void try_change(const LinearizedSurface& below, const Array<double>& plate_below) {
+    Array<double> change(below.points.size());
+    for_each_index(it_.workers(), change.size(),
+                   [&](std::size_t i) { change[i] = below.points[i] - plate_below[i]; });
+    ElementSlots<double, 3> slots;
+    prolong(coarse(), it_.grid(), it_.system.stencils(), nullptr, it_.workers(), slots,
+            change.data(), trial().data());
+    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
+      trial()[i] = plate_[i] + (is_unknown(i / 3) ? trial()[i] : 0.0);
+    });
+    take_if_lower();
+  }
+
+  // Zero normals: the polyhedron.
+  void try_refined(const Array<double>& below, const Array<double>& normal) {
+    prolong_with_normals(coarse(), it_.grid(), it_.workers(), below.data(), normal.data(),
+                         trial().data());
+    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
+      if (!is_unknown(i / 3)) trial()[i] = plate_[i];
+    });
+    take_if_lower();
+  }
+
+ private:
+  const GridLevel& coarse() const { return it_.system.grid(it_.level - 1); }
+  Array<double>& trial() { return it_.trial.points; }
+  std::size_t plate_size() const { return 3 * it_.grid().size(); }
+  bool is_unknown(std::size_t p) const { return diagonal_[p] > 0; }
+
+  void take_if_lower() {
+    it_.system.symmetrizer().points(it_.grid(), trial());
+    it_.trial.energy = it_.op().linearize(trial().data(), &it_.trial.linearization);
+    const double bending = it_.op().bending();
+    it_.is_linearized = bending < real_gain * report_.start_energy;
+    if (!it_.is_linearized) return;
+    report_.start_energy = bending;
+    std::swap(it_.current, it_.trial);
+  }
+
+  SurfaceIterate& it_;
+  const Array<double>& plate_;
+  const Array<float>& diagonal_;  // of the latest surface; which points are unknowns stays the same
+  CurvatureLevelReport& report_;
+};
+
+}  // namespace
+
+void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate) {
+  iterate.level = level;
+  Array<double>& x = iterate.current.points;
+  x.resize(3 * iterate.grid().size());
+  for_each_index(iterate.workers(), x.size(), [&](std::size_t i) { x[i] = plate[i]; });
+  iterate.system.symmetrizer().points(iterate.grid(), x);
+}
+
+void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate,
+                  const Array<double>& plate_below, CurvatureLevelReport& report) {
+  const LinearizedSurface below = std::exchange(iterate.current, {});
+  start_at_plate(iterate, level, plate);
+  iterate.linearize();
+  iterate.is_linearized = true;
+  report.plate_energy = report.start_energy = iterate.op().bending();
+  if (below.points.empty()) return;
+  Candidates candidates(iterate, plate, report);
+  candidates.try_change(below, plate_below);
+  if (report.start_energy > far_above * below.energy)
+    candidates.try_refined(below.points, below.linearization.normal);
+  if (report.start_energy > desperately_above * below.energy)
+    candidates.try_refined(below.points, Array<double>(below.points.size(), 0.0));
+}
+
+}  // namespace fairing

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/steps.h"
+
+#include <cmath>
+#include <utility>
+
+#include "curvature/anderson.h"
+
+namespace fairing {
+namespace {
+
+// A step that an eighth of does not help is in the wrong direction: other damping is worth more
+// than another linearization at a shorter length.
+constexpr double least_length = 1.0 / 8;
+// Damping has grown 8^4 times by then.
+constexpr int most_rejections = 4;
+
+bool search(StepMethod& method, const StepCount& count, StepReport& step) {
+  for (step.length = 1; step.length >= least_length; step.length /= 2) {
+    const double energy = method.try_length(step, count);
+    if (method.is_acceptable(step, energy)) return true;
+  }
+  step.length = 0;
+  return false;
+}
+
+}  // namespace
+
+void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
+  StepCount count;
+  while (count.total() < most && count.rejected < most_rejections && method.begin(report)) {
+    StepReport& step = report.steps.emplace_back();
+    method.find_step(step);
+    if (search(method, count, step)) {
+      ++count.accepted;
+      if (method.accept(step, count, report)) return;
+    } else {
+      ++count.rejected;
+      if (!method.reject()) return;
+    }
+  }
+}
+
+namespace {
+
+// Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
+// near the end, where the minimum of the discrete energy lies beside the solution of the equation.
+constexpr double allowed_rise = 0.1;
+// Decrement below which the energy says nothing about a step any more.
+constexpr double unchecked_decrement = 1e-2;
+
+// Decrement below which steps are accelerated: each then leaves a fixed share of the error.
+constexpr double accelerated_decrement = 0.1;
+
+// The ratio of two decrements tells what is left to move. The first one is of a step that was not
+// accelerated, and flatters; so do acceleration and inexact solves, wherefore none below
+// least_ratio is believed (measured: with it no sphere of a hundred is left too early, without it
+// one is).
+constexpr double first_ratio = 10;
+constexpr double least_ratio = 0.1;
+// From this ratio on decrements do not tell what is left; the step itself is taken for it.
+constexpr double irregular_ratio = 0.5;
+
+// Plain steps after damped ones: such as have not reached plain_decrement by then never will.
+constexpr int polishing_patience = 3;
+
+class TotalCurvatureMethod final : public StepMethod {
+ public:
+  // `damping` is null for plain steps.
+  TotalCurvatureMethod(SurfaceIterate& iterate, ControlHold& hold, double step_tolerance,
+                       LocalDamping* damping, const StepEnd& end, int patience)
+      : it_(iterate),
+        hold_(hold),
+        step_tolerance_(step_tolerance),
+        damping_(damping),
+        end_(end),
+        patience_(patience) {
+    it_.trial.points.resize(3 * it_.grid().size());
+    // local damping compares tensors in space
+    it_.current.linearization.with_axes = it_.trial.linearization.with_axes = damping != nullptr;
+    if (!std::exchange(it_.is_linearized, false)) it_.linearize();
+  }
+
+  bool begin(CurvatureLevelReport& report) override {
+    report.converged = it_.current.energy < flat_energy;
+    if (report.converged) return false;
+    it_.system.report_progress(it_.level, report.steps.size());
+    return true;
+  }
+
+  void find_step(StepReport& step) override {
+    const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
+    if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
+    it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
+    step.energy = it_.current.energy;
+    const double gain =
+        it_.system.solve(it_.level, it_.current.linearization.force, fresh, it_.step, step);
+    step.decrement = std::sqrt(gain / it_.current.energy);
+    if (step.decrement < accelerated_decrement)
+      anderson_.accelerate(it_.op(), it_.workers(), it_.step);
+    if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
+  }
+
+  double try_length(StepReport& step, const StepCount& count) override {
+    const double energy = it_.try_step(step.length);
+    step.movement = it_.movement(step.length);
+    const bool judges = step.length == 1 && is_checked(step);
+    if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
+                                  count.rejected, count.accepted, step.decrement))
+      anderson_.reset();
+    return energy;
+  }
+
+  bool is_acceptable(const StepReport& step, double energy) const override {
+    if (!std::isfinite(energy)) return false;
+    return !is_checked(step) ||
+           !(energy > it_.current.energy * (1 + allowed_rise * step.decrement));
+  }
+
+  bool accept(const StepReport& step, const StepCount& count,
+              CurvatureLevelReport& report) override {
+    anderson_.accept(step.length);
+    std::swap(it_.current, it_.trial);
+    const double left = share_left(step.decrement) * step.movement;
+    if (hold_.adapts() && !it_.system.shared().weights.empty()) adapt_hold();
+    report.converged =
+        end_.decrement > 0 ? step.decrement <= end_.decrement : left <= end_.movement;
+    report.accurate = left <= step_tolerance_;
+    report.converged &=
+        it_.system.shared().weights.empty() || !hold_.adapts() || hold_.holds(it_.current.points);
+    const bool hopeless =
+        !damping_ && count.total() >= patience_ && step.decrement > plain_decrement;
+    return report.converged || hopeless;
+  }
+
+  bool reject() override {
+    anderson_.reset();
+    it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
+    last_decrement_ = 0;
+    return damping_ != nullptr;
+  }
+
+ private:
+  bool is_checked(const StepReport& step) const {
+    return damping_ && !(step.decrement < unchecked_decrement);
+  }
+
+  // What is left to move after the step, as a share of its movement: for a ratio q of decrements
+  // q + q^2 + ... = q / (1 - q).
+  double share_left(double decrement) {
+    const double ratio = last_decrement_ > 0 ? decrement / last_decrement_ : 1;
+    const double trusted = std::max(least_ratio, ratio * (has_ratio_ ? 1 : first_ratio));
+    has_ratio_ = last_decrement_ > 0;
+    last_decrement_ = decrement;
+    return trusted < irregular_ratio ? trusted / (1 - trusted) : 1;
+  }
+
+  // Other weights within the tolerance: another energy, of which earlier steps tell nothing.
+  void adapt_hold() {
+    hold_.adapt(it_.current.points);
+    it_.system.shared().weights = hold_.weights();
+    anderson_.reset();
+    it_.linearize();
+    last_decrement_ = 0;
+  }
+
+  SurfaceIterate& it_;
+  ControlHold& hold_;
+  double step_tolerance_;
+  LocalDamping* damping_;
+  StepEnd end_;
+  int patience_;
+  Anderson anderson_;
+  Array<float> predicted_;
+  double last_decrement_ = 0;
+  bool has_ratio_ = false;  // whether the step before had one
+};
+
+}  // namespace
+
+void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int patience,
+                              CurvatureLevelReport& report) {
+  TotalCurvatureMethod method(iterate_, hold_, options_.step_tolerance, damping, end, patience);
+  run_steps(method, options_.max_steps, report);
+  report.energy = iterate_.op().bending();
+}
+
+void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
+                                    CurvatureLevelReport& report) {
+  run(nullptr, end, patience, report);
+}
+
+void TotalCurvatureSteps::run_damped(LocalDamping& damping, CurvatureLevelReport& report) {
+  run(&damping, {damped_decrement, 0}, 0, report);
+}
+
+void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {
+  LinearizedSurface before = iterate_.current;
+  CurvatureLevelReport polished = report;
+  polished.converged = false;
+  run_plain({0, options_.step_tolerance}, patience, polished);
+  if (polished.converged && polished.energy <= most)
+    report = polished;
+  else
+    iterate_.current = std::move(before);
+}
+
+void TotalCurvatureSteps::polish_damped(CurvatureLevelReport& report) {
+  if (report.converged) polish(polishing_patience, equal_energy * report.energy, report);
+}
+
+}  // namespace fairing

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Gauss-Newton steps on one level: first the loop that all kinds of steps share, then those to the
+// least total curvature.
+#pragma once
+
+#include "curvature/hold.h"
+#include "curvature/local_damping.h"
+#include "curvature/options.h"
+#include "curvature/system.h"
+
+namespace fairing {
+
+// One loop for all kinds of Gauss-Newton steps (run_steps): a direction, a line search that halves,
+// and what is done about a step that no length makes acceptable. It knows nothing of surfaces; a
+// StepMethod says what a step is.
+
+struct StepCount {
+  int accepted = 0, rejected = 0;
+
+  int total() const { return accepted + rejected; }
+};
+
+class StepMethod {
+ public:
+  virtual ~StepMethod() = default;
+
+  // Before a step. False: nothing is left to gain, and `report` says so.
+  virtual bool begin(CurvatureLevelReport& report) = 0;
+
+  // The full step from where the iteration is; sets `step` but for its length and movement.
+  virtual void find_step(StepReport& step) = 0;
+
+  // The energy that the share step.length of the step leads to; sets step.movement. `count` is of
+  // the steps before. The full step is always tried first, then its half, and so on.
+  virtual double try_length(StepReport& step, const StepCount& count) = 0;
+  virtual bool is_acceptable(const StepReport& step, double energy) const = 0;
+
+  // The iteration goes to the latest trial. `count` includes the step. Returns whether the steps
+  // have come to their end; `report` says whether they have converged.
+  virtual bool accept(const StepReport& step, const StepCount& count,
+                      CurvatureLevelReport& report) = 0;
+
+  // The iteration stays where it is. Returns whether there is another step to try from there.
+  virtual bool reject() = 0;
+};
+
+// Steps until one is the last, or `most` have been tried, or several rejected. Every step is added
+// to report.steps; a rejected one has length 0. What the method throws passes through.
+void run_steps(StepMethod& method, int most, CurvatureLevelReport& report);
+
+// Which steps are the last ones: those of a decrement, or else, where `decrement` is zero, those
+// after which less than `movement` is left to move.
+struct StepEnd {
+  double decrement = 0;
+  double movement = 0;
+};
+
+// Where damped steps end, and the decrement that counts as converged at the least: its square,
+// which is what a full step gains of the energy, is below a thousandth.
+constexpr double damped_decrement = 3e-2;
+
+// Plain steps have to come to this decrement in time; on coarse levels they end there.
+constexpr double plain_decrement = 1e-3;
+
+// An energy that is rounding: a sphere has 8 pi, a plane none.
+constexpr double flat_energy = 1e-16;
+
+// A surface found in another way may have this many times the energy of the one it replaces: the
+// equation's solution lies beside the minimum of the discrete energy.
+constexpr double equal_energy = 1.01;
+// One with this many times the energy of another has little to do with it.
+constexpr double unlike_energy = 1.5;
+
+// How many plain steps may be taken to plain_decrement where steps before have come near the
+// solution.
+constexpr int short_patience = 6;
+
+// Two ways to step. Plain steps are full ones, not checked against the energy: they pass through
+// humps of the discrete energy where checked ones are trapped (judged by decrements, as in
+// Deuflhard's natural monotonicity). Damped steps hold where a surface is crumpled, and plain ones
+// run wild. Both are accelerated near the end (anderson.h).
+class TotalCurvatureSteps {
+ public:
+  // All must outlive it.
+  TotalCurvatureSteps(SurfaceIterate& iterate, ControlHold& hold, const GaussNewtonOptions& options)
+      : iterate_(iterate), hold_(hold), options_(options) {}
+
+  // From iterate.current to the surface that the steps end at. `report` has the steps added, and
+  // energy, `converged` and `accurate` set. Throws ErrorCode::cancelled.
+  void run_plain(const StepEnd& end, int patience, CurvatureLevelReport& report);
+  // To damped_decrement; the damping may already hold some points.
+  void run_damped(LocalDamping& damping, CurvatureLevelReport& report);
+
+  // Plain steps to the step tolerance. Unless they converge, with an energy of at most `most`,
+  // surface and report are as before.
+  void polish(int patience, double most, CurvatureLevelReport& report);
+  // The same after damped steps that have converged.
+  void polish_damped(CurvatureLevelReport& report);
+
+ private:
+  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report);
+
+  SurfaceIterate& iterate_;
+  ControlHold& hold_;
+  const GaussNewtonOptions& options_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/system.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grid/injection.h"
+#include "parallel/reductions.h"
+#include "sparse/unknown_points.h"
+
+namespace fairing {
+namespace {
+
+// Of the residual's norm. More accuracy gains no outer step, or at most one.
+constexpr double inner_accuracy = 1e-2;
+
+constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
+constexpr double usual_steps = 4;  // nobody knows how many there will be; most runs take so many
+
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
+  HierarchyOptions out;
+  out.smoother_degree = options.smoother_degree;
+  out.always_factor = unknowns.any_vertex;
+  out.cheap_factor = direct_limit_of_steps;
+  return out;
+}
+
+}  // namespace
+
+void Symmetrizer::points(const GridLevel& grid, Array<double>& x) const {
+  for (const Mirror* mirror : mirrors_)
+    mean_with_image(grid, *mirror, unknowns_, workers_, x.data());
+}
+
+void Symmetrizer::displacements(const GridLevel& grid, Array<double>& h) const {
+  for (const Mirror* mirror : mirrors_)
+    mean_of_displacements(grid, *mirror, unknowns_, workers_, h.data());
+}
+
+GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
+                                     const std::vector<CurvatureGrid>& levels, int base,
+                                     const Stencils& stencils, const Unknowns& unknowns,
+                                     const GaussNewtonOptions& options, Mirrors mirrors,
+                                     Workers& workers, Monitor& monitor)
+    : stencils_(stencils),
+      base_(base),
+      max_iterations_(options.max_iterations),
+      monitor_(monitor),
+      shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
+      hierarchy_(workers, hierarchy_options(unknowns, options)),
+      symmetrizer_(std::move(mirrors), shared_.unknowns, workers) {
+  for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
+  for (int l = base; l <= finest(); ++l) {
+    operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
+    if (l > base)
+      transfers_.push_back(std::make_unique<QuadraticTransfer<1>>(
+          grid(l - 1), grid(l), stencils, shared_.unknowns, levels[std::size_t(l)].to_coarser,
+          workers, shared_.float_slots));
+    hierarchy_.add(*operators_.back(), l > base ? transfers_.back().get() : nullptr,
+                   count_unknowns(grid(l), unknowns));
+  }
+  hierarchy_.complete();
+}
+
+GaussNewtonSystem::~GaussNewtonSystem() = default;
+
+void GaussNewtonSystem::linearize_below(int level, const Array<double>& x) {
+  const Array<double>* fine = &x;
+  Array<double> buffer[2];
+  for (int l = level - 1; l >= base_; --l) {
+    monitor_.check_cancelled();
+    Array<double>& coarse = buffer[l % 2];
+    coarse.resize(3 * grid(l).size());
+    inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
+    op(l).linearize(coarse.data());
+    fine = &coarse;
+  }
+}
+
+void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
+  op(level).set_damping(mu);
+  if (mu.empty()) return;
+  Array<float> fine = mu, coarse;
+  for (int l = level - 1; l >= base_; --l) {
+    coarse.resize(grid(l).size());
+    inject<1>(grid(l), grid(l + 1), workers(), fine.data(), coarse.data());
+    op(l).set_damping(coarse);
+    fine.swap(coarse);
+  }
+}
+
+double GaussNewtonSystem::solve(int level, const Array<double>& force, bool fresh, Array<double>& h,
+                                StepReport& report) {
+  const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
+  h.assign(points, 0.0);
+  if (fresh) hierarchy_.refresh(index, true);
+  std::copy(force.begin(), force.end(), hierarchy_.state().residual.begin());
+  PcgLimits limits;
+  limits.tolerance = inner_accuracy;
+  limits.from_start = true;
+  limits.max_iterations = max_iterations_;
+  const Residual residual = [&](const double* x, double* r) {
+    op(level).apply(x, r);
+    for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
+  };
+  const LevelSolve solved =
+      hierarchy_.solve(index, limits, residual, h.data(), [](const PcgResult&) {});
+  report.iterations = solved.iterations;
+  report.residual = solved.residual;
+  report.direct = solved.direct;
+  symmetrizer_.displacements(grid(level), h);
+  const double square = sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
+  return std::max(0.0, square);
+}
+
+void GaussNewtonSystem::report_progress(int level, std::size_t steps) {
+  monitor_.check_cancelled();
+  if (level < finest()) return;
+  const double share = double(steps) / (double(steps) + usual_steps);
+  monitor_.report(Phase::solve, progress_begin + (progress_end - progress_begin) * share);
+}
+
+namespace {
+
+// Decrement below which the surface changes so little from step to step that coarse levels, their
+// factor and the spectra serve as they are.
+constexpr double nearly_there = 0.1;
+
+}  // namespace
+
+double SurfaceIterate::try_step(double length) {
+  for_each_index(workers(), current.points.size(), [&](std::size_t i) {
+    trial.points[i] = current.points[i] + length * step[i / 3] * current.linearization.normal[i];
+  });
+  system.symmetrizer().points(grid(), trial.points);
+  trial.energy = op().linearize(trial.points.data(), &trial.linearization);
+  return trial.energy;
+}
+
+double SurfaceIterate::movement(double length) {
+  return length * largest(workers(), step.size(), [&](std::size_t i) { return step[i]; });
+}
+
+bool SurfaceIterate::needs_coarse_levels(double last_decrement) {
+  if (std::exchange(is_near_earlier, false)) return false;
+  return !(last_decrement > 0 && last_decrement < nearly_there);
+}
+
+}  // namespace fairing

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Gauss-Newton systems K h = f of all levels about one surface, and linear solves with them:
+// conjugate gradients around V-cycles, whose transfers are those of the thin plate. And the surface
+// itself, with its linearization and a trial beside it: what all kinds of steps work on.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "curvature/level.h"
+#include "curvature/options.h"
+#include "grid/symmetrize.h"
+#include "multigrid/hierarchy.h"
+#include "parallel/monitor.h"
+#include "transfer/level_transfer.h"
+
+namespace fairing {
+
+// A level's grid, and the transfer to the level below as a matrix where the thin plate has
+// assembled it; null elsewhere. Both are the thin plate's, and must outlive the system.
+struct CurvatureGrid {
+  const GridLevel* grid;
+  const AssembledTransfer* to_coarser;
+};
+
+// Keeps mirror symmetries: surfaces and steps become the mean with their mirror images. Rounding
+// differs between the two sides of a mirror, and steps over crumpled places amplify the difference
+// until damping decides differently on either side, so this is needed after every step.
+class Symmetrizer {
+ public:
+  Symmetrizer(Mirrors mirrors, const Unknowns& unknowns, Workers& workers)
+      : mirrors_(std::move(mirrors)), unknowns_(unknowns), workers_(workers) {}
+
+  void set_mirrors(Mirrors mirrors) { mirrors_ = std::move(mirrors); }
+
+  // 3 numbers a point; what is no unknown stays.
+  void points(const GridLevel& grid, Array<double>& x) const;
+  // 1 number a point, along the normals.
+  void displacements(const GridLevel& grid, Array<double>& h) const;
+
+ private:
+  Mirrors mirrors_;
+  const Unknowns& unknowns_;
+  Workers& workers_;
+};
+
+class GaussNewtonSystem {
+ public:
+  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. The references must
+  // outlive the system.
+  GaussNewtonSystem(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
+                    const Stencils& stencils, const Unknowns& unknowns,
+                    const GaussNewtonOptions& options, Mirrors mirrors, Workers& workers,
+                    Monitor& monitor);
+  ~GaussNewtonSystem();
+  GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
+
+  int base() const { return base_; }
+  int finest() const { return int(grids_.size()) - 1; }
+  const ControlMesh& mesh() const { return shared_.mesh; }
+  const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
+  CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
+  const Stencils& stencils() const { return stencils_; }
+  CurvatureShared& shared() { return shared_; }
+  Symmetrizer& symmetrizer() { return symmetrizer_; }
+  Workers& workers() { return shared_.workers; }
+
+  // How many times as much as usual a large factor costs (Hierarchy).
+  void set_factor_price(std::size_t times) { hierarchy_.set_factor_price(times); }
+
+  // The systems of the levels below `level` about x, a surface of that level, injected.
+  void linearize_below(int level, const Array<double>& x);
+
+  // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
+  void set_damping(int level, const Array<float>& mu);
+
+  // Solves K h = force to a hundredth of the residual; h is symmetrized. `fresh`: coarse levels
+  // have been linearized, or damped, since the last solve. The linear solve's part of `report` is
+  // set. Returns h . K h = force . h, by which a full step would lower a quadratic energy.
+  double solve(int level, const Array<double>& force, bool fresh, Array<double>& h,
+               StepReport& report);
+
+  // Before each step: progress, on the finest level. Throws ErrorCode::cancelled.
+  void report_progress(int level, std::size_t steps);
+
+ private:
+  const Stencils& stencils_;
+  int base_, max_iterations_;
+  Monitor& monitor_;
+  std::vector<const GridLevel*> grids_;
+  CurvatureShared shared_;
+  std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
+  std::vector<std::unique_ptr<LevelTransfer>> transfers_;
+  Hierarchy hierarchy_;
+  Symmetrizer symmetrizer_;
+};
+
+struct LinearizedSurface {
+  Array<double> points;         // 3 numbers a point, in working coordinates
+  Linearization linearization;  // of the energy about `points`
+  double energy = 0;            // the control vertices' weights included
+};
+
+struct SurfaceIterate {
+  GaussNewtonSystem& system;
+  int level = 0;
+  LinearizedSurface current{};
+  LinearizedSurface trial{};
+  Array<double> step{};  // from `current` to the trials: along the normals, 1 number a point
+  // The level's K, and `current` as a whole, are about current.points.
+  bool is_linearized = false;
+  // The next step begins so near an earlier surface of this level that coarse levels, which only
+  // precondition, may stay as they are.
+  bool is_near_earlier = false;
+
+  const GridLevel& grid() const { return system.grid(level); }
+  CurvatureLevel& op() { return system.op(level); }
+  Workers& workers() { return system.workers(); }
+
+  // `current` about its points, and K.
+  void linearize() {
+    current.energy = op().linearize(current.points.data(), &current.linearization);
+  }
+
+  // trial <- current + length step, symmetrized, and K about it. Returns its energy.
+  double try_step(double length);
+
+  // The farthest that a step of that length takes a point.
+  double movement(double length);
+
+  // Before the next step: whether coarse levels have to be linearized anew. `last_decrement` of the
+  // step before; 0: there was none, or it was rejected.
+  bool needs_coarse_levels(double last_decrement);
+};
+
+}  // namespace fairing

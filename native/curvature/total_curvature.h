@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The true total curvature of a refined surface, the integral of k1^2 + k2^2: in the surface's own
+// metric, however it was found. 8 pi on any sphere; the thin-plate energy is its stand-in in the
+// control metric.
+#pragma once
+
+#include <vector>
+
+#include "grid/grid_level.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+// The sum of area times density (point_curvature.h) over the points of a level that carry a fit:
+// not those of curves and corners, nor of a boundary in any mode; so the half cells along these
+// count for nothing. x: 3 numbers a point.
+//
+// Second order in the spacing on a smooth closed surface. Finite for any finite x: a point that
+// coincides with a neighbour counts for nothing. Bit-identical for any number of threads.
+double total_curvature(const GridLevel& grid, Workers& workers, const double* x);
+
+// The same over the star of each control vertex: its faces, the edges at it, and itself.
+std::vector<double> total_curvature_of_stars(const GridLevel& grid, Workers& workers,
+                                             const double* x);
+
+}  // namespace fairing

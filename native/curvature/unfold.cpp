@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/unfold.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseLU>
+#include <cmath>
+
+#include "grid/linear.h"
+#include "grid/ring.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Places of all folds so far are filled at most so many times, with the folds' neighbours: one ring
+// more each time.
+constexpr int most_rounds = 3;
+constexpr int rings = 2;
+// Damping of what is filled (measured: without any it may fold again, with 1 it hardly follows).
+constexpr float filled_damping = 0.05f;
+// The energy that fewer folds may cost. Mostly it falls: the folds had trapped the steps.
+constexpr double most_energy = 1.15;
+// A point that gains this share of all energy has burst: it and those around are not refilled.
+constexpr double burst = 0.01;
+constexpr int rings_of_burst = 4;
+
+double point_energy(const Linearization& about, std::size_t i) {
+  const float* m = &about.shape[4 * i];
+  return double(m[3]) * m[3] * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
+}
+
+bool any(const Array<float>& marks) {
+  return std::find(marks.begin(), marks.end(), 1.0f) != marks.end();
+}
+
+using Map = Eigen::Map<const Vec3>;
+using Matrix = Eigen::SparseMatrix<double>;
+
+// A point's ring without the far corners of quads.
+struct Ring {
+  std::vector<Index> points;
+  bool closed = true;
+};
+
+bool is_unknown(const Unknowns& unknowns, const Run& run) {
+  const auto e = std::size_t(run.element);
+  switch (run.kind) {
+    case RunKind::vertex: return unknowns.vertex[e];
+    case RunKind::edge: return unknowns.edge[e];
+    default: return unknowns.has_face(e);
+  }
+}
+
+// Calls visit(point, ring) for the marked unknowns, in order; `ring` is reused.
+template <class Visit>
+void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
+                  Visit&& visit) {
+  const ControlMesh& mesh = grid.mesh();
+  Ring ring;
+  std::vector<Index> all;
+  for_each_run(grid, [&](const Run& run) {
+    if (!is_unknown(unknowns, run)) return;
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const Index p = Index(run.first + i);
+      if (!(marks[std::size_t(p)] > 0)) continue;
+      ring = {{}, true};
+      if (run.kind == RunKind::vertex) {
+        ring.closed = mesh.interior(run.element);
+        visit_ring(grid, run.element, [&](Index q, std::size_t slot) {
+          if (slot % 2 == 0) ring.points.push_back(q);
+        });
+      } else if (run.kind == RunKind::edge) {
+        const Edge& edge = mesh.edges[std::size_t(run.element)];
+        ring.closed = !edge.boundary();
+        all.clear();
+        append_ring(grid, run, i, all);
+        const std::size_t start = edge.side[0] < 0 ? 1 : 0;  // open: from the rim
+        for (std::size_t j = 0; j < all.size(); ++j) {
+          const std::size_t k = (start + j) % all.size();
+          if (!run.ring->far[k]) ring.points.push_back(all[k]);
+        }
+      } else {
+        all.clear();
+        append_ring(grid, run, i, all);
+        for (std::size_t s = 0; s < all.size(); s += run.quad ? 2 : 1)
+          ring.points.push_back(all[s]);
+      }
+      visit(p, ring);
+    }
+  });
+}
+
+// tan(angle / 2) between two directions.
+double half_tangent(const Vec3& a, const Vec3& b) {
+  return std::tan(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
+}
+
+// Sums to one.
+void mean_value_weights(const double* shape, Index point, const Ring& ring,
+                        std::vector<double>& weights) {
+  const std::size_t size = ring.points.size();
+  const auto offset = [&](std::size_t j) {
+    return Vec3(Map(shape + 3 * std::size_t(ring.points[j])) - Map(shape + 3 * std::size_t(point)));
+  };
+  weights.assign(size, 0.0);
+  for (std::size_t j = 0; j + (ring.closed ? 0 : 1) < size; ++j) {
+    const std::size_t after = (j + 1) % size;
+    const double t = half_tangent(offset(j), offset(after));
+    weights[j] += t;
+    weights[after] += t;
+  }
+  double total = 0;
+  for (std::size_t j = 0; j < size; ++j) total += weights[j] /= offset(j).norm();
+  for (double& w : weights) w /= total;
+}
+
+}  // namespace
+
+void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
+                       const double* shape, double* x) {
+  std::vector<Index> filled;
+  visit_marked(grid, unknowns, marks, [&](Index p, const Ring&) { filled.push_back(p); });
+  if (filled.empty()) return;
+  std::sort(filled.begin(), filled.end());
+  const auto number_of = [&](Index p) {
+    const auto at = std::lower_bound(filled.begin(), filled.end(), p);
+    return at != filled.end() && *at == p ? Eigen::Index(at - filled.begin()) : Eigen::Index(-1);
+  };
+  const auto size = Eigen::Index(filled.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(size, 3);
+  std::vector<double> weights;
+  visit_marked(grid, unknowns, marks, [&](Index p, const Ring& ring) {
+    const Eigen::Index row = number_of(p);
+    entries.emplace_back(row, row, 1.0);
+    mean_value_weights(shape, p, ring, weights);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      const Eigen::Index column = number_of(ring.points[j]);
+      if (column >= 0)
+        entries.emplace_back(row, column, -weights[j]);
+      else
+        known.row(row) += weights[j] * Map(x + 3 * std::size_t(ring.points[j])).transpose();
+    }
+  });
+  Matrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseLU<Matrix> factor(matrix);
+  if (factor.info() != Eigen::Success) return;
+  const Eigen::MatrixX3d targets = factor.solve(known);
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index a = 0; a < 3; ++a)
+      x[3 * std::size_t(filled[std::size_t(i)]) + std::size_t(a)] = targets(i, a);
+}
+
+Folds Unfolding::find() const {
+  return find_folds(it_.grid(), it_.workers(), it_.current.points.data(), folded_faces_);
+}
+
+void Unfolding::dilate_marks(int by, Array<float>& marks) {
+  for (int r = 0; r < by; ++r)
+    dilate(it_.grid(), it_.workers(), it_.system.shared().float_slots, nullptr, marks);
+}
+
+void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
+  const std::size_t points = it_.grid().size();
+  Folds folds = find();
+  report.folds_before = report.folds = folds.count();
+  if (report.folds == 0) return;
+  const double bound = std::min(most_energy * report.energy, report.plate_energy);
+  LinearizedSurface best = it_.current;
+  Array<float> folded(points, 0.0f), burst_before(points, 0.0f), marks;
+  for (int round = 0; round < most_rounds && report.folds > 0; ++round) {
+    mark_folds(it_.grid(), it_.current.points.data(), folds, marks);
+    for_each_index(it_.workers(), points, [&](std::size_t i) {
+      folded[i] = std::max(folded[i], marks[i]) * (burst_before[i] > 0 ? 0.0f : 1.0f);
+    });
+    if (!any(folded)) break;
+    marks = folded;
+    dilate_marks(rings + round, marks);
+    CurvatureLevelReport again;
+    solve_again(start, marks, report.accurate, again);
+    folds = find();
+    again.folds_before = report.folds_before;
+    again.folds = folds.count();
+    if (again.folds < report.folds && again.energy <= bound &&
+        again.converged >= report.converged && again.accurate >= report.accurate) {
+      report = again;
+      best = it_.current;
+    } else if (!mark_bursts(best.linearization, burst * report.energy, burst_before)) {
+      break;
+    }
+  }
+  it_.current = std::move(best);
+}
+
+void Unfolding::solve_again(const StepStart& start, const Array<float>& marks, bool accurate,
+                            CurvatureLevelReport& report) {
+  it_.current.points = start.points;
+  refill(marks);
+  report = start.report;
+  LocalDamping damping(it_.grid(), it_.system.shared().unknowns, it_.workers());
+  damping.hold(marks, filled_damping);
+  steps_.run_damped(damping, report);
+  if (accurate) steps_.polish_damped(report);
+}
+
+// As the control mesh has the marked points between those around.
+void Unfolding::refill(const Array<float>& marks) {
+  const Unknowns& unknowns = it_.system.shared().unknowns;
+  Array<double> linear(it_.current.points.size());
+  refine_linearly(it_.grid(), hold_.targets(), it_.workers(), linear.data());
+  fill_harmonically(it_.grid(), hold_.any() ? hold_.without_held() : unknowns, marks, linear.data(),
+                    it_.current.points.data());
+  it_.system.symmetrizer().points(it_.grid(), it_.current.points);
+}
+
+// Marks what is around the points that have gained more energy than `most`; false: none has.
+bool Unfolding::mark_bursts(const Linearization& before, double most, Array<float>& marks) {
+  Array<float> bursts(marks.size());
+  for_each_index(it_.workers(), bursts.size(), [&](std::size_t i) {
+    const double bound = point_energy(before, i) + most;
+    bursts[i] = point_energy(it_.current.linearization, i) > bound ? 1.0f : 0.0f;
+  });
+  if (!any(bursts)) return false;
+  dilate_marks(rings_of_burst, bursts);
+  for_each_index(it_.workers(), marks.size(),
+                 [&](std::size_t i) { marks[i] = std::max(marks[i], bursts[i]); });
+  return true;
+}
+
+}  // namespace fairing

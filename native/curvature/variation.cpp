@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/variation.h"
+
+#include <cmath>
+
+#include "curvature/local_damping.h"
+#include "curvature/steps.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// A factor of K costs so many times as much: its rows have 37 numbers in place of 19.
+constexpr std::size_t wide_rows = 4;
+
+// Decrements at which steps end: the first as on plain steps for total curvature, the second after
+// `patience` steps, where the surface is so rough that the first may never be reached.
+constexpr double wanted_decrement = 1e-3, sufficient_decrement = damped_decrement;
+constexpr int patience = 10;
+
+// As for total curvature (steps.cpp); decrements are smaller here, where every step is damped.
+constexpr double allowed_rise = 0.1;
+constexpr double late = 1e-3;
+
+// nu: where nothing is known of the surface; after a step that gained more than good_gain of what
+// was predicted, one that had to be shortened, one that was rejected.
+constexpr double first_nu = 0.1, least_nu = 1e-6;
+constexpr double good_gain = 0.5, decay = 0.25, shortened = 2, rejected = 4;
+
+// Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
+// measured against itself and this share of the mean squared curvature.
+constexpr double still = 1e-4;
+
+// The integral of |M|^2, and the area.
+struct Bending {
+  double square, area;
+};
+
+Bending bending_of(const Array<float>& shape, Workers& workers) {
+  const std::size_t points = shape.size() / 4;
+  Bending out;
+  out.square = sum(workers, points, [&](std::size_t i) {
+    const float* m = &shape[4 * i];
+    return double(m[3]) * m[3] * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
+  });
+  out.area = sum(workers, points,
+                 [&](std::size_t i) { return double(shape[4 * i + 3]) * shape[4 * i + 3]; });
+  return out;
+}
+
+// Rows and connection of minimum variation on all levels, for as long as it exists.
+class VariationScope {
+ public:
+  explicit VariationScope(GaussNewtonSystem& system) : system_(system) {
+    set(CurvatureEnergy::minimum_variation, wide_rows);
+  }
+  ~VariationScope() { set(CurvatureEnergy::total_curvature, 1); }
+  VariationScope(const VariationScope&) = delete;
+
+ private:
+  void set(CurvatureEnergy energy, std::size_t factor_price) {
+    system_.shared().energy = energy;
+    system_.shared().total_curvature_share = 0;
+    system_.set_factor_price(factor_price);
+  }
+  GaussNewtonSystem& system_;
+};
+
+class VariationStep final : public StepMethod {
+ public:
+  VariationStep(SurfaceIterate& iterate, double step_tolerance, double& nu, const Bending& bending)
+      : it_(iterate),
+        step_tolerance_(step_tolerance),
+        nu_(nu),
+        damping_(iterate.grid(), iterate.system.shared().unknowns, iterate.workers()),
+        bending_(bending) {
+    it_.trial.points.resize(3 * it_.grid().size());
+    it_.current.linearization.with_axes = it_.trial.linearization.with_axes = true;
+    it_.linearize();
+  }
+
+  bool begin(CurvatureLevelReport& report) override {
+    it_.system.report_progress(it_.level, report.steps.size());
+    return true;
+  }
+
+  void find_step(StepReport& step) override {
+    scale_ = it_.current.energy + still * bending_.square / bending_.area;
+    it_.system.shared().total_curvature_share = nu_ * scale_ / bending_.square;
+    const bool fresh = it_.needs_coarse_levels(last_decrement_);
+    if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
+    // nu has changed on those that have not just been linearized
+    for (int l = fresh ? it_.level : it_.system.base(); l <= it_.level; ++l)
+      it_.system.op(l).update_diagonal();
+    it_.system.set_damping(it_.level, damping_.mu());
+    step.variation = true;
+    step.energy = it_.current.energy;
+    predicted_gain_ =
+        it_.system.solve(it_.level, it_.current.linearization.force, fresh, it_.step, step);
+    step.decrement = std::sqrt(predicted_gain_ / scale_);
+    it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
+  }
+
+  double try_length(StepReport& step, const StepCount& count) override {
+    const double energy = it_.try_step(step.length);
+    step.movement = it_.movement(step.length);
+    if (step.length == 1)
+      damping_.judge(predicted_, it_.current.linearization, it_.trial.linearization, count.rejected,
+                     count.accepted, step.decrement);
+    return energy;
+  }
+
+  bool is_acceptable(const StepReport& step, double energy) const override {
+    return energy <= it_.current.energy + allowed_rise * step.decrement * scale_ ||
+           step.decrement < late;
+  }
+
+  bool accept(const StepReport& step, const StepCount& count,
+              CurvatureLevelReport& report) override {
+    const double gain =
+        predicted_gain_ > 0 ? (it_.current.energy - it_.trial.energy) / predicted_gain_ : 1;
+    std::swap(it_.current, it_.trial);
+    if (step.length < 1)
+      nu_ *= shortened;
+    else if (gain > good_gain)
+      nu_ = std::max(nu_ * decay, least_nu);
+    last_decrement_ = step.decrement;
+    bending_ = bending_of(it_.current.linearization.shape, it_.workers());
+    const double enough = count.total() <= patience ? wanted_decrement : sufficient_decrement;
+    report.accurate = step.movement <= step_tolerance_;
+    report.converged = step.decrement <= enough || report.accurate;
+    return report.converged;
+  }
+
+  bool reject() override {
+    nu_ = std::max(rejected * nu_, first_nu);
+    last_decrement_ = 0;
+    it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
+    return true;
+  }
+
+ private:
+  SurfaceIterate& it_;
+  double step_tolerance_;
+  double& nu_;
+  LocalDamping damping_;
+  Bending bending_;
+  Array<float> predicted_;
+  double scale_ = 0;  // what decrements are relative to
+  double predicted_gain_ = 0, last_decrement_ = 0;
+};
+
+}  // namespace
+
+VariationSteps::VariationSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
+    : iterate_(iterate), options_(options), nu_(first_nu) {}
+
+void VariationSteps::run(CurvatureLevelReport& report) {
+  const Bending bending = bending_of(iterate_.current.linearization.shape, iterate_.workers());
+  if (!(bending.square > flat_energy)) return;
+  const VariationScope scope(iterate_.system);
+  VariationStep method(iterate_, options_.step_tolerance, nu_, bending);
+  report.start_variation = iterate_.current.energy;
+  report.converged = false;
+  run_steps(method, options_.max_steps, report);
+  report.variation = iterate_.current.energy;
+}
+
+}  // namespace fairing

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The minimizer in closed form. Between two control vertices the second divided differences M of a
+// minimizer vary linearly, so its points are cubic in the index i = 0 … N:
+//
+//   f_i = (1 − i/N) a + (i/N) b + h² [M_a φ(N − i) + M_b φ(i)],
+//   φ(i) = (i³ − N² i) / 6N,   h = H / N,
+//
+// where H is the segment's length in the parameter, |b − a|^exponent. The unknowns are the M at the
+// control vertices; there the definition of the second divided difference is one tridiagonal
+// equation a vertex:
+//
+//   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
+//       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
+//
+// M is zero at the ends of an open chain. N → ∞ gives the cubic spline.
+#include "curves/curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "curves/tridiagonal.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Rounding depends on the order of operations, so every chain is first put into a canonical order
+// that depends on its coordinates alone: vertex i of the canonical chain is vertex start ± i of the
+// given one.
+struct Order {
+  std::size_t start = 0;
+  bool backwards = false;
+
+  std::size_t operator()(std::size_t i, std::size_t count) const {
+    return (backwards ? start + count - i : start + i) % count;
+  }
+};
+
+bool less(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+bool precedes(std::span<const Vec3> vertices, const Order& a, const Order& b) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3 &p = vertices[a(i, vertices.size())], &q = vertices[b(i, vertices.size())];
+    if (less(p, q)) return true;
+    if (less(q, p)) return false;
+  }
+  return false;
+}
+
+// The least order, or all of them where the chain looks the same from several vertices or ends: a
+// boundary that runs along a slit and back does.
+std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed) {
+  std::vector<Order> orders;
+  const auto consider = [&](const Order& order) {
+    if (!orders.empty() && precedes(vertices, orders[0], order)) return;
+    if (!orders.empty() && precedes(vertices, order, orders[0])) orders.clear();
+    orders.push_back(order);
+  };
+  if (!closed) {
+    consider({0, false});
+    consider({vertices.size() - 1, true});
+    return orders;
+  }
+  const Vec3 least = *std::min_element(vertices.begin(), vertices.end(), less);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v] != least) continue;
+    consider({v, false});
+    consider({v, true});
+  }
+  return orders;
+}
+
+// The second divided differences M at the control vertices; lengths[s] is that of the segment from
+// vertex s to s + 1.
+std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths,
+                                bool closed, double n) {
+  const std::size_t count = c.size(), segments = lengths.size();
+  const std::size_t first = closed ? 0 : 1, joints = closed ? count : count - 2;
+  std::vector<Vec3> moments(count, Vec3::Zero());
+  if (joints == 0) return moments;
+
+  std::vector<double> diagonal(joints), right(joints);
+  std::vector<Vec3> value(joints);
+  for (std::size_t k = 0; k < joints; ++k) {
+    const std::size_t j = first + k, before = (j + segments - 1) % segments, after = j % segments;
+    const Vec3& previous = c[(j + count - 1) % count];
+    const Vec3& next = c[(j + 1) % count];
+    diagonal[k] = (2 * n * n + 1) * (lengths[before] + lengths[after]) / n;
+    right[k] = (n * n - 1) * lengths[after] / n;
+    value[k] = 6 * n * ((next - c[j]) / lengths[after] - (c[j] - previous) / lengths[before]);
+  }
+  const std::vector<Vec3> solution = solve_tridiagonal(diagonal, right, std::move(value), closed);
+  std::copy(solution.begin(), solution.end(), moments.begin() + std::ptrdiff_t(first));
+  return moments;
+}
+
+// Interior points in canonical order, segment by segment.
+std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const std::vector<Vec3>& c,
+                                   bool closed, int subdivisions, double exponent) {
+  const std::size_t segments = closed ? c.size() : c.size() - 1;
+  std::vector<double> lengths(segments);
+  for (std::size_t s = 0; s < segments; ++s)
+    lengths[s] = std::pow((parameters[(s + 1) % c.size()] - parameters[s]).norm(), exponent);
+
+  const double n = subdivisions;
+  const std::vector<Vec3> moments = joint_moments(c, lengths, closed, n);
+  const auto phi = [n](double i) { return (i * i * i - n * n * i) / (6 * n); };
+  std::vector<Vec3> points;
+  for (std::size_t s = 0; s < segments; ++s) {
+    stop_if_cancelled(s);
+    const Vec3 &a = c[s], &b = c[(s + 1) % c.size()];
+    const Vec3 &bend_a = moments[s], &bend_b = moments[(s + 1) % c.size()];
+    const double h = lengths[s] / n;
+    for (int i = 1; i < subdivisions; ++i)
+      points.push_back(a + (i / n) * (b - a) + h * h * (phi(n - i) * bend_a + phi(i) * bend_b));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
+                               double exponent) {
+  return refine_chain(vertices, vertices, closed, subdivisions, exponent);
+}
+
+std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
+                               bool closed, int subdivisions, double exponent) {
+  if (vertices.size() < 2 || subdivisions < 2) return {};
+  const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
+  const auto inner = std::size_t(subdivisions - 1);
+
+  std::vector<Order> orders = canonical_orders(parameters, closed);
+  // Orders are alike for the parameters; for other vertices they need not be.
+  if (parameters.data() != vertices.data()) orders.resize(1);
+  std::vector<Vec3> canonical_parameters, canonical;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = orders[0](i, count);
+    canonical_parameters.push_back(parameters[from] + Vec3::Zero());  // −0 becomes 0
+    canonical.push_back(vertices[from] + Vec3::Zero());
+  }
+  const std::vector<Vec3> refined =
+      refine_canonical(canonical_parameters, canonical, closed, subdivisions, exponent);
+
+  // Under several orders, segments at the same place all take the points of the first of them.
+  std::vector<Vec3> points(segments * inner);
+  std::vector<std::uint8_t> filled(segments, 0);
+  for (std::size_t s = 0; s < segments; ++s) {
+    for (const Order& order : orders) {
+      // Canonical segment s joins order(s) and order(s + 1); given segments are numbered by their
+      // first vertex.
+      const std::size_t given = order.backwards ? order(s + 1, count) : order(s, count);
+      if (std::exchange(filled[given], std::uint8_t(1))) continue;
+      for (std::size_t i = 0; i < inner; ++i)
+        points[given * inner + (order.backwards ? inner - 1 - i : i)] = refined[s * inner + i];
+    }
+  }
+  return points;
+}
+
+}  // namespace fairing

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curves/feature_curves.h"
+
+#include <algorithm>
+
+#include "curves/curve.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, int subdivisions) {
+  std::vector<Vec3> points;
+  for (std::size_t s = 0; s < (closed ? vertices.size() : vertices.size() - 1); ++s) {
+    // An edge at a time, so a vertex elsewhere in the chain can change nothing.
+    const Vec3 ends[2] = {vertices[s], vertices[(s + 1) % vertices.size()]};
+    const bool backwards = std::lexicographical_compare(ends[1].data(), ends[1].data() + 3,
+                                                        ends[0].data(), ends[0].data() + 3);
+    const Vec3 &a = ends[backwards], &b = ends[!backwards];
+    for (int k = 1; k < subdivisions; ++k) {
+      const int from_a = backwards ? subdivisions - k : k;
+      points.push_back(a + (double(from_a) / subdivisions) * (b - a));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
+  return refine_feature_edges(mesh, mesh.positions, mesh.positions, subdivisions, exponent);
+}
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
+                                   std::span<const Vec3> positions, int subdivisions,
+                                   double exponent) {
+  const bool own = positions.data() == parameters.data();
+  FeatureCurves curves;
+  curves.points_per_edge = subdivisions - 1;
+  curves.run.assign(mesh.edges.size(), -1);
+  const auto inner = std::size_t(curves.points_per_edge);
+  Index runs = 0;
+  for (const Chain& chain : mesh.chains) {
+    stop_if_cancelled();
+    std::vector<Vec3> vertices, parameter_vertices;
+    for (Index v : chain.vertices) {
+      vertices.push_back(positions[std::size_t(v)]);
+      parameter_vertices.push_back(parameters[std::size_t(v)]);
+    }
+    std::vector<Vec3> points = chain.straight
+                                   ? straight_points(vertices, chain.closed, subdivisions)
+                                   : refine_chain(own ? vertices : parameter_vertices, vertices,
+                                                  chain.closed, subdivisions, exponent);
+    for (std::size_t k = 0; k < chain.edges.size(); ++k) {
+      const auto edge = std::size_t(chain.edges[k]);
+      curves.run[edge] = runs++;
+      const auto begin = points.begin() + std::ptrdiff_t(k * inner);
+      if (mesh.edges[edge].vertex[0] != chain.vertices[k])
+        std::reverse(begin, begin + std::ptrdiff_t(inner));
+    }
+    curves.points.insert(curves.points.end(), points.begin(), points.end());
+  }
+  return curves;
+}
+
+}  // namespace fairing

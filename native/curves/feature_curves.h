@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All feature curves of a control mesh, refined.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+
+namespace fairing {
+
+struct FeatureCurves {
+  int points_per_edge = 0;   // subdivisions - 1
+  std::vector<Index> run;    // per edge: the number of its run in `points`; -1: on no chain
+  std::vector<Vec3> points;  // run after run, points_per_edge each
+
+  // The interior points of a feature edge, from its vertex[0] to its vertex[1].
+  std::span<const Vec3> of(Index edge) const {
+    return {points.data() + std::size_t(run[std::size_t(edge)]) * std::size_t(points_per_edge),
+            std::size_t(points_per_edge)};
+  }
+};
+
+// Straight chains stay on their edges (point k is at k / subdivisions, the same from either end,
+// bit for bit); all others are refined by refine_chain.
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
+
+// The same through other positions of the control vertices, one a vertex. The parameters of the
+// chains come from `parameters`; where both are the same array, this is what a mesh with these
+// positions would have.
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
+                                   std::span<const Vec3> positions, int subdivisions,
+                                   double exponent);
+
+}  // namespace fairing

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/context.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "curvature/total_curvature.h"
+#include "fairing/memory_plan.h"
+#include "fairing/output.h"
+#include "fairing/unknowns.h"
+#include "grid/linear.h"
+#include "mesh/validate/check.h"
+#include "parallel/cancel.h"
+#include "thin_plate/back_leg.h"
+
+namespace fairing {
+namespace {
+
+PadReport widths_of(const Pads& pads, std::size_t vertices, double size) {
+  PadReport out;
+  const auto begin = pads.widths().begin();
+  out.widths.assign(begin, begin + std::ptrdiff_t(vertices));
+  for (std::size_t v = 0; v < vertices; ++v) {
+    out.narrower += pads.under(v) && out.widths[v] < size;
+    out.gone += pads.began_under(v) && !pads.under(v);
+  }
+  return out;
+}
+
+}  // namespace
+
+FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& options,
+                               Monitor& monitor, Stopwatch& watch, Report& report)
+    : options_(options), monitor_(monitor) {
+  const CancelScope scope(&monitor);
+  watch.enter(Phase::check, 0);
+  check_options(input, options_);
+  check(input, watch, report);
+  check_shapes(input, options_.shapes);
+  require_fit(input, options_);
+
+  watch.enter(Phase::hierarchy, 0);
+  workers_ = std::make_unique<Workers>(options_.threads);
+  report.threads = workers_->count();
+  mesh_ = make_control_mesh(input, options_.features, report.flipped_faces);
+  const RunSize size = predict_size(
+      mesh_, options_.levels, options_.shape_count(input.coordinates.size()), options_.energy);
+  require_fit(size, options_);
+  report.predicted_bytes = std::size_t(size.bytes);
+  exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
+  unknowns_ = choose_unknowns(mesh_, options_);
+  build(mesh_.positions, watch);
+}
+
+void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& report) const {
+  watch.enter(Phase::check, 0);
+  CheckResult checked = fairing::check(input, {options_.repair_orientation});
+  report.warnings = std::move(checked.warnings);
+  report.flipped_faces = std::move(checked.flipped_faces);
+}
+
+void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watch) {
+  std::vector<Vec3> world = control_positions(coordinates).world;
+  drop_systems();
+  build(std::move(world), watch);
+}
+
+// `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
+void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
+  watch.enter(Phase::curves, 0);
+  frame_ = working_frame(mesh_, world);
+  basis_ = positions_of_mesh(mesh_, std::move(world), frame_, 1 << options_.levels, exponent_);
+
+  watch.enter(Phase::hierarchy, 0);
+  mesh_.positions = basis_.working;
+  stencils_ = make_stencils(mesh_, options_.chart, *workers_);
+  mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
+                                                   : find_symmetry(mesh_, basis_, frame_, options_);
+  weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
+  start_weights_ = constraint_of(basis_).start_weights();
+  require_anchored(mesh_, unknowns_, start_weights_);
+  system();
+}
+
+ControlPositions FairingContext::control_positions(std::span<const double> coordinates) const {
+  return positions_of_shape(mesh_, basis_.world, coordinates, frame_, 1 << options_.levels,
+                            exponent_);
+}
+
+ThinPlateSolver& FairingContext::system() {
+  if (!system_) {
+    has_adapted_ = false;
+    ThinPlateOptions options;
+    options.levels = options_.levels;
+    options.relative_residual = options_.relative_residual;
+    options.max_iterations = options_.max_iterations;
+    options.smoother_degree = options_.smoother_degree;
+    options.pad_size = options_.pad_size;
+    options.star_energies = [this](const GridLevel& grid, const double* x) {
+      return total_curvature_of_stars(grid, *workers_, x);
+    };
+    options.chart = options_.chart;
+    options.starts_steps = options_.energy != Energy::thin_plate;
+    system_ = std::make_unique<ThinPlateSolver>(mesh_, basis_.working_curves, stencils_, unknowns_,
+                                                start_weights_, options, *workers_, monitor_);
+  }
+  return *system_;
+}
+
+void FairingContext::drop_systems() {
+  gauss_newton_.reset();
+  system_.reset();
+}
+
+ToleranceConstraint FairingContext::constraint_of(const ControlPositions& control) const {
+  if (options_.interpolation == Interpolation::exact)
+    return ToleranceConstraint(mesh_, control.working, unknowns_);
+  return ToleranceConstraint(mesh_, control.working, unknowns_, options_.weights, weight_unit_,
+                             options_.tolerance / frame_.scale);
+}
+
+std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
+    const ControlPositions& control) {
+  if (options_.energy == Energy::thin_plate || system().base() > options_.levels) return nullptr;
+  std::vector<CurvatureGrid> levels;
+  for (int l = 0; l <= options_.levels; ++l)
+    levels.push_back({&system().grid(l), system().transfer_matrix(l)});
+  GaussNewtonOptions options;
+  if (options_.energy == Energy::minimum_variation)
+    options.energy = CurvatureEnergy::minimum_variation;
+  options.step_tolerance = options_.step_tolerance;
+  options.max_steps = options_.max_steps;
+  options.max_iterations = options_.max_iterations;
+  options.smoother_degree = options_.smoother_degree;
+  return std::make_unique<GaussNewtonSolver>(
+      mesh_, levels, system().base(), stencils_, unknowns_, options,
+      options_.interpolation == Interpolation::exact
+          ? ControlHold(control.working, unknowns_)
+          : ControlHold(mesh_, control.working, unknowns_, options_.weights,
+                        options_.tolerance / frame_.scale),
+      options_.epsilon / frame_.scale, mirrors_of(control), *workers_, monitor_);
+}
+
+void FairingContext::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
+                           Report& report, Array<double>& x) {
+  watch.enter(Phase::solve, 0);
+  system().take_shape(control.working_curves, start_weights_, !has_adapted_);
+  has_adapted_ = true;
+  gauss_newton_.reset();
+  gauss_newton_ = make_gauss_newton(control);
+  ToleranceConstraint constraint = constraint_of(control);
+  const auto on_prediction = [&](const double* start) {
+    if (measured) measure_prediction(start, watch, report);
+  };
+  const auto on_level = [&](int level, Array<double>& points) {
+    if (constraint.active()) {
+      watch.enter(Phase::constrain, 0.5);
+      constraint.settle(*system_, level, points);
+      if (level == options_.levels)
+        report.levels.back() = constraint.finish(*system_, options_.relative_residual, points);
+      watch.enter(Phase::solve, 0.5);
+    }
+    if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
+  };
+  if (options_.method == Method::back_leg)
+    solve_back_leg(*system_, control.working, options_.sweeps, x, report.levels, on_prediction);
+  else
+    system_->solve_nested(control.working, x, report.levels, on_prediction, on_level);
+  report.constraint_rounds = constraint.rounds();
+  report.constraint_gap = constraint.gap();
+}
+
+void FairingContext::move_surface(Array<double>& x) {
+  if (!gauss_newton_) return;
+  std::swap(x, gauss_newton_->surface());
+  gauss_newton_.reset();
+}
+
+void FairingContext::release(const ControlPositions& control, Stopwatch& watch, Report& report,
+                             Array<double>& x) {
+  if (!(options_.epsilon > 0) || options_.energy != Energy::thin_plate) return;
+  watch.enter(Phase::constrain, 0.8);
+  report.constraint_rounds += release_control_vertices(system(), mesh_, control.working,
+                                                       options_.epsilon / frame_.scale, x);
+}
+
+// The energy of working coordinates in the unit of world ones.
+SurfaceEnergies FairingContext::energies(const double* x) {
+  SurfaceEnergies e;
+  e.thin_plate = std::pow(frame_.scale, 2 - 2 * exponent_) * system().energy(options_.levels, x);
+  e.total_curvature = options_.measure ? total_curvature(finest(), *workers_, x) : NAN;
+  return e;
+}
+
+void FairingContext::measure_prediction(const double* start, Stopwatch& watch, Report& report) {
+  watch.enter(Phase::measure, 0.2);
+  report.prediction = energies(start);
+  watch.enter(Phase::solve, 0.25);
+}
+
+void FairingContext::write(const ControlPositions& control, bool measured, Stopwatch& watch,
+                           Report& report, const double* x, double* world) {
+  if (measured) {
+    watch.enter(Phase::measure, 0.9);
+    report.result = energies(x);
+    Array<double> polyhedron(3 * finest().size());
+    refine_linearly(finest(), control.working, *workers_, polyhedron.data());
+    report.polyhedron = energies(polyhedron.data());
+  } else {
+    report.result = report.polyhedron = report.prediction = {NAN, NAN};
+  }
+  watch.enter(Phase::output, 0.95);
+  to_world(control, finest(), frame_, *workers_, x, world);
+  if (const Pads* pads = system().pads())
+    report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.pad_size);
+  report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
+}
+
+void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+                      Report& report) {
+  if (level.converged) return;
+  char text[200];
+  if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
+    std::snprintf(text, sizeof text,
+                  "The loads on pads have not settled after %d corrections: %.1e of them is still "
+                  "changing. The surface is usable; a smaller pad_size settles sooner.",
+                  level.pad_corrections, level.pad_force);
+  else
+    std::snprintf(text, sizeof text,
+                  "The solver stopped after %d iterations at a relative residual of %.1e (target: "
+                  "%.1e). The surface is usable; very thin faces are the usual cause.",
+                  level.iterations, level.residual, options.relative_residual);
+  report.warnings.push_back({"NOT_CONVERGED", of + text, {}, ElementKind::mesh});
+}
+
+}  // namespace fairing

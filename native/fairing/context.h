@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What all surfaces of one control mesh have in common, built once: threads, charts, stencils, the
+// levels' systems. fair() uses it once, FairSolver again and again.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "curvature/solver.h"
+#include "fairing/control_positions.h"
+#include "fairing/options.h"
+#include "fairing/report.h"
+#include "fairing/symmetry.h"
+#include "stencil/stencils.h"
+#include "thin_plate/solver.h"
+#include "thin_plate/tolerance.h"
+
+namespace fairing {
+
+// Throws FairingError and bad_alloc, from every member that takes a Stopwatch. After an error the
+// systems may be half done: drop_systems(), and they are built anew.
+class FairingContext {
+ public:
+  // Checks all input, and builds. Warnings and sizes go to `report`. `monitor` must outlive the
+  // context, and so must what the spans of `options` show.
+  FairingContext(const PolygonMesh& input, const FairOptions& options, Monitor& monitor,
+                 Stopwatch& watch, Report& report);
+
+  // The checks of fair() alone: throws what is wrong with a mesh, and puts warnings into `report`.
+  void check(const PolygonMesh& input, Stopwatch& watch, Report& report) const;
+  // Builds anew about other positions, 3 numbers an input vertex in world coordinates: charts,
+  // stencils, curves, spectra. Faces, splits and creases stay.
+  void rebase(std::span<const double> coordinates, Stopwatch& watch);
+
+  const FairOptions& options() const { return options_; }
+  const ControlMesh& mesh() const { return mesh_; }
+  Workers& workers() { return *workers_; }
+
+  // The positions that charts and stencils were built about.
+  const ControlPositions& basis() const { return basis_; }
+  // Other positions of the input's vertices, 3 numbers each in world coordinates, with the basis'
+  // parameters of curves.
+  ControlPositions control_positions(std::span<const double> coordinates) const;
+
+  // The levels' systems of the thin plate, built again where they have been dropped.
+  ThinPlateSolver& system();
+  const GridLevel& finest() { return system().grid(options_.levels); }
+  // Gives the memory of all but mesh and stencils back.
+  void drop_systems();
+
+  // One surface from nothing, level by level: the thin plate's into x, 3 numbers a point in working
+  // coordinates; that of a curvature energy is gauss_newton()->surface(), and `control` must
+  // outlive it. Reports levels, steps and rounds; the prediction's energies only where they are to
+  // be `measured`. The smoother adapts to the first surface that is solved.
+  void solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
+             Array<double>& x);
+
+  // What solve() has built for a curvature energy; null for the thin plate.
+  GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
+  // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
+  void move_surface(Array<double>& x);
+
+  // From here on the systems are about these curves; they adapt to nothing.
+  void use_curves_of(const ControlPositions& control) {
+    system().take_shape(control.working_curves, start_weights_, false);
+  }
+  // The mirror symmetries that the mesh has with these positions too.
+  Mirrors mirrors_of(const ControlPositions& control) const {
+    return kept_by(control, mesh_, frame_, mirrors_);
+  }
+
+  // The thin plate's surface x after control vertices have been released by epsilon; the same where
+  // that is not asked for.
+  void release(const ControlPositions& control, Stopwatch& watch, Report& report, Array<double>& x);
+
+  // For use during a solve: the energies of its start x on the finest level.
+  void measure_prediction(const double* x, Stopwatch& watch, Report& report);
+
+  // The surface x, in working coordinates, to `world`, which may be the same array; its energies,
+  // where they are to be `measured`, and its deviation to `report`.
+  void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
+             const double* x, double* world);
+
+ private:
+  SurfaceEnergies energies(const double* x);
+  ToleranceConstraint constraint_of(const ControlPositions& control) const;
+  std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
+  void build(std::vector<Vec3> world, Stopwatch& watch);
+
+  FairOptions options_;
+  Monitor& monitor_;
+  std::unique_ptr<Workers> workers_;
+  double exponent_ = 0, weight_unit_ = 0;
+  ControlMesh mesh_;  // in working coordinates
+  Frame frame_;
+  ControlPositions basis_;
+  Stencils stencils_;
+  std::vector<Mirror> mirrors_;
+  Unknowns unknowns_;
+  VertexWeights start_weights_;
+  std::unique_ptr<ThinPlateSolver> system_;
+  std::unique_ptr<GaussNewtonSolver> gauss_newton_;
+  bool has_adapted_ = false;
+};
+
+// Adds a warning when the finest level has not converged; `of` begins it.
+void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+                      Report& report);
+
+}  // namespace fairing

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/control_positions.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/error.h"
+#include "mesh/validate/check.h"
+
+namespace fairing {
+namespace {
+
+// An axis whose eigenvalue is less than this share of the largest one is across a flat polygon: its
+// extent is rounding, and the centre has no part in it. An eigenvalue is an extent squared, so this
+// is a millionth of the polygon's length.
+constexpr double flat_axis = 1e-12;
+
+// Affine weights of the corners that give a split polygon's centre: of all such weights those with
+// the least sum of squares, 1/n + (c_k - m) . S^-1 (centre - m), where m is the corners' mean and
+// S = sum (c_k - m)(c_k - m)^T. Returns the centre of `shape` by these weights.
+Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index centre,
+                     std::span<const Vec3> shape) {
+  std::vector<Index> corners;
+  for (const Spoke& spoke : mesh.ring(centre))
+    corners.push_back(mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0]);
+  const double count = double(corners.size());
+  Vec3 mean = Vec3::Zero();
+  for (const Index c : corners) mean += basis[std::size_t(c)] / count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Index c : corners) {
+    const Vec3 offset = basis[std::size_t(c)] - mean;
+    spread += offset * offset.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Vec3 along = axes.eigenvectors().transpose() * (basis[std::size_t(centre)] - mean);
+  Vec3 scaled = Vec3::Zero();
+  for (int a = 0; a < 3; ++a)
+    if (axes.eigenvalues()[a] > flat_axis * axes.eigenvalues()[2])
+      scaled[a] = along[a] / axes.eigenvalues()[a];
+  const Vec3 slope = axes.eigenvectors() * scaled;
+  Vec3 result = Vec3::Zero();
+  for (const Index c : corners)
+    result += (1 / count + slope.dot(basis[std::size_t(c)] - mean)) * shape[std::size_t(c)];
+  return result;
+}
+
+ControlPositions in_both_systems(std::vector<Vec3> world, FeatureCurves curves,
+                                 const Frame& frame) {
+  ControlPositions control;
+  for (const Vec3& p : world) control.working.push_back(frame.to_working(p));
+  control.world = std::move(world);
+  control.world_curves = std::move(curves);
+  control.working_curves = control.world_curves;
+  for (Vec3& p : control.working_curves.points) p = frame.to_working(p);
+  return control;
+}
+
+}  // namespace
+
+Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
+  Frame frame;
+  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.ring(v).empty()) continue;  // an isolated vertex far away is no reason to lose digits
+    low = low.cwiseMin(world[std::size_t(v)]);
+    high = high.cwiseMax(world[std::size_t(v)]);
+  }
+  const Vec3 centre = 0.5 * low + 0.5 * high;
+  const double size = (high - low).maxCoeff();
+  if (!centre.allFinite() || !(size > 0)) return frame;
+  frame.centre = centre;
+  frame.scale = std::exp2(std::floor(std::log2(size)));
+  return frame;
+}
+
+ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
+                                   const Frame& frame, int subdivisions, double exponent) {
+  FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
+  return in_both_systems(std::move(world), std::move(curves), frame);
+}
+
+ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                    std::span<const double> coordinates, const Frame& frame,
+                                    int subdivisions, double exponent) {
+  std::vector<Vec3> world;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
+    world.emplace_back(coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]);
+  for (Index c = mesh.input_vertices; c < mesh.vertex_count(); ++c)
+    world.push_back(centre_of_shape(mesh, basis_world, c, world));
+  FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
+  return in_both_systems(std::move(world), std::move(curves), frame);
+}
+
+void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {
+  const std::size_t size = mesh.coordinates.size();
+  if (shapes.size() % size != 0)
+    throw FairingError(ErrorCode::bad_shape,
+                       "shapes must be (k, n, 3): k positions of every vertex.");
+  for (std::size_t s = 0; s * size < shapes.size(); ++s) {
+    const std::vector<std::int64_t> bad = non_finite_vertices(shapes.subspan(s * size, size));
+    if (!bad.empty())
+      throw FairingError(ErrorCode::non_finite,
+                         "In shape " + std::to_string(s) + " " +
+                             listing(vertex_s, bad, {"has", "have"}) +
+                             " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
+                         bad);
+  }
+}
+
+void check_positions(std::size_t vertices, std::span<const double> coordinates) {
+  if (coordinates.size() != 3 * vertices)
+    throw FairingError(ErrorCode::bad_shape, std::to_string(coordinates.size() / 3) +
+                                                 " vertices where the solver's mesh has " +
+                                                 std::to_string(vertices) +
+                                                 ". Make another solver.");
+  const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
+  if (!bad.empty())
+    throw FairingError(ErrorCode::non_finite,
+                       listing(vertex_s, bad, {"has", "have"}) +
+                           " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
+                       bad);
+}
+
+}  // namespace fairing

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fair() and FairSolver take the same steps, all of them FairingContext's: solve, release, write.
+// fair() gives each surface away; FairSolver keeps it for the next start.
+#include "fairing/fair.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// The residual to which the thin plate's surface is solved where Gauss-Newton steps only start from
+// it. It balances conjugate gradients on a surface that is left anyway against steps from a worse
+// one.
+constexpr double start_tolerance = 1e-3;
+
+[[noreturn]] void throw_out_of_memory() {
+  throw FairingError(ErrorCode::out_of_memory,
+                     "Out of memory. Use fewer levels, or close other programs.");
+}
+
+// A shape may repeat the mesh or an earlier shape, as unused shape keys do: the number of the first
+// surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none.
+std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> shapes,
+                           std::size_t shape) {
+  const std::size_t size = input.coordinates.size();
+  const auto own = shapes.subspan(shape * size, size);
+  for (std::size_t s = 0; s <= shape; ++s) {
+    const auto earlier = s == 0 ? input.coordinates : shapes.subspan((s - 1) * size, size);
+    if (std::equal(own.begin(), own.end(), earlier.begin())) return std::ptrdiff_t(s);
+  }
+  return -1;
+}
+
+// points <- one surface from nothing, in world coordinates.
+void fair_once(FairingContext& context, const ControlPositions& control, bool measured,
+               Stopwatch& watch, Report& report, Array<double>& points) {
+  context.solve(control, measured, watch, report, points);
+  context.move_surface(points);
+  context.release(control, watch, report, points);
+  context.write(control, measured, watch, report, points.data(), points.data());
+}
+
+void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& watch,
+                 Monitor& monitor, FairResult& result) {
+  Report& report = result.report;
+  const std::size_t size = input.coordinates.size();
+  const std::span<const double> shapes = context.options().shapes;
+  const std::size_t count = context.options().shape_count(size);
+  for (std::size_t s = 0; s < count; ++s) {
+    monitor.enter_part(double(s + 1) / double(count + 1), double(s + 2) / double(count + 1));
+    const std::ptrdiff_t same = same_before(input, shapes, s);
+    if (same == 0) {
+      result.shapes.push_back(result.vertices);
+      report.shapes.push_back({report.levels.back(), report.largest_deviation, 0});
+      continue;
+    }
+    if (same > 0) {
+      result.shapes.push_back(result.shapes[std::size_t(same) - 1]);
+      report.shapes.push_back(report.shapes[std::size_t(same) - 1]);
+      continue;
+    }
+    watch.enter(Phase::curves, 0);
+    const ControlPositions control = context.control_positions(shapes.subspan(s * size, size));
+    Report own;
+    fair_once(context, control, false, watch, own, result.shapes.emplace_back());
+    warn_unconverged(own.levels.back(), context.options(), "Shape " + std::to_string(s) + ": ",
+                     report);
+    report.shapes.push_back(
+        {std::move(own.levels.back()), own.largest_deviation, own.constraint_rounds});
+  }
+}
+
+FairResult fair_all(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
+  MemoryLedger ledger;
+  const CancelScope scope(&monitor);
+  FairResult result;
+  Report& report = result.report;
+  Stopwatch watch(report, monitor);
+  const std::size_t shapes = options.shape_count(input.coordinates.size());
+  monitor.enter_part(0, 1 / double(shapes + 1));
+  FairingContext context(input, options, monitor, watch, report);
+  fair_once(context, context.basis(), true, watch, report, result.vertices);
+  warn_unconverged(report.levels.back(), options, "", report);
+  fair_shapes(context, input, watch, monitor, result);
+
+  monitor.enter_part(0, 1);
+  context.drop_systems();
+  result.faces = make_faces(GridLevel(context.mesh(), options.levels), context.workers());
+  result.crease_edges = crease_edges(context.mesh());
+  report.peak_bytes = ledger.peak();
+  watch.leave();
+  monitor.report(Phase::done, 1);
+  return result;
+}
+
+const FairOptions& without_back_leg(const FairOptions& options) {
+  if (options.method == Method::back_leg)
+    throw FairingError(
+        ErrorCode::bad_option,
+        "method=\"back_leg\" keeps nothing to solve again with; use multigrid for a solver.");
+  return options;
+}
+
+}  // namespace
+
+FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
+  try {
+    return fair_all(mesh, options, monitor);
+  } catch (const std::bad_alloc&) {
+    throw_out_of_memory();
+  }
+}
+
+FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) try
+    : monitor_(monitor),
+      build_watch_(built_, monitor_),
+      context_(input, without_back_leg(options), monitor_, build_watch_, built_),
+      control_(context_.basis()),
+      recent_(context_.workers()) {
+  built_.seconds.clear();
+} catch (const std::bad_alloc&) {
+  throw_out_of_memory();
+}
+
+void FairSolver::forget_surfaces() {
+  recent_.forget();
+  context_.drop_systems();
+}
+
+// Whatever goes wrong on the way leaves nothing half done behind.
+template <class Call>
+auto FairSolver::guarded(Call&& call) {
+  const CancelScope scope(&monitor_);
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    forget_surfaces();
+    throw_out_of_memory();
+  } catch (...) {
+    forget_surfaces();
+    throw;
+  }
+}
+
+// The basis' own positions give the basis itself: its centres of split polygons and its curves, to
+// the last bit.
+void FairSolver::set_control(std::span<const double> coordinates) {
+  const std::vector<Vec3>& basis = context_.basis().world;
+  bool is_basis = true;
+  for (std::size_t i = 0; i < coordinates.size() && is_basis; ++i)
+    is_basis = coordinates[i] == basis[i / 3][Eigen::Index(i % 3)];
+  const ControlPositions next =
+      is_basis ? context_.basis() : context_.control_positions(coordinates);
+  control_ = next;  // copied, not moved: solvers hold on to the arrays that are there
+}
+
+Report FairSolver::solve(std::span<const double> coordinates, double* out) {
+  if (!coordinates.empty())
+    check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
+  return guarded([&] {
+    const FairOptions& options = context_.options();
+    Report report = built_;
+    Stopwatch watch(report, monitor_);
+    watch.enter(Phase::hierarchy, 0);
+    context_.system();
+    watch.enter(Phase::curves, 0);
+    if (!coordinates.empty()) set_control(coordinates);
+    const bool constrained =
+        options.interpolation == Interpolation::approximate && options.tolerance > 0;
+    report.warm = !recent_.empty() && !constrained && solve_from_last(watch, report);
+    if (!report.warm) solve_from_nothing(watch, report);
+    write(watch, report, out);
+    report.peak_bytes = ledger_.peak();
+    watch.leave();
+    monitor_.report(Phase::done, 1);
+    return report;
+  });
+}
+
+void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
+  recent_.forget();
+  context_.solve(control_, context_.options().measure, watch, report, recent_.surface());
+  recent_.loads() = context_.system().loads();
+  recent_.remember(control_.working);
+}
+
+// False where that does not go well: the report is as before then.
+bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
+  const FairOptions& options = context_.options();
+  watch.enter(Phase::solve, 0);
+  GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
+  if (gauss_newton && !gauss_newton->can_move()) return false;
+  context_.use_curves_of(control_);
+  if (gauss_newton) gauss_newton->leave_plate(recent_.surface());
+  recent_.extrapolate(control_.working);
+  context_.system().loads() = recent_.loads();
+  const double tolerance = gauss_newton ? std::max(options.relative_residual, start_tolerance)
+                                        : options.relative_residual;
+  context_.system().solve_moved(recent_.extrapolated(), control_.working, tolerance,
+                                recent_.surface(), report.levels, [&](const double* start) {
+                                  if (options.measure)
+                                    context_.measure_prediction(start, watch, report);
+                                });
+  recent_.loads() = context_.system().loads();
+  recent_.remember(control_.working);
+  if (!gauss_newton) return true;
+  CurvatureLevelReport& steps = report.curvature.emplace_back();
+  if (gauss_newton->solve_moved(recent_.surface(), context_.mirrors_of(control_), steps))
+    return true;
+  report.levels.clear();
+  report.curvature.clear();
+  return false;
+}
+
+void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
+  const FairOptions& options = context_.options();
+  warn_unconverged(report.levels.back(), options, "", report);
+  GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
+  const Array<double>* x = gauss_newton ? &gauss_newton->surface() : &recent_.surface();
+  if (options.epsilon > 0 && !gauss_newton) {
+    released_ = recent_.surface();
+    context_.release(control_, watch, report, released_);
+    x = &released_;
+  }
+  context_.write(control_, options.measure, watch, report, x->data(), out);
+}
+
+void FairSolver::rebase(const PolygonMesh& input) {
+  Report report = built_;
+  {
+    Stopwatch watch(report, monitor_);
+    check_positions(std::size_t(context_.mesh().input_vertices), input.coordinates);
+    context_.check(input, watch, report);
+    guarded([&] {
+      recent_.forget();
+      context_.rebase(input.coordinates, watch);
+      control_ = context_.basis();
+    });
+  }
+  report.seconds.clear();
+  built_ = std::move(report);
+}
+
+}  // namespace fairing

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The driver: plain arrays in, fair surface and report out. All coordinates are world coordinates.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fairing/context.h"
+#include "fairing/output.h"
+#include "fairing/recent_surfaces.h"
+
+namespace fairing {
+
+struct FairResult {
+  Array<double> vertices;             // 3 a point; the input's vertices first
+  std::vector<Array<double>> shapes;  // the same of every shape
+  OutputFaces faces;
+  Array<std::int32_t> crease_edges;  // 2 an edge, as by crease_edges() in fairing/output.h
+  Report report;
+};
+
+// The fair surface of a mesh, and of all shapes of `options`. Only reads the arrays of `mesh`. May
+// run on any thread; `monitor` is watched from others. Throws FairingError and nothing else:
+// cancelled and out_of_memory among its codes.
+FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor);
+
+// The same control mesh again and again while its vertices move. Keeps what fair() builds, and the
+// last surface, from which the next one starts. All calls, the destructor's too, come from one
+// thread, one after the other. Throws FairingError and nothing else.
+class FairSolver {
+ public:
+  // Checks and builds; solves nothing. `options` without shapes; back_leg is refused (bad_option).
+  // `monitor` watches all calls.
+  FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
+
+  // Of a surface.
+  std::size_t points() { return context_.finest().size(); }
+
+  // out <- the surface of these positions, 3 numbers an input vertex (empty: as last), with charts,
+  // stencils and parameters of curves as built: 3 numbers a point. The first is that of fair().
+  // After an error the next one starts from nothing.
+  Report solve(std::span<const double> coordinates, double* out);
+
+  // Builds anew about these positions. `input` has the same faces as ever.
+  void rebase(const PolygonMesh& input);
+
+  OutputFaces faces() { return make_faces(context_.finest(), context_.workers()); }
+  Array<std::int32_t> creases() const { return crease_edges(context_.mesh()); }
+  // Of the long arrays and factors that are kept.
+  std::size_t bytes() const { return ledger_.current(); }
+
+ private:
+  void set_control(std::span<const double> coordinates);
+  void solve_from_nothing(Stopwatch& watch, Report& report);
+  bool solve_from_last(Stopwatch& watch, Report& report);
+  void write(Stopwatch& watch, Report& report, double* out);
+  void forget_surfaces();
+  template <class Call>
+  auto guarded(Call&& call);
+
+  MemoryLedger ledger_;
+  Monitor& monitor_;
+  Report built_;  // what building reports goes into every surface's report
+  Stopwatch build_watch_;
+  FairingContext context_;
+  ControlPositions control_;  // of the last call; solvers hold on to its arrays
+  RecentSurfaces recent_;
+  Array<double> released_;  // the last surface, its control vertices released by epsilon
+};
+
+}  // namespace fairing

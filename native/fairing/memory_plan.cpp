@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/memory_plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "curvature/normal_matrix.h"
+#include "grid/grid_level.h"
+#include "multigrid/hierarchy.h"
+#include "parallel/memory.h"
+#include "sparse/matrix.h"
+
+namespace fairing {
+namespace {
+
+// Bytes of a vector in space, in double and in single precision, and of an index.
+constexpr std::int64_t vector_bytes = 24, float_vector_bytes = 12, index_bytes = 4;
+
+// Of control faces that are all triangles and quads.
+struct Counts {
+  std::int64_t vertices = 0, edges = 0, triangles = 0, quads = 0;
+  std::int64_t sides() const { return 3 * triangles + 4 * quads; }
+  // Points of the surface after so many refinements.
+  std::int64_t points(int level) const {
+    return grid_size(vertices, edges, triangles, quads, level);
+  }
+};
+
+// A sparse Cholesky factor of so many unknowns of a plate. Minimum degree leaves some 40 + 4 log2 n
+// entries a column, each a number and an index.
+std::int64_t factor_bytes(std::int64_t unknowns) {
+  return (8 + index_bytes) * unknowns * (40 + 4 * std::bit_width(std::uint64_t(unknowns)));
+}
+
+// The assembled matrices of the thin plate, on levels with small faces, and those of the transfers
+// between them: bytes a point. Rows around quads are longer.
+std::int64_t matrix_bytes(const Counts& c, int levels) {
+  const std::int64_t row = c.quads > 0 ? 250 : 190, transfer = 190;
+  std::int64_t bytes = 0;
+  for (int l = 1; l <= levels; ++l)
+    if (has_rows(1 << l, std::size_t(c.points(l)))) bytes += (row + transfer) * c.points(l);
+  return bytes;
+}
+
+// What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
+// rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
+// points an edge the normal matrix; on the finest level surfaces, steps, and what steps are
+// accelerated with. The finest level that may prove hard counts as if it were factored.
+std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy) {
+  constexpr std::int64_t row = 112, moments = 112, surfaces = 560, normal_matrix = 640;
+  const bool varies = energy == Energy::minimum_variation;
+  std::int64_t factored = 0, normal_matrices = 0;
+  for (int l = 0; l <= levels; ++l) {
+    if (c.points(l) <= std::int64_t(direct_limit_of_steps)) factored = c.points(l);
+    if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.points(l);
+  }
+  return (varies ? 2 * row + moments : row) * all_points + surfaces * c.points(levels) +
+         normal_matrices + (varies ? 5 : 2) * factor_bytes(factored);
+}
+
+// The peak of a run: while it solves, or at its end, when surface and faces are written. A level
+// that proves hard while the run is on its way is factored then (multigrid/v_cycle.h); that comes
+// on top.
+std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
+  const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
+  const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;
+  // Unknowns of a level that is solved directly, and a third more for the points that are none.
+  constexpr std::int64_t tiny = tiny_level + tiny_level / 3;
+  std::int64_t all_points = 0, factored = 0;
+  for (int l = 0; l <= levels; ++l) {
+    all_points += c.points(l);
+    if (c.points(l) <= tiny) factored = c.points(l);
+  }
+  if (levels > 0)
+    factored = std::max(factored, std::min<std::int64_t>(c.points(1), std::int64_t(direct_limit)));
+  // The surface, the vectors of conjugate gradients, and one more to measure or diagonalize; and
+  // what a start needs of the level below.
+  const std::int64_t outer = 5 * vector_bytes * points + 3 * vector_bytes * below;
+  // The V-cycle's vectors in single precision, and the diagonal.
+  const std::int64_t cycle = all_points * (4 * float_vector_bytes + 4);
+  // The first smoothed levels, two or three at the most, estimate their spectrum with five vectors
+  // more.
+  const std::int64_t spectrum = n <= 16 && points > tiny ? 5 * float_vector_bytes * points : 0;
+  // Of accumulation (grid/accumulate.h): rows along sides, slots of edges and of sides.
+  const std::int64_t slots =
+      float_vector_bytes * (3 * c.sides() * (2 * n + 1) + 6 * c.edges + 6 * c.sides());
+  // Stencils: of control vertices over their rings, then of edges and of faces.
+  const std::int64_t rings = 2 * c.sides() * (5 * 4 + 5 * 4 + 3 * 8 + 3 * 8 + 3 * 4) / 2;
+  const std::int64_t stencils =
+      rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
+  const std::int64_t steps =
+      energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_points, energy);
+  // Three or four ids a face, and its polygon.
+  const std::int64_t output = n * n * (4 * index_bytes * c.triangles + 5 * index_bytes * c.quads);
+  // What does not grow with the mesh.
+  constexpr std::int64_t fixed = 1 << 14;
+  return std::max(outer + cycle + spectrum + slots + stencils + factor_bytes(factored) +
+                      matrix_bytes(c, levels) + steps,
+                  vector_bytes * points + output) +
+         fixed;
+}
+
+std::size_t memory_limit(const FairOptions& options) {
+  return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
+}
+
+RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy) {
+  RunSize size;
+  const std::int64_t n = std::int64_t(1) << levels;
+  size.points = c.points(levels);
+  size.triangles = n * n * (c.triangles + 2 * c.quads);
+  // Of a shape only its surface stays; it is solved in the same arrays.
+  size.bytes = peak_bytes(c, levels, energy) + std::int64_t(shapes) * vector_bytes * size.points;
+  return size;
+}
+
+}  // namespace
+
+RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, Energy energy) {
+  Counts c;
+  c.vertices = mesh.vertex_count();
+  std::vector<std::uint64_t> keys;
+  keys.reserve(mesh.corners.size());
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const auto size = std::int64_t(face.size());
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
+      keys.push_back(std::uint64_t(low) << 32 | std::uint64_t(high & 0xffffffff));
+    }
+    if (size <= 3) {
+      ++c.triangles;
+    } else if (size == 4) {
+      ++c.quads;
+    } else {
+      c.triangles += size;
+      c.edges += size;
+      ++c.vertices;
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
+  return run_size(c, levels, shapes, energy);
+}
+
+RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy) {
+  Counts c;
+  c.vertices = mesh.vertex_count();
+  c.edges = std::int64_t(mesh.edges.size());
+  for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
+  return run_size(c, levels, shapes, energy);
+}
+
+void require_fit(const RunSize& size, const FairOptions& options) {
+  const std::size_t limit = memory_limit(options);
+  const auto gigabytes = [](double bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g GB", bytes / 1e9);
+    return std::string(text);
+  };
+  if (limit && size.bytes > std::int64_t(limit))
+    throw FairingError(ErrorCode::too_large,
+                       "This takes about " + gigabytes(double(size.bytes)) + " for " +
+                           std::to_string(size.triangles) + " triangles, over the limit of " +
+                           gigabytes(double(limit)) + ". Use fewer levels, or raise memory_limit.");
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (3 * size.points > most || 3 * size.triangles > most)
+    throw FairingError(ErrorCode::too_large,
+                       std::to_string(size.triangles) +
+                           " triangles are more than 32-bit ids can name. Use fewer levels.");
+}
+
+void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
+  // Every edge shared, and no vertex more than there are: no run is smaller.
+  const auto corners = std::int64_t(mesh.corners.size());
+  const std::size_t shapes = options.shape_count(mesh.coordinates.size());
+  const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels,
+                                 shapes, options.energy);
+  const std::size_t limit = memory_limit(options);
+  if (limit && least.bytes > std::int64_t(limit))
+    require_fit(predict_size(mesh, options.levels, shapes, options.energy), options);
+}
+
+}  // namespace fairing

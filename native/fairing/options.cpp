@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/options.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+
+namespace fairing {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message, std::vector<std::int64_t> elements = {}) {
+  throw FairingError(ErrorCode::bad_option, message, std::move(elements));
+}
+
+void in_range(const char* option, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(std::string(option) + " is " + std::to_string(value) + "; it must be from " +
+           std::to_string(low) + " to " + std::to_string(high) + ".");
+}
+
+}  // namespace
+
+void check_options(const PolygonMesh& mesh, const FairOptions& o) {
+  if (o.levels < 0 || o.levels > most_levels)
+    refuse("levels is " + std::to_string(o.levels) + "; it must be from 0 to " +
+           std::to_string(most_levels) + ".");
+  in_range("metric_exponent", o.chart.exponent, 0, 1);
+  in_range("chart_blend", o.chart.blend, 0, 1);
+  in_range("tolerance", o.tolerance, 0, 1e300);
+  in_range("epsilon", o.epsilon, 0, 1e300);
+  in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
+  in_range("step_tolerance", o.step_tolerance, 0, 0.1);
+  if (o.max_steps < 1) refuse("max_steps must be at least 1.");
+  if (o.method == Method::back_leg && o.energy != Energy::thin_plate)
+    refuse("method=\"back_leg\" is for the thin plate only; use multigrid for other energies.");
+  if (o.max_iterations < 1) refuse("max_iterations must be at least 1.");
+  if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
+  if (o.method == Method::back_leg &&
+      (o.interpolation == Interpolation::approximate || o.epsilon > 0))
+    refuse(
+        "method=\"back_leg\" interpolates exactly; use multigrid for tolerance, weights or "
+        "epsilon.");
+  in_range("pad_size", o.pad_size, 0, 1);
+  if (o.pad_size > 0) {
+    const auto exclude = [](bool asked, const char* what, const char* instead) {
+      if (asked)
+        refuse(std::string("pad_size holds control vertices exactly and has no ") + what +
+               " yet; " + instead + ", or set pad_size to 0.");
+    };
+    exclude(o.interpolation == Interpolation::approximate, "interpolation=\"approximate\"",
+            "use interpolation=\"exact\"");
+    exclude(o.epsilon > 0, "epsilon", "leave epsilon at 0: pads leave no cusps to take off");
+    exclude(o.method == Method::back_leg, "method=\"back_leg\"", "use multigrid");
+    exclude(o.energy != Energy::thin_plate, "other energy than the thin plate's",
+            "use energy=\"thin_plate\"");
+  }
+  if (o.smoother_degree < 0 || o.smoother_degree > 1000)
+    refuse("smoother_degree must be from 0 to 1000.");
+  if (o.sweeps < 0 || o.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
+  if (o.weights.empty()) return;
+  if (o.interpolation != Interpolation::approximate)
+    refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");
+  if (std::int64_t(o.weights.size()) != mesh.vertex_count())
+    refuse("weights has " + std::to_string(o.weights.size()) + " entries for " +
+           std::to_string(mesh.vertex_count()) + " vertices; give one for each vertex.");
+  std::vector<std::int64_t> bad;
+  for (std::size_t v = 0; v < o.weights.size(); ++v)
+    if (!(o.weights[v] >= 0) || std::isnan(o.weights[v])) bad.push_back(std::int64_t(v));
+  if (!bad.empty())
+    refuse("weights must be zero or positive; see vertex " + std::to_string(bad[0]) + ".", bad);
+}
+
+}  // namespace fairing

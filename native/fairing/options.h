@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every setting of fair() and FairSolver, with its default, unit and range. A new setting goes
+// here, into check_options, into the binding's list (binding/options.cpp), and into the package's
+// (discrete_fairing/options.py and fair()'s signature).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+#include "mesh/polygon_mesh.h"
+#include "stencil/chart.h"
+
+namespace fairing {
+
+// Whether control vertices stay, or move within a tolerance or against weights.
+enum class Interpolation { exact, approximate };
+
+// The quantity to minimise.
+enum class Energy {
+  // Second derivatives over charts of the control mesh: one linear system [Kobbelt 1997a, §4].
+  thin_plate,
+  // The integral of k1^2 + k2^2 over the surface itself: Gauss-Newton steps from the thin plate's
+  // surface.
+  total_curvature,
+  // The change of curvature along the surface [Moreton, Sequin 1992]: likewise.
+  minimum_variation,
+};
+
+// How the thin plate's linear system is solved.
+enum class Method {
+  // Full multigrid, V-cycles inside conjugate gradients, to `relative_residual`.
+  multigrid,
+  // The paper's own [Kobbelt 1997a, §5]: refine, then a few Gauss-Seidel sweeps, level by level.
+  back_leg,
+};
+
+// Refinements of a control face: 4^15 triangles each.
+constexpr int most_levels = 15;
+
+struct FairOptions {
+  // How often each control face is split into four; 0 to most_levels.
+  int levels = 3;
+  Energy energy = Energy::thin_plate;
+  // Gauss-Newton steps end where less is left to move, as a share of the mesh's size; 0 to 0.1.
+  double step_tolerance = 1e-6;
+  // The most Gauss-Newton steps on the finest level; at least 1.
+  int max_steps = 20;
+  ChartOptions chart;
+  FeatureOptions features;
+  bool repair_orientation = false;
+
+  Interpolation interpolation = Interpolation::exact;
+  // Approximate: the farthest that a control vertex may move, in mesh units; 0: weights alone hold.
+  double tolerance = 0;
+  // Approximate: one a vertex, or empty. 0 frees a vertex where tolerance is 0, infinity fixes it.
+  std::vector<double> weights;
+  // Afterwards interpolated control vertices are released by so much, which takes off cusps; mesh
+  // units.
+  double epsilon = 0;
+
+  // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
+  // this width (thin_plate/pads.h), as a share of the faces around the vertex; 0 to 1.
+  double pad_size = 0;
+
+  // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.
+  std::span<const double> shapes{};
+  // `coordinates`: how many numbers one shape has.
+  std::size_t shape_count(std::size_t coordinates) const {
+    return coordinates ? shapes.size() / coordinates : 0;
+  }
+
+  Method method = Method::multigrid;
+  // Where conjugate gradients end: the residual relative to the control polyhedron's, and the
+  // estimated error relative to the solution in the energy norm; 1e-13 to 0.5.
+  double relative_residual = 1e-8;
+  int max_iterations = 200;
+  // Of the Chebyshev smoother; 0: chosen from how the coarse levels converge.
+  int smoother_degree = 0;
+  // back_leg: Gauss-Seidel sweeps a level.
+  int sweeps = 10;
+
+  // 0: one a core. The result is the same for any number.
+  int threads = 0;
+  // Bytes; 0: three quarters of the machine's memory.
+  std::size_t memory_limit = 0;
+  // Whether to measure the total curvature of result, control polyhedron and prediction.
+  bool measure = true;
+};
+
+// Throws FairingError(bad_option), naming the option and its range.
+void check_options(const PolygonMesh& mesh, const FairOptions& options);
+
+}  // namespace fairing

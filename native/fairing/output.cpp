@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/output.h"
+
+#include <algorithm>
+
+#include "grid/accumulate.h"
+#include "grid/linear.h"
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Ids of row j of a closed face.
+void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::int32_t>& ids) {
+  const int n = grid.n(), last = quad ? n : n - j;
+  ids.resize(std::size_t(last) + 1);
+  const bool inside = j > 0 && j < n && last > 1;
+  ids[0] = grid.face_point(f, 0, j);
+  ids[std::size_t(last)] = grid.face_point(f, last, j);
+  if (inside) {
+    const Index first = grid.face_point(f, 1, j);
+    for (int i = 1; i < last; ++i) ids[std::size_t(i)] = first + i - 1;
+  } else {
+    for (int i = 1; i < last; ++i) ids[std::size_t(i)] = grid.face_point(f, i, j);
+  }
+}
+
+}  // namespace
+
+OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
+  const ControlMesh& mesh = grid.mesh();
+  const int n = grid.n();
+  const std::size_t cells = std::size_t(n) * std::size_t(n);
+  std::vector<std::size_t> rank;  // among the faces of the same kind
+  std::size_t triangles = 0, quads = 0;
+  for (const Face& face : mesh.faces) rank.push_back(face.quad() ? quads++ : triangles++);
+  OutputFaces out;
+  out.triangles.resize(3 * triangles * cells);
+  out.triangle_polygon.resize(triangles * cells);
+  out.quads.resize(4 * quads * cells);
+  out.quad_polygon.resize(quads * cells);
+
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::int32_t> low, high;
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& face = mesh.faces[f];
+      const bool quad = face.quad();
+      std::int32_t* to =
+          quad ? &out.quads[4 * rank[f] * cells] : &out.triangles[3 * rank[f] * cells];
+      std::int32_t* polygon =
+          quad ? &out.quad_polygon[rank[f] * cells] : &out.triangle_polygon[rank[f] * cells];
+      std::fill(polygon, polygon + cells, std::int32_t(face.polygon));
+      row_ids(grid, Index(f), quad, 0, low);
+      for (int j = 0; j < n; ++j) {
+        stop_in_large_face(j);
+        row_ids(grid, Index(f), quad, j + 1, high);
+        const auto width = std::size_t(quad ? n : n - j);
+        for (std::size_t i = 0; i < width; ++i) {
+          if (quad) {
+            for (const std::int32_t id : {low[i], low[i + 1], high[i + 1], high[i]}) *to++ = id;
+            continue;
+          }
+          for (const std::int32_t id : {low[i], low[i + 1], high[i]}) *to++ = id;
+          if (i + 1 < width)
+            for (const std::int32_t id : {low[i + 1], high[i + 1], high[i]}) *to++ = id;
+        }
+        std::swap(low, high);
+      }
+    }
+  });
+  return out;
+}
+
+Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
+  Array<std::int32_t> pairs;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.feature_edge[e] && !mesh.edges[e].boundary())
+      pairs.insert(pairs.end(), mesh.edges[e].vertex.begin(), mesh.edges[e].vertex.end());
+  return pairs;
+}
+
+void to_world(const ControlPositions& control, const GridLevel& grid, const Frame& frame,
+              Workers& workers, const double* x, double* world) {
+  const ControlMesh& mesh = grid.mesh();
+  const std::vector<Vec3>& given = control.world;
+  std::vector<std::uint8_t> kept(given.size());
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    stop_if_cancelled(v);
+    kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == control.working[v];
+  }
+  workers.for_parts(grid.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      for (std::size_t a = 0; a < 3; ++a)
+        world[3 * p + a] = frame.centre[Eigen::Index(a)] + frame.scale * x[3 * p + a];
+  });
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (kept[v])
+      for (std::size_t a = 0; a < 3; ++a) world[3 * v + a] = given[v][Eigen::Index(a)];
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (control.world_curves.run[e] < 0) continue;
+    const auto points = control.world_curves.of(Index(e));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      for (std::size_t a = 0; a < 3; ++a)
+        world[3 * (std::size_t(grid.edge_base(Index(e))) + k) + a] = points[k][Eigen::Index(a)];
+  }
+  refine_outside_linearly(grid, given, world);
+}
+
+double largest_deviation(const std::vector<Vec3>& given, Index input_vertices,
+                         const double* world) {
+  double largest = 0;
+  for (std::size_t v = 0; v < std::size_t(input_vertices); ++v)
+    largest = std::max(largest,
+                       (Vec3(world[3 * v], world[3 * v + 1], world[3 * v + 2]) - given[v]).norm());
+  return largest;
+}
+
+}  // namespace fairing

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/recent_surfaces.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// A change that the fit explains but for this share is of the kind that was seen before; otherwise
+// another kind begins, and the last surface becomes the earlier one.
+constexpr double same_kind = 1e-2;
+// Columns of the least squares that are shorter than this share of the present change are left out:
+// they would be enlarged together with their errors.
+constexpr double least_column = 1e-4;
+// The normal equations of columns of length one are solved on eigenvectors with larger eigenvalues
+// than this: a flat mesh, for one, leaves directions undetermined.
+constexpr double least_eigenvalue = 1e-10;
+
+double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double most = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) most = std::max(most, (a[v] - b[v]).norm());
+  return most;
+}
+
+}  // namespace
+
+void RecentSurfaces::remember(std::span<const Vec3> positions) {
+  positions_.assign(positions.begin(), positions.end());
+  known_ = true;
+}
+
+RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions) const {
+  Eigen::Matrix<double, 7, 7> gram = Eigen::Matrix<double, 7, 7>::Zero();
+  Coefficients right = Coefficients::Zero();
+  double change = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    Eigen::Matrix<double, 7, 1> row = Eigen::Matrix<double, 7, 1>::Zero();
+    row[0] = 1;
+    row.segment<3>(1) = positions_[v];
+    if (has_earlier_) row.segment<3>(4) = positions_[v] - earlier_positions_[v];
+    const Vec3 moved = positions[v] - positions_[v];
+    gram += row * row.transpose();
+    right += row * moved.transpose();
+    change += moved.squaredNorm();
+  }
+  Eigen::Matrix<double, 7, 1> unit;
+  for (int k = 0; k < 7; ++k)
+    unit[k] = gram(k, k) > least_column * least_column * change && gram(k, k) > 0
+                  ? 1 / std::sqrt(gram(k, k))
+                  : 0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(unit.asDiagonal() * gram *
+                                                                          unit.asDiagonal());
+  Eigen::Matrix<double, 7, 1> inverse;
+  for (int k = 0; k < 7; ++k)
+    inverse[k] = solver.eigenvalues()[k] > least_eigenvalue ? 1 / solver.eigenvalues()[k] : 0;
+  return unit.asDiagonal() *
+         (solver.eigenvectors() * (inverse.asDiagonal() * (solver.eigenvectors().transpose() *
+                                                           (unit.asDiagonal() * right))));
+}
+
+void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
+  const Coefficients coefficients = fit(positions);
+  extrapolated_.resize(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    Vec3 p = positions_[v] + coefficients.row(0).transpose() +
+             coefficients.middleRows<3>(1).transpose() * positions_[v];
+    if (has_earlier_)
+      p += coefficients.bottomRows<3>().transpose() * (positions_[v] - earlier_positions_[v]);
+    extrapolated_[v] = p;
+  }
+  const bool another_kind =
+      farthest(extrapolated_, positions) > same_kind * farthest(positions_, positions);
+  const bool had_earlier = has_earlier_;
+  if (another_kind) {
+    earlier_positions_.swap(positions_);
+    positions_ = earlier_positions_;
+    has_earlier_ = true;
+  }
+  earlier_loads_.resize(loads_.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < loads_.size(); ++v) {
+    const Vec3 last = loads_[v];
+    loads_[v] += coefficients.middleRows<3>(1).transpose() * last;
+    if (had_earlier)
+      loads_[v] += coefficients.bottomRows<3>().transpose() * (last - earlier_loads_[v]);
+    if (another_kind) earlier_loads_[v] = last;
+  }
+  if (earlier_surface_.size() != surface_.size()) earlier_surface_.resize(surface_.size());
+  workers_.for_parts(
+      surface_.size() / 3, vector_grain / 3, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          Eigen::Map<Vec3> x(surface_.data() + 3 * i), earlier(earlier_surface_.data() + 3 * i);
+          const Vec3 last = x;
+          Vec3 p = last + coefficients.row(0).transpose() +
+                   coefficients.middleRows<3>(1).transpose() * last;
+          if (had_earlier) p += coefficients.bottomRows<3>().transpose() * (last - earlier);
+          if (another_kind) earlier = last;
+          x = p;
+        }
+      });
+}
+
+}  // namespace fairing

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A start for the next surface, extrapolated from the last two that were found.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "base/types.h"
+#include "parallel/memory.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+// Let p be the last control positions, x their thin-plate surface, and p*, x* those of an earlier
+// moment. The surface depends on the control positions by one linear map, the same for x, y and z,
+// which commutes with affine maps of space. So if the next positions are
+//
+//   p' = p + t + A p + B (p - p*)
+//
+// with one vector t and two 3 x 3 matrices A and B for all vertices, their surface is
+//
+//   x' = x + t + A x + B (x - x*).
+//
+// While part of a mesh is dragged, turned or scaled, p' has this form from the second update on,
+// and the start is the solution but for rounding. Otherwise t, A and B are those of the nearest
+// positions of this form, and the solve has the rest to do. All in working coordinates.
+class RecentSurfaces {
+ public:
+  explicit RecentSurfaces(Workers& workers) : workers_(workers) {}
+
+  bool empty() const { return !known_; }
+  void forget() { known_ = has_earlier_ = false; }
+
+  // The last surface, 3 numbers a point; to be overwritten by the next one before remember().
+  Array<double>& surface() { return surface_; }
+  // The loads on its pads (thin_plate/pads.h), which change as it does but for translations; empty
+  // without pads.
+  std::vector<Vec3>& loads() { return loads_; }
+  // surface() is that of these control positions.
+  void remember(std::span<const Vec3> positions);
+
+  // surface() <- x' for the p' of the form above nearest to these positions, by least squares over
+  // the control vertices. May throw FairingError(cancelled) and bad_alloc.
+  void extrapolate(std::span<const Vec3> positions);
+  // That p': whose surface surface() now is.
+  const std::vector<Vec3>& extrapolated() const { return extrapolated_; }
+
+ private:
+  // t, A and B, transposed and on top of each other.
+  using Coefficients = Eigen::Matrix<double, 7, 3>;
+  Coefficients fit(std::span<const Vec3> positions) const;
+
+  Workers& workers_;
+  bool known_ = false, has_earlier_ = false;
+  std::vector<Vec3> positions_, earlier_positions_, extrapolated_;
+  // The earlier surface is from before the present kind of change: p - p* grows while that lasts.
+  Array<double> surface_, earlier_surface_;
+  std::vector<Vec3> loads_, earlier_loads_;
+};
+
+}  // namespace fairing

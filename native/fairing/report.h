@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run has to say besides the surface. binding/report.cpp makes dicts of these structs, field
+// by field in the same order; docs/numpy-api.md describes them to callers.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "curvature/options.h"
+#include "parallel/monitor.h"
+#include "thin_plate/options.h"
+
+namespace fairing {
+
+// Of one surface on the finest level. NaN where it was not to be measured.
+struct SurfaceEnergies {
+  // In the control metric; mesh units^(2 - 2 exponent).
+  double thin_plate = 0;
+  // The integral of k1^2 + k2^2 over the surface; a pure number.
+  double total_curvature = 0;
+};
+
+// Of one further shape, on the finest level.
+struct ShapeReport {
+  LevelReport finest;
+  double largest_deviation = 0;
+  int constraint_rounds = 0;
+};
+
+// The pads under the input vertices: of how many the width is less than asked for, how many are
+// gone altogether, and each one's width, 0 where there is none. Empty without pads.
+struct PadReport {
+  std::size_t narrower = 0, gone = 0;
+  std::vector<double> widths;
+};
+
+struct PhaseSeconds {
+  std::string phase;
+  double seconds;
+};
+
+struct Report {
+  // Of the surface, of the control polyhedron, and of the start on the finest level.
+  SurfaceEnergies result, polyhedron, prediction;
+  // Linear solves, coarse to fine.
+  std::vector<LevelReport> levels;
+  // Gauss-Newton steps, coarse to fine; empty for the thin plate.
+  std::vector<CurvatureLevelReport> curvature;
+  // Started from an earlier surface.
+  bool warm = false;
+  std::vector<ShapeReport> shapes;
+  std::vector<PhaseSeconds> seconds;
+  // Of the run's own long arrays and factors.
+  std::size_t predicted_bytes = 0, peak_bytes = 0;
+  // Of an input vertex from where it was given, in mesh units.
+  double largest_deviation = 0;
+  // Solves that tolerance or epsilon took.
+  int constraint_rounds = 0;
+  // Tolerance: how far the energy may be over the least possible one, relative.
+  double constraint_gap = 0;
+  PadReport pads;
+  int threads = 1;
+  std::vector<Warning> warnings;
+  // Input faces that were reversed by repair_orientation.
+  std::vector<std::int64_t> flipped_faces;
+};
+
+// Writes the seconds of each phase into a report, a phase that comes again added to the first, and
+// tells the monitor where the run is. enter() throws FairingError(cancelled) where that was asked.
+class Stopwatch {
+ public:
+  Stopwatch(Report& report, Monitor& monitor) : report_(report), monitor_(monitor) {}
+
+  void enter(Phase phase, double fraction) {
+    leave();
+    phase_ = phase;
+    monitor_.report(phase, fraction);
+  }
+  void leave() {
+    const auto now = std::chrono::steady_clock::now();
+    if (running_) add(name(phase_), std::chrono::duration<double>(now - start_).count());
+    start_ = now;
+    running_ = true;
+  }
+
+ private:
+  void add(const char* phase, double seconds) {
+    for (auto& entry : report_.seconds)
+      if (entry.phase == phase) {
+        entry.seconds += seconds;
+        return;
+      }
+    report_.seconds.push_back({phase, seconds});
+  }
+
+  Report& report_;
+  Monitor& monitor_;
+  Phase phase_ = Phase::check;
+  bool running_ = false;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace fairing

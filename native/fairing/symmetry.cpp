@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/symmetry.h"
+
+#include <limits>
+
+namespace fairing {
+namespace {
+
+// How far two positions in working coordinates may be apart and count as the same. They were
+// rounded as world coordinates, relative to their distance from the world's origin: some bits of
+// that, and of the caller's own arithmetic at the mesh's size.
+double rounding(const Frame& frame) {
+  constexpr double own_rounding = 1e-12, bits = 8;
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return own_rounding + bits * epsilon * frame.centre.norm() / frame.scale;
+}
+
+// Corners, and where chains begin and end, need no test of their own: they show in the curves.
+bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const FeatureCurves& curves,
+                    double tolerance) {
+  const auto count = std::size_t(curves.points_per_edge);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (curves.run[e] < 0) continue;
+    if (curves.run[std::size_t(mirror.edge[e])] < 0) return false;
+    const auto points = curves.of(Index(e)), opposite = curves.of(mirror.edge[e]);
+    const bool reversed = mirror.reverses(mesh, Index(e));
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3& image = opposite[reversed ? count - 1 - k : k];
+      if ((mirror.plane.image(points[k]) - image).norm() > tolerance) return false;
+    }
+  }
+  return true;
+}
+
+bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
+                     const std::vector<double>& weights) {
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[std::size_t(mirror.vertex[v])])
+      return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Mirror> find_symmetry(const ControlMesh& mesh, const ControlPositions& control,
+                                  const Frame& frame, const FairOptions& options) {
+  const double tolerance = rounding(frame);
+  return find_mirrors(mesh, tolerance, [&](const Mirror& mirror) {
+    return mirrors_weights(mesh, mirror, options.weights) &&
+           mirrors_curves(mesh, mirror, control.working_curves, tolerance);
+  });
+}
+
+Mirrors kept_by(const ControlPositions& control, const ControlMesh& mesh, const Frame& frame,
+                const std::vector<Mirror>& mirrors) {
+  const double tolerance = rounding(frame);
+  Mirrors kept;
+  for (const Mirror& mirror : mirrors)
+    if (mirrors_positions(mesh, mirror, control.working, tolerance) &&
+        mirrors_curves(mesh, mirror, control.working_curves, tolerance))
+      kept.push_back(&mirror);
+  return kept;
+}
+
+}  // namespace fairing

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/unknowns.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Whether input vertex v is an unknown of the solve.
+bool control_vertex_moves(const FairOptions& options, Index v) {
+  if (options.interpolation == Interpolation::exact) return false;
+  if (options.weights.empty()) return options.tolerance > 0;
+  return std::isfinite(options.weights[std::size_t(v)]);
+}
+
+}  // namespace
+
+Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
+  Unknowns u;
+  u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
+    const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
+    const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
+    u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;
+    u.any_vertex |= bool(u.vertex[std::size_t(v)]);
+  }
+  u.edge.resize(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    u.edge[e] = !mesh.feature_edge[e] && mesh.edge_part(Index(e)) == RegionPart::inside;
+  for (const RegionPart part : mesh.region.face) u.face.push_back(part == RegionPart::inside);
+  return u;
+}
+
+void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
+                      const VertexWeights& weights) {
+  const auto anchored = [&](std::size_t v) {
+    return !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
+  };
+  // Whatever anchors reach along edges is held.
+  std::vector<std::uint8_t> held(std::size_t(mesh.vertex_count()), 0);
+  std::vector<Index> front;
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if (anchored(v)) {
+      held[v] = 1;
+      front.push_back(Index(v));
+    }
+  for (std::size_t step = 0; !front.empty(); ++step) {
+    stop_if_cancelled(step);
+    const Index v = front.back();
+    front.pop_back();
+    for (const Spoke& spoke : mesh.ring(v)) {
+      const Index other = mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
+      if (held[std::size_t(other)]) continue;
+      held[std::size_t(other)] = 1;
+      front.push_back(other);
+    }
+  }
+  std::vector<std::int64_t> loose;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
+    if (!held[v]) loose.push_back(std::int64_t(v));
+  if (!loose.empty())
+    throw FairingError(ErrorCode::underdetermined,
+                       "Nothing holds the part of the mesh around vertex " +
+                           std::to_string(loose[0]) +
+                           ": give a vertex of it a weight, or interpolate one.",
+                       loose);
+}
+
+}  // namespace fairing

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/linear.h"
+
+#include "grid/runs.h"
+
+namespace fairing {
+namespace {
+
+double* put(const Vec3& p, double* x) {
+  for (int a = 0; a < 3; ++a) *x++ = p[a];
+  return x;
+}
+
+void refine_run(const GridLevel& grid, std::span<const Vec3> control, const Run& run, double* x) {
+  const ControlMesh& mesh = grid.mesh();
+  const int n = grid.n(), j = run.row, count = int(run.count);
+  x += 3 * run.first;
+  if (run.kind == RunKind::vertex) {
+    put(control[run.first], x);
+    return;
+  }
+  if (run.kind == RunKind::edge) {
+    const Edge& edge = mesh.edges[std::size_t(run.element)];
+    const Vec3 &a = control[std::size_t(edge.vertex[0])], &b = control[std::size_t(edge.vertex[1])];
+    for (int k = 1; k <= count; ++k) x = put((double(n - k) * a + double(k) * b) / n, x);
+    return;
+  }
+  const Face& face = mesh.faces[std::size_t(run.element)];
+  const auto corner = [&](std::size_t c) -> const Vec3& {
+    return control[std::size_t(face.vertex[c])];
+  };
+  if (run.quad) {
+    const Vec3 left = (double(n - j) * corner(0) + double(j) * corner(3)) / n,
+               right = (double(n - j) * corner(1) + double(j) * corner(2)) / n;
+    for (int i = 1; i <= count; ++i) x = put((double(n - i) * left + double(i) * right) / n, x);
+    return;
+  }
+  for (int i = 1; i <= count; ++i)
+    x = put((double(n - i - j) * corner(0) + double(i) * corner(1) + double(j) * corner(2)) / n, x);
+}
+
+}  // namespace
+
+void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, Workers& workers,
+                     double* x) {
+  for_each_run(grid, workers, [&](const Run& run) { refine_run(grid, control, run, x); });
+}
+
+void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x) {
+  for_each_run(grid, [&](const Run& run) { refine_run(grid, control, run, x); });
+}
+
+void refine_outside_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x) {
+  const ControlMesh& mesh = grid.mesh();
+  if (mesh.region.whole()) return;
+  for_each_run(grid, [&](const Run& run) {
+    if (run.kind == RunKind::edge && mesh.edge_part(run.element) == RegionPart::inside) return;
+    if (run.kind == RunKind::face_row && mesh.face_part(run.element) == RegionPart::inside) return;
+    if (run.kind != RunKind::vertex) refine_run(grid, control, run, x);
+  });
+}
+
+}  // namespace fairing

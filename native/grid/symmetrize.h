@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes vectors on a level symmetric under a mirror of its control mesh.
+#pragma once
+
+#include "grid/accumulate.h"
+#include "mesh/mirror.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+// The affine map from the closed coordinates of a face to those of its image.
+struct FaceImage {
+  GridPoint origin, i_step, j_step;
+
+  GridPoint of(int i, int j) const {
+    return {origin.i + i * i_step.i + j * j_step.i, origin.j + i * i_step.j + j * j_step.j};
+  }
+};
+
+// For a face whose corner c goes to corner (turn - c) mod size (Mirror::turn).
+FaceImage face_image(bool quad, int n, int turn);
+
+// x <- the mean of x and its mirror image at the unknowns of a level, which are mirrored too; 3
+// numbers a point.
+void mean_with_image(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
+                     Workers& workers, double* x);
+
+// The same for displacements along normals, one number a point.
+void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
+                           Workers& workers, double* h);
+
+}  // namespace fairing

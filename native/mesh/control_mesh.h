@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The control mesh: triangles and quads with edges, sides, one-rings and feature chains as flat
+// tables. Built once, through OpenMesh, from checked arrays; all later rooms read these tables and
+// nothing else of the input.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.h"
+#include "mesh/polygon_mesh.h"
+
+namespace fairing {
+
+enum class BoundaryMode {
+  curve,   // variational curve through the boundary's control vertices
+  linear,  // the straight control edges
+  free,    // natural boundary: the surface decides
+};
+
+// How a faired region meets what is outside it.
+enum class RegionContinuity {
+  position,   // in a fixed line, at any angle
+  tangent,    // moreover with the outside's tangent planes
+  curvature,  // moreover with the outside's curvature, which is none
+};
+
+struct RegionOptions {
+  bool given = false;
+  std::vector<std::int64_t> faces{};  // of the input
+  RegionContinuity joint = RegionContinuity::tangent;
+};
+
+struct FeatureOptions {
+  std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
+  // Curves end here; an interior one may be the tip of a cone.
+  std::vector<std::int64_t> corner_vertices{};
+  double crease_angle = -1.0;  // edges that fold by more are creases; radians; negative: none
+  double corner_angle = -1.0;  // chains that turn by more are split there; radians; negative: none
+  BoundaryMode boundary = BoundaryMode::curve;
+  RegionOptions region{};
+};
+
+// A face's side s runs from its corner s to its corner s + 1.
+struct Side {
+  Index face;
+  Index edge;
+  std::int8_t local;  // s
+  bool reversed;      // the side runs against its edge
+};
+
+struct Edge {
+  std::array<Index, 2> vertex;
+  std::array<Index, 2> side;  // [0] runs with the edge (face on its left), [1] against it; -1: none
+  bool boundary() const { return side[0] < 0 || side[1] < 0; }
+};
+
+struct Face {
+  std::array<Index, 4> vertex;  // counter-clockwise; vertex[3] == -1 for a triangle
+  Index first_side;             // sides first_side … first_side + size - 1
+  Index polygon;                // the input face that it is or comes from
+  std::int8_t size;             // 3 or 4
+  bool quad() const { return size == 4; }
+};
+
+// One spoke of a one-ring: an edge, and the face that follows it counter-clockwise.
+struct Spoke {
+  Index edge;
+  Index face;          // -1 behind the last spoke of an open ring
+  std::int8_t corner;  // the ring's centre is face.vertex[corner]
+  bool outward;        // the centre is edge.vertex[0]
+};
+
+// A maximal run of feature edges between corners, or a closed loop without any corner.
+struct Chain {
+  std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
+  std::vector<Index> edges;     // edges[k] joins vertices[k] and [k + 1] (cyclically in a loop)
+  bool closed = false;
+  bool straight = false;  // BoundaryMode::linear: not smoothed
+};
+
+enum class RegionPart : std::uint8_t { inside, joint, outside };
+
+// Which part of the mesh is faired, where that is not all of it. What is not inside is refined
+// linearly, and fixed.
+struct Region {
+  // A face is inside or outside, never on the joint. All empty: the whole mesh is inside.
+  std::vector<RegionPart> vertex, edge, face;
+  RegionContinuity joint = RegionContinuity::tangent;
+  // The joint edges that carry a fit, and their ends.
+  std::vector<std::uint8_t> clamped_vertex, clamped_edge;
+
+  bool whole() const { return face.empty(); }
+};
+
+struct ControlMesh {
+  // The input's vertices first; positions[input_vertices …] are free vertices that splits have
+  // added.
+  std::vector<Vec3> positions;
+  Index input_vertices = 0, input_faces = 0;
+  std::vector<Face> faces;
+  std::vector<Side> sides;
+  std::vector<Edge> edges;
+
+  // The one-rings, counter-clockwise; an open ring starts at its first boundary edge.
+  std::vector<Index> ring_offset;  // vertices + 1
+  std::vector<Spoke> spokes;
+
+  std::vector<Index> spoke_of_edge;  // [2 e + h]: the spoke at edge e's vertex h that is e
+  std::vector<Index> spoke_of_side;  // the spoke at the side's first corner that is the side
+
+  // Edges on a curve (a crease, or a boundary that is not free); vertices on a curve or at a
+  // corner, where no fit is taken.
+  std::vector<std::uint8_t> feature_edge, feature_vertex;
+  std::vector<Chain> chains;
+  Region region;
+
+  Index vertex_count() const { return Index(positions.size()); }
+  std::span<const Spoke> ring(Index v) const {
+    return {spokes.data() + ring_offset[v], std::size_t(ring_offset[v + 1] - ring_offset[v])};
+  }
+  // True when the one-ring closes around v (v is not on the boundary and not isolated).
+  bool interior(Index v) const {
+    const auto r = ring(v);
+    return !r.empty() && r.back().face >= 0;
+  }
+
+  RegionPart vertex_part(Index v) const {
+    return region.whole() ? RegionPart::inside : region.vertex[std::size_t(v)];
+  }
+  RegionPart edge_part(Index e) const {
+    return region.whole() ? RegionPart::inside : region.edge[std::size_t(e)];
+  }
+  RegionPart face_part(Index f) const {
+    return region.whole() ? RegionPart::inside : region.face[std::size_t(f)];
+  }
+
+  // Whether the surface is fitted at the control vertex, and at the points inside the edge: whether
+  // its divided differences, and so its bending, are taken there.
+  bool vertex_fit(Index v) const {
+    return !ring(v).empty() && !feature_vertex[std::size_t(v)] && part_fit(vertex_part(v));
+  }
+  bool edge_fit(Index e) const { return !feature_edge[std::size_t(e)] && part_fit(edge_part(e)); }
+
+ private:
+  bool part_fit(RegionPart part) const {
+    return part == RegionPart::inside ||
+           (part == RegionPart::joint && region.joint != RegionContinuity::position);
+  }
+};
+
+// Points of the ring about a control vertex on any level: one a spoke, and one across each quad.
+inline Index ring_size(const ControlMesh& mesh, Index v) {
+  Index size = 0;
+  for (const Spoke& spoke : mesh.ring(v))
+    size += spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad() ? 2 : 1;
+  return size;
+}
+
+// `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons
+// of five and more sides, and quads too concave or warped, are split by shape (mesh/split.h).
+// Throws FairingError: bad_feature_edge, index_out_of_range for creases, corners and a region's
+// faces that are not in the mesh; bad_option for a region without faces; too_large for polygons
+// that cannot be split (mesh/split.h).
+ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
+                              std::span<const std::int64_t> flipped = {});
+
+}  // namespace fairing

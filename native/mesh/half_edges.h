@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which faces meet at each edge, whichever way they run: the table behind all checks of the
+// topology. Unlike OpenMesh it takes any soup of faces. Linear time, by a counting sort.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/polygon_mesh.h"
+
+namespace fairing {
+
+// Half-edge k runs from corners[k] to the next corner of the same face.
+class HalfEdges {
+ public:
+  // The arrays must have passed check_arrays, and must outlive this.
+  explicit HalfEdges(const PolygonMesh& mesh);
+
+  std::int32_t count() const { return std::int32_t(face_.size()); }
+  std::int32_t face(std::int32_t k) const { return face_[std::size_t(k)]; }
+  std::int64_t from(std::int32_t k) const { return mesh_.corners[std::size_t(k)]; }
+  std::int32_t next(std::int32_t k) const;
+  std::int32_t previous(std::int32_t k) const;
+
+  // The other half-edge of the edge; -1 on the boundary and where more than two faces meet.
+  std::int32_t twin(std::int32_t k) const { return twin_[std::size_t(k)]; }
+  bool runs_as_twin(std::int32_t k) const { return from(k) == from(twin(k)); }
+
+  // Vertex pairs, laid end to end, of the edges with more than two faces.
+  const std::vector<std::int64_t>& nonmanifold_edges() const { return nonmanifold_edges_; }
+
+ private:
+  void find_twins();
+
+  PolygonMesh mesh_;
+  std::vector<std::int32_t> face_, twin_;
+  std::vector<std::int64_t> nonmanifold_edges_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/mirror.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr std::size_t most_mirrors = 3;  // that are at right angles
+constexpr double right_angle = 1e-9;     // as a cosine
+// How far from its image a vertex is searched, in tolerances: a candidate plane goes through two
+// vertices only, and their rounding tilts it.
+constexpr double reach = 100;
+// Searches a vertex over all candidate planes; symmetry is given up after that.
+constexpr std::size_t most_searches = 64;
+
+// Finds the vertex at a place: those that have faces, sorted along a direction that no mesh is
+// aligned with.
+class PointSearch {
+ public:
+  explicit PointSearch(const ControlMesh& mesh);
+
+  static constexpr Index none = -1, several = -2;
+
+  // The one vertex within `tolerance` of p.
+  Index at(const Vec3& p, double tolerance) const;
+
+ private:
+  struct Entry {
+    double key;
+    Index vertex;
+  };
+  const std::vector<Vec3>& positions_;
+  std::vector<Entry> entries_;
+};
+
+// The coordinate along that direction, which has nearly length one.
+double key_of(const Vec3& p) { return p.dot(Vec3(0.5347, 0.6241, 0.5698)); }
+
+PointSearch::PointSearch(const ControlMesh& mesh) : positions_(mesh.positions) {
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (!mesh.ring(v).empty()) entries_.push_back({key_of(positions_[std::size_t(v)]), v});
+  std::sort(entries_.begin(), entries_.end(),
+            [comparisons = std::size_t(0)](const Entry& a, const Entry& b) mutable {
+              stop_if_cancelled(++comparisons);
+              return a.key < b.key;
+            });
+}
+
+Index PointSearch::at(const Vec3& p, double tolerance) const {
+  const double key = key_of(p), span = 2 * tolerance;
+  auto entry = std::lower_bound(entries_.begin(), entries_.end(), key - span,
+                                [](const Entry& e, double k) { return e.key < k; });
+  Index found = none;
+  for (; entry != entries_.end() && entry->key <= key + span; ++entry) {
+    if ((positions_[std::size_t(entry->vertex)] - p).norm() > tolerance) continue;
+    if (found >= 0) return several;
+    found = entry->vertex;
+  }
+  return found;
+}
+
+// The side that runs from a to b; -1: none.
+Index side_between(const ControlMesh& mesh, Index a, Index b) {
+  const bool at_a = mesh.ring(a).size() <= mesh.ring(b).size();
+  for (const Spoke& spoke : mesh.ring(at_a ? a : b)) {
+    const Edge& edge = mesh.edges[std::size_t(spoke.edge)];
+    if (edge.vertex[spoke.outward ? 1 : 0] == (at_a ? b : a))
+      return edge.side[edge.vertex[0] == a ? 0 : 1];
+  }
+  return -1;
+}
+
+template <class T>
+bool same(const std::vector<T>& values, const std::vector<Index>& image) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] != values[std::size_t(image[i])]) return false;
+  return true;
+}
+
+class Finder {
+ public:
+  Finder(const ControlMesh& mesh, double tolerance)
+      : mesh_(mesh),
+        tolerance_(tolerance),
+        search_(mesh),
+        searches_(most_searches * std::size_t(mesh.vertex_count())) {}
+
+  bool exhausted() const { return searches_ == 0; }
+
+  bool find(const Plane& plane, Mirror& mirror) {
+    mirror.plane = plane;
+    if (!map_vertices(mirror)) return false;
+    centre_plane(mirror);
+    return mirrors_positions(mesh_, mirror, mesh_.positions, tolerance_) && map_faces(mirror) &&
+           maps_features(mirror);
+  }
+
+ private:
+  bool map_vertices(Mirror& mirror) {
+    std::vector<Index>& image = mirror.vertex;
+    image.resize(std::size_t(mesh_.vertex_count()));
+    std::vector<Index> unclear;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      stop_if_cancelled(std::size_t(v));
+      image[std::size_t(v)] = v;
+      if (mesh_.ring(v).empty()) continue;
+      if (searches_ == 0) return false;
+      --searches_;
+      const Vec3 opposite = mirror.plane.image(mesh_.positions[std::size_t(v)]);
+      const Index found = image[std::size_t(v)] = search_.at(opposite, reach * tolerance_);
+      if (found == PointSearch::none) return false;
+      if (found == PointSearch::several) unclear.push_back(v);
+    }
+    tell_apart(std::move(unclear), image);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      const Index other = image[std::size_t(v)];
+      if (other < 0 || image[std::size_t(other)] != v) return false;
+      if ((other < mesh_.input_vertices) != (v < mesh_.input_vertices)) return false;
+    }
+    return true;
+  }
+
+  // Of vertices at one place, faces say which is meant.
+  void tell_apart(std::vector<Index> unclear, std::vector<Index>& image) const {
+    while (!unclear.empty()) {
+      const Index v = unclear.back();
+      unclear.pop_back();
+      if (image[std::size_t(v)] >= 0) continue;
+      const Index found = image[std::size_t(v)] = image_by_faces(v, image);
+      if (found < 0) continue;
+      for (const Spoke& spoke : mesh_.ring(v)) {
+        if (spoke.face < 0) continue;
+        for (const Index other : corners(mesh_.faces[std::size_t(spoke.face)]))
+          if (image[std::size_t(other)] < 0) unclear.push_back(other);
+      }
+    }
+  }
+
+  Index image_by_faces(Index v, const std::vector<Index>& image) const {
+    for (const Spoke& spoke : mesh_.ring(v)) {
+      if (spoke.face < 0) continue;
+      const Face& face = mesh_.faces[std::size_t(spoke.face)];
+      for (int c = 0; c < face.size; ++c) {
+        const FaceImage found = face_image(face, c, image);
+        if (found.face >= 0)
+          return mesh_.faces[std::size_t(found.face)].vertex[corner(found, spoke.corner)];
+      }
+    }
+    return PointSearch::several;
+  }
+
+  // The plane that all pairs make together; coordinate planes are exact.
+  void centre_plane(Mirror& mirror) const {
+    Plane& plane = mirror.plane;
+    if (plane.offset == 0 && plane.normal.cwiseAbs().maxCoeff() == 1) return;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t v = 0; v < mirror.vertex.size(); ++v) {
+      const Vec3 between = mesh_.positions[v] - mesh_.positions[std::size_t(mirror.vertex[v])];
+      sum += plane.normal.dot(between) > 0 ? between : Vec3(-between);
+    }
+    if (sum.norm() > 0) plane.normal = sum.normalized();
+    double offset = 0, count = 0;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (mesh_.ring(v).empty()) continue;
+      offset += plane.normal.dot(mesh_.positions[std::size_t(v)]);
+      ++count;
+    }
+    plane.offset = offset / count;
+  }
+
+  struct FaceImage {
+    Index face = -1;
+    int size = 0, turn = 0;
+  };
+
+  std::span<const Index> corners(const Face& face) const {
+    return {face.vertex.data(), std::size_t(face.size)};
+  }
+
+  static std::size_t corner(const FaceImage& image, int c) {
+    return std::size_t((image.turn - c + image.size) % image.size);
+  }
+
+  // A face runs the other way round in its image: side c, from a to b, has its image in that from
+  // b' to a'.
+  FaceImage face_image(const Face& face, int c, const std::vector<Index>& image) const {
+    const Index a = image[std::size_t(face.vertex[std::size_t(c)])],
+                b = image[std::size_t(face.vertex[std::size_t((c + 1) % face.size)])];
+    const Index found = a < 0 || b < 0 ? -1 : side_between(mesh_, b, a);
+    if (found < 0) return {};
+    const Side& side = mesh_.sides[std::size_t(found)];
+    if (mesh_.faces[std::size_t(side.face)].size != face.size) return {};
+    return {side.face, face.size, (side.local + 1 + c) % face.size};
+  }
+
+  bool map_faces(Mirror& mirror) const {
+    mirror.edge.resize(mesh_.edges.size());
+    mirror.face.resize(mesh_.faces.size());
+    mirror.turn.resize(mesh_.faces.size());
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      stop_if_cancelled(f);
+      const Face& face = mesh_.faces[f];
+      const FaceImage image = face_image(face, 0, mirror.vertex);
+      if (image.face < 0) return false;
+      const Face& other = mesh_.faces[std::size_t(image.face)];
+      for (int c = 0; c < face.size; ++c) {
+        if (other.vertex[corner(image, c)] !=
+            mirror.vertex[std::size_t(face.vertex[std::size_t(c)])])
+          return false;
+        const Index side = other.first_side + Index(corner(image, (c + 1) % face.size));
+        mirror.edge[std::size_t(mesh_.sides[std::size_t(face.first_side + c)].edge)] =
+            mesh_.sides[std::size_t(side)].edge;
+      }
+      mirror.face[f] = image.face;
+      mirror.turn[f] = std::int8_t(image.turn);
+    }
+    return true;
+  }
+
+  bool maps_features(const Mirror& mirror) const {
+    const Region& region = mesh_.region;
+    return same(mesh_.feature_vertex, mirror.vertex) && same(mesh_.feature_edge, mirror.edge) &&
+           same(region.vertex, mirror.vertex) && same(region.edge, mirror.edge) &&
+           same(region.face, mirror.face) && same(region.clamped_vertex, mirror.vertex) &&
+           same(region.clamped_edge, mirror.edge);
+  }
+
+  const ControlMesh& mesh_;
+  double tolerance_;
+  PointSearch search_;
+  std::size_t searches_;
+};
+
+}  // namespace
+
+bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
+                       std::span<const Vec3> positions, double tolerance) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    stop_if_cancelled(v);
+    if (mesh.ring(Index(v)).empty()) continue;
+    const Vec3& opposite = positions[std::size_t(mirror.vertex[v])];
+    if ((mirror.plane.image(positions[v]) - opposite).norm() > tolerance) return false;
+  }
+  return true;
+}
+
+std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
+                                 const std::function<bool(const Mirror&)>& holds) {
+  std::vector<Mirror> found;
+  const std::vector<Plane> planes = mirror_planes(mesh, tolerance);
+  if (planes.empty()) return found;
+  Finder finder(mesh, tolerance);
+  for (const Plane& plane : planes) {
+    if (found.size() == most_mirrors || finder.exhausted()) break;
+    const auto is_right = [&](const Mirror& other) {
+      return std::abs(other.plane.normal.dot(plane.normal)) <= right_angle;
+    };
+    if (!std::all_of(found.begin(), found.end(), is_right)) continue;
+    Mirror mirror;
+    if (finder.find(plane, mirror) && holds(mirror)) found.push_back(std::move(mirror));
+  }
+  return found;
+}
+
+}  // namespace fairing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mirror symmetries of a control mesh: planes, and which vertices, edges and faces are each other's
+// images.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+
+namespace fairing {
+
+struct Plane {
+  Vec3 normal;    // of length one
+  double offset;  // of the plane's points along the normal
+
+  Vec3 image(const Vec3& p) const { return p - 2 * (normal.dot(p) - offset) * normal; }
+};
+
+struct Mirror {
+  Plane plane;
+  std::vector<Index> vertex, edge, face;  // the images; vertices without faces are their own
+  std::vector<std::int8_t> turn;  // corner c of a face has its image at corner (turn - c) mod size
+
+  // Whether the image of an edge runs the other way.
+  bool reverses(const ControlMesh& mesh, Index e) const {
+    const auto image = std::size_t(edge[std::size_t(e)]);
+    return mesh.edges[image].vertex[0] != vertex[std::size_t(mesh.edges[std::size_t(e)].vertex[0])];
+  }
+};
+
+// The mirrors that a surface keeps, of those that its control mesh has; not owned.
+using Mirrors = std::vector<const Mirror*>;
+
+// All planes that may mirror the vertices, the coordinate planes first; most are none. Positions as
+// find_mirrors takes them.
+std::vector<Plane> mirror_planes(const ControlMesh& mesh, double tolerance);
+
+// Up to three mirrors of the mesh with its features and its region. They are at right angles to
+// each other, so that what one of them has made symmetric stays so under the next; coordinate
+// planes come first. `holds` has the last word. Positions are to be around the origin with their
+// bounding box centred there, and of size one; `tolerance` is their rounding.
+std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
+                                 const std::function<bool(const Mirror&)>& holds);
+
+// Whether other positions of the vertices are mirrored in the same way.
+bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
+                       std::span<const Vec3> positions, double tolerance);
+
+}  // namespace fairing

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/region.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+std::vector<std::uint8_t> chosen_polygons(const RegionOptions& options, Index polygons) {
+  if (options.faces.empty())
+    throw FairingError(
+        ErrorCode::bad_option,
+        "region has no faces: name those to be faired, or give no region to fair all.");
+  std::vector<std::int64_t> unknown;
+  std::vector<std::uint8_t> chosen(std::size_t(polygons), 0);
+  for (std::int64_t f : options.faces) {
+    if (f < 0 || f >= polygons)
+      unknown.push_back(f);
+    else
+      chosen[std::size_t(f)] = 1;
+  }
+  if (!unknown.empty())
+    throw FairingError(ErrorCode::index_out_of_range,
+                       listing(face_s, unknown, {"is", "are"}) +
+                           " named in the region but not in the mesh: ids run from 0 to " +
+                           std::to_string(polygons - 1) + ".",
+                       unknown, ElementKind::face);
+  return chosen;
+}
+
+// The part of a vertex or edge that touches faces of these kinds.
+RegionPart part_of(bool some_inside, bool some_outside) {
+  if (!some_inside) return RegionPart::outside;
+  return some_outside ? RegionPart::joint : RegionPart::inside;
+}
+
+RegionPart vertex_part(const ControlMesh& control, Index v) {
+  bool touches[2] = {false, false};
+  for (const Spoke& spoke : control.ring(v))
+    if (spoke.face >= 0)
+      touches[control.region.face[std::size_t(spoke.face)] == RegionPart::outside] = true;
+  return part_of(touches[0], touches[1]);
+}
+
+RegionPart edge_part(const ControlMesh& control, const Edge& edge) {
+  bool touches[2] = {false, false};
+  for (const Index side : edge.side)
+    if (side >= 0)
+      touches[control.region.face[std::size_t(control.sides[std::size_t(side)].face)] ==
+              RegionPart::outside] = true;
+  return part_of(touches[0], touches[1]);
+}
+
+}  // namespace
+
+void find_region(const RegionOptions& options, ControlMesh& control) {
+  if (!options.given) return;
+  const std::vector<std::uint8_t> chosen = chosen_polygons(options, control.input_faces);
+  if (std::find(chosen.begin(), chosen.end(), 0) == chosen.end()) return;
+  Region& region = control.region;
+  region.joint = options.joint;
+  for (const Face& face : control.faces)
+    region.face.push_back(chosen[std::size_t(face.polygon)] ? RegionPart::inside
+                                                            : RegionPart::outside);
+  for (const Edge& edge : control.edges) {
+    stop_if_cancelled(region.edge.size());
+    region.edge.push_back(edge_part(control, edge));
+  }
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
+    region.vertex.push_back(vertex_part(control, v));
+  }
+}
+
+void mark_clamped_joint(ControlMesh& control) {
+  Region& region = control.region;
+  if (region.whole() || region.joint == RegionContinuity::position) return;
+  region.clamped_edge.assign(control.edges.size(), 0);
+  region.clamped_vertex.assign(std::size_t(control.vertex_count()), 0);
+  for (std::size_t e = 0; e < control.edges.size(); ++e) {
+    if (region.edge[e] != RegionPart::joint || !control.edge_fit(Index(e))) continue;
+    region.clamped_edge[e] = 1;
+    for (const Index v : control.edges[e].vertex) region.clamped_vertex[std::size_t(v)] = 1;
+  }
+}
+
+}  // namespace fairing

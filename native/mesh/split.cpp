@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/split.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+#include "base/error.h"
+#include "mesh/polygon_shape.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// The triangulation takes cubic time.
+constexpr std::size_t most_corners_to_cut = 1000;
+
+enum class Treatment : std::uint8_t { keep, fan, cut };
+
+Vec3 position(const PolygonMesh& mesh, std::int64_t v) {
+  return Eigen::Map<const Vec3>(&mesh.coordinates[3 * std::size_t(v)]);
+}
+
+PolygonShape shape_of(const PolygonMesh& mesh, std::int64_t f) {
+  std::vector<Vec3> corners;
+  for (std::int64_t v : mesh.face(f)) corners.push_back(position(mesh, v));
+  return PolygonShape(corners);
+}
+
+// Vertices with two faces all around them: only a cut through one of these faces gives them a third
+// spoke.
+std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
+  struct Corner {
+    std::int64_t before = -1, after = -1;
+  };
+  std::vector<Corner> first(std::size_t(mesh.vertex_count()));
+  std::vector<std::uint8_t> faces(first.size(), 0), pinched(first.size(), 0);
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const auto v = std::size_t(face[i]);
+      const Corner corner{face[(i + face.size() - 1) % face.size()], face[(i + 1) % face.size()]};
+      if (faces[v] == 0) first[v] = corner;
+      pinched[v] =
+          faces[v] == 1 && corner.before == first[v].after && corner.after == first[v].before;
+      faces[v] = std::uint8_t(std::min(3, faces[v] + 1));
+    }
+  }
+  return pinched;
+}
+
+// Which of the vertex pairs that a cut might join are free. A pair is taken by an edge, or by a
+// second face that wants it: then neither face gets it, since any rule which one does would depend
+// on the order of faces.
+class Diagonals {
+ public:
+  void propose(std::int64_t a, std::int64_t b) { ++wanted_[key(a, b)]; }
+  void take(std::int64_t a, std::int64_t b) {
+    if (const auto found = wanted_.find(key(a, b)); found != wanted_.end()) found->second = 2;
+  }
+  bool allowed(std::int64_t a, std::int64_t b) const { return wanted_.at(key(a, b)) == 1; }
+  bool empty() const { return wanted_.empty(); }
+
+ private:
+  static std::uint64_t key(std::int64_t a, std::int64_t b) {
+    return std::uint64_t(std::min(a, b)) << 32 | std::uint64_t(std::max(a, b));
+  }
+  std::unordered_map<std::uint64_t, int> wanted_;
+};
+
+class Splitter {
+ public:
+  explicit Splitter(const PolygonMesh& mesh) : mesh_(mesh) {}
+
+  SplitMesh split() {
+    choose_treatments();
+    find_free_diagonals();
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      const auto face = mesh_.face(f);
+      switch (treatment_[std::size_t(f)]) {
+        case Treatment::keep: add_face(f, face); break;
+        case Treatment::fan: add_fan(f, face, shape_of(mesh_, f).centroid()); break;
+        case Treatment::cut: add_cut(f); break;
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void choose_treatments() {
+    const std::vector<std::uint8_t> pinched = pinched_vertices(mesh_);
+    std::vector<std::int64_t> too_long;
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      treatment_.push_back(choose(f, pinched));
+      if (treatment_.back() == Treatment::cut && mesh_.face(f).size() > most_corners_to_cut)
+        too_long.push_back(f);
+    }
+    if (!too_long.empty())
+      throw FairingError(ErrorCode::too_large,
+                         listing(face_s, too_long, {"has", "have"}) +
+                             " more than 1000 corners and no point that sees them all. Cut them "
+                             "into smaller ones.",
+                         too_long);
+  }
+
+  Treatment choose(std::int64_t f, const std::vector<std::uint8_t>& pinched) const {
+    const auto face = mesh_.face(f);
+    if (face.size() == 3) return Treatment::keep;
+    const PolygonShape shape = shape_of(mesh_, f);
+    if (face.size() > 4) return shape.star_shaped() ? Treatment::fan : Treatment::cut;
+    const bool has_pinched = std::any_of(face.begin(), face.end(),
+                                         [&](std::int64_t v) { return pinched[std::size_t(v)]; });
+    return has_pinched || shape.concave() || shape.warped() ? Treatment::cut : Treatment::keep;
+  }
+
+  void find_free_diagonals() {
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      if (treatment_[std::size_t(f)] != Treatment::cut) continue;
+      stop_if_cancelled();
+      const auto face = mesh_.face(f);
+      for (std::size_t i = 0; i + 2 < face.size(); ++i)
+        for (std::size_t j = i + 2; j < face.size() && j - i < face.size() - 1; ++j)
+          diagonals_.propose(face[i], face[j]);
+    }
+    if (diagonals_.empty()) return;
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      const auto face = mesh_.face(f);
+      for (std::size_t i = 0; i < face.size(); ++i)
+        diagonals_.take(face[i], face[(i + 1) % face.size()]);
+    }
+  }
+
+  void add_face(std::int64_t f, std::span<const std::int64_t> face) {
+    SplitFace added{{-1, -1, -1, -1}, Index(f)};
+    for (std::size_t i = 0; i < face.size(); ++i) added.vertex[i] = Index(face[i]);
+    result_.faces.push_back(added);
+  }
+
+  void add_fan(std::int64_t f, std::span<const std::int64_t> corners, const Vec3& centre) {
+    const auto c = Index(mesh_.vertex_count() + std::int64_t(result_.centres.size()));
+    result_.centres.push_back(centre);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      result_.faces.push_back(
+          {{Index(corners[i]), Index(corners[(i + 1) % corners.size()]), c, -1}, Index(f)});
+  }
+
+  void add_cut(std::int64_t f) {
+    const auto face = mesh_.face(f);
+    const auto allowed = [&](std::size_t i, std::size_t j) {
+      return diagonals_.allowed(face[i], face[j]);
+    };
+    for (const Piece& piece : cut_polygon(shape_of(mesh_, f), allowed)) {
+      std::vector<std::int64_t> corners;
+      std::vector<Vec3> points;
+      for (std::size_t i : piece) {
+        corners.push_back(face[i]);
+        points.push_back(position(mesh_, face[i]));
+      }
+      if (piece.size() == 3)
+        add_face(f, corners);
+      else
+        add_fan(f, corners, PolygonShape(points).centroid());
+    }
+  }
+
+  const PolygonMesh& mesh_;
+  std::vector<Treatment> treatment_;
+  Diagonals diagonals_;
+  SplitMesh result_;
+};
+
+}  // namespace
+
+SplitMesh split_polygons(const PolygonMesh& mesh) { return Splitter(mesh).split(); }
+
+}  // namespace fairing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triangles and quads out of polygons: by shape, never by index order, so that neither the order of
+// faces nor a face's first corner changes the surface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/types.h"
+#include "mesh/polygon_mesh.h"
+
+namespace fairing {
+
+struct SplitFace {
+  std::array<Index, 4> vertex;  // counter-clockwise; vertex[3] == -1 for a triangle
+  Index polygon;                // the face that it comes from
+};
+
+struct SplitMesh {
+  std::vector<SplitFace> faces;  // in the order of their polygons
+  std::vector<Vec3> centres;     // free vertices, numbered on from the input's
+};
+
+// * Polygons of five and more sides that are star-shaped about the centroid of their area become a
+//   fan around a free vertex there; others are cut by their best triangulation
+//   (mesh/polygon_shape.h).
+// * Quads with an angle over 170°, quads that fold by more than 60°, and quads with a vertex that
+// has
+//   only one other face, all around it, are cut along the better diagonal, or into a fan where
+//   neither is better.
+// * No diagonal joins two vertices that an edge joins already, or that two faces would join. So the
+//   result is a manifold again, no interior vertex has fewer than three faces, and the order of
+//   faces does not matter.
+//
+// `mesh` must have passed check(), and be oriented. Throws FairingError(too_large) for polygons of
+// more than 1000 corners that are not star-shaped.
+SplitMesh split_polygons(const PolygonMesh& mesh);
+
+}  // namespace fairing

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/validate/checks.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+// Above this, squares and cubes of lengths would overflow later on.
+constexpr double largest_coordinate = 1e100;
+
+// A corner becomes up to three sides when its polygon is split, a side up to two half-edges; all
+// ids have 32 bits.
+constexpr std::size_t most_corners = (std::size_t(1) << 31) / 8;
+
+template <class Predicate>
+Ids faces_where(const PolygonMesh& mesh, Predicate predicate) {
+  Ids found;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    if (predicate(mesh.face(f))) found.push_back(f);
+  }
+  return found;
+}
+
+bool repeats_a_vertex(std::span<const std::int64_t> face) {
+  if (face.size() == 3) return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+  Ids sorted(face.begin(), face.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+// The sizes fit together, so that every face's span of corners exists.
+bool check_sizes(const PolygonMesh& mesh, Defects& found) {
+  const std::size_t before = found.size();
+  if (mesh.coordinates.empty() && mesh.corners.empty())
+    found.emplace_back(ErrorCode::empty_mesh, "The mesh has no vertices.");
+  else if (mesh.coordinates.size() % 3 != 0)
+    found.emplace_back(ErrorCode::bad_shape,
+                       "The coordinates must come in threes: x, y, z for each vertex.");
+  else if (mesh.offsets.size() < 2 && mesh.corners.empty())
+    found.emplace_back(ErrorCode::no_faces, "The mesh has no faces: there is no surface to fair.");
+  else if (mesh.offsets.empty() || mesh.offsets.front() != 0 ||
+           mesh.offsets.back() != std::int64_t(mesh.corners.size()) ||
+           !std::is_sorted(mesh.offsets.begin(), mesh.offsets.end()))
+    found.emplace_back(ErrorCode::bad_shape,
+                       "The face offsets must ascend from 0 to the number of corners, one more "
+                       "than there are faces.");
+  else if (mesh.corners.size() > most_corners || mesh.coordinates.size() / 3 > most_corners)
+    found.emplace_back(ErrorCode::too_large,
+                       "The control mesh has more than 268 million corners or vertices.");
+  else if (mesh.coordinates.empty())
+    found.emplace_back(ErrorCode::empty_mesh, "The mesh has faces but no vertices.");
+  return found.size() == before;
+}
+
+bool check_corner_counts(const PolygonMesh& mesh, Defects& found) {
+  const Ids bad = faces_where(mesh, [](auto face) { return face.size() < 3; });
+  if (!bad.empty())
+    found.emplace_back(
+        ErrorCode::bad_shape,
+        listing(face_s, bad, {"has", "have"}) + " fewer than three corners. Delete them.", bad);
+  return bad.empty();
+}
+
+bool check_finite(const PolygonMesh& mesh, Defects& found) {
+  const Ids bad = non_finite_vertices(mesh.coordinates);
+  if (!bad.empty())
+    found.emplace_back(
+        ErrorCode::non_finite,
+        listing(vertex_s, bad, {"has", "have"}) +
+            " a coordinate that is NaN, infinite or beyond 1e100. Delete or move them.",
+        bad);
+  return bad.empty();
+}
+
+bool check_range(const PolygonMesh& mesh, Defects& found) {
+  const std::int64_t vertices = mesh.vertex_count();
+  const Ids outside = faces_where(mesh, [&](auto face) {
+    return std::any_of(face.begin(), face.end(),
+                       [&](std::int64_t v) { return v < 0 || v >= vertices; });
+  });
+  if (!outside.empty())
+    found.emplace_back(ErrorCode::index_out_of_range,
+                       listing(face_s, outside, {"names", "name"}) +
+                           " a vertex that does not exist: ids run from 0 to " +
+                           std::to_string(vertices - 1) + ".",
+                       outside);
+  return outside.empty();
+}
+
+bool check_repetition(const PolygonMesh& mesh, Defects& found) {
+  const Ids repeated =
+      faces_where(mesh, [](auto face) { return face.size() >= 3 && repeats_a_vertex(face); });
+  if (!repeated.empty())
+    found.emplace_back(ErrorCode::repeated_vertex,
+                       listing(face_s, repeated, {"names", "name"}) +
+                           " the same vertex twice. Delete them or dissolve the doubled corner.",
+                       repeated);
+  return repeated.empty();
+}
+
+}  // namespace
+
+std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
+  Ids bad;
+  for (std::size_t v = 0; v < x.size() / 3; ++v) {
+    stop_if_cancelled(v);
+    const double size =
+        std::max({std::abs(x[3 * v]), std::abs(x[3 * v + 1]), std::abs(x[3 * v + 2])});
+    const bool nan = std::isnan(x[3 * v]) || std::isnan(x[3 * v + 1]) || std::isnan(x[3 * v + 2]);
+    if (nan || size > largest_coordinate) bad.push_back(std::int64_t(v));
+  }
+  return bad;
+}
+
+Readable check_arrays(const PolygonMesh& mesh, Defects& found) {
+  Readable readable;
+  if (!check_sizes(mesh, found)) return readable;
+  const bool enough_corners = check_corner_counts(mesh, found);
+  readable.coordinates = check_finite(mesh, found);
+  const bool in_range = check_range(mesh, found);
+  const bool no_repetition = check_repetition(mesh, found);
+  readable.faces = enough_corners && in_range;
+  readable.simple = readable.faces && no_repetition;
+  return readable;
+}
+
+}  // namespace fairing

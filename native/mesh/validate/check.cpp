@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/validate/check.h"
+
+#include "mesh/validate/checks.h"
+
+namespace fairing {
+namespace {
+
+bool prevents_orientation(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::empty_mesh:
+    case ErrorCode::no_faces:
+    case ErrorCode::bad_shape:
+    case ErrorCode::too_large:
+    case ErrorCode::index_out_of_range:
+    case ErrorCode::repeated_vertex:
+    case ErrorCode::nonmanifold_edge:
+    case ErrorCode::non_orientable: return true;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options) {
+  Findings result;
+  Defects& found = result.defects;
+  const Readable readable = check_arrays(mesh, found);
+  if (!readable.faces) return result;
+  check_duplicate_faces(mesh, found);
+  if (readable.simple) {
+    const HalfEdges half_edges(mesh);
+    check_nonmanifold_edges(half_edges, found);
+    check_nonmanifold_vertices(mesh, half_edges, found);
+    Orientation orientation = find_orientation(mesh, half_edges);
+    check_orientation(orientation, options.repair_orientation, found);
+    result.flipped_faces = std::move(orientation.to_flip);
+  }
+  if (readable.coordinates) {
+    check_coincident_vertices(mesh, found);
+    check_areas(mesh, found);
+  }
+  warn_of_isolated_vertices(mesh, found);
+  return result;
+}
+
+std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh) {
+  Findings findings = find_defects(mesh, {.repair_orientation = true});
+  for (const Defect& defect : findings.defects)
+    if (prevents_orientation(defect.code)) defect.raise();
+  return std::move(findings.flipped_faces);
+}
+
+CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
+  Findings findings = find_defects(mesh, options);
+  CheckResult result;
+  for (const Defect& defect : findings.defects) {
+    if (defect.severity == Severity::error) defect.raise();
+    if (!defect.repairable())  // told by flipped_faces
+      result.warnings.push_back({name(defect.code), defect.message, defect.elements, defect.kind});
+  }
+  result.flipped_faces = std::move(findings.flipped_faces);
+  return result;
+}
+
+}  // namespace fairing

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The gate: whatever passes check() is an oriented manifold of polygons with finite, non-degenerate
+// faces. The arrays are only read.
+//
+// All functions here may throw FairingError(cancelled) (parallel/cancel.h) and std::bad_alloc.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "mesh/polygon_mesh.h"
+
+namespace fairing {
+
+enum class Severity { error, warning };
+
+// One kind of thing that is wrong with a mesh, with all elements concerned.
+struct Defect {
+  ErrorCode code;
+  std::string message;
+  std::vector<std::int64_t> elements{};
+  Severity severity = Severity::error;
+  ElementKind kind = ElementKind::mesh;
+
+  Defect(ErrorCode what, std::string text, std::vector<std::int64_t> ids = {},
+         Severity how = Severity::error)
+      : code(what),
+        message(std::move(text)),
+        elements(std::move(ids)),
+        severity(how),
+        kind(elements.empty() ? ElementKind::mesh : usual_kind(what)) {}
+
+  // The core mends it on request: by CheckOptions::repair_orientation.
+  bool repairable() const { return code == ErrorCode::inconsistent_orientation; }
+
+  [[noreturn]] void raise() const { throw FairingError(code, message, elements, kind); }
+};
+
+using Defects = std::vector<Defect>;
+
+struct CheckOptions {
+  // Turn faces over to agree with their neighbours, where that is possible.
+  bool repair_orientation = false;
+};
+
+struct CheckResult {
+  std::vector<Warning> warnings;
+  std::vector<std::int64_t> flipped_faces;  // what repair_orientation has turned over
+};
+
+struct Findings {
+  Defects defects;                            // cheap ones first; empty: nothing is wrong
+  std::vector<std::int64_t> flipped_faces{};  // what must turn over for all neighbours to agree
+};
+
+// Every kind of defect, each with *all* its elements, as far as the earlier ones leave the later
+// tests a meaning. Defects are returned, not thrown.
+Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options = {});
+
+// The faces that must turn over for all neighbours to agree. Throws FairingError where that has no
+// answer: non_orientable, nonmanifold_edge, or arrays that do not make faces.
+std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh);
+
+// Throws the first error of find_defects as FairingError. With repair_orientation, the faces to be
+// reversed come back in the result, for make_control_mesh. Linear time up to hashing and sorting.
+CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
+
+// Vertices with a coordinate that is NaN, infinite or beyond 1e100.
+std::vector<std::int64_t> non_finite_vertices(std::span<const double> coordinates);
+
+}  // namespace fairing

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The single checks behind check(), for mesh/validate/ only. Each adds what it finds, with *all*
+// elements concerned. Linear time up to sorting. All may throw std::bad_alloc and, like everything
+// that asks in passing, FairingError(cancelled).
+#pragma once
+
+#include "mesh/half_edges.h"
+#include "mesh/validate/check.h"
+
+namespace fairing {
+
+// --- arrays.cpp: whether the arrays describe faces at all ---
+
+// What the later tests may rely on.
+struct Readable {
+  bool faces = false;        // ids in range and of 32 bits, three corners or more
+  bool simple = false;       // moreover no face names a vertex twice
+  bool coordinates = false;  // all finite
+};
+
+// Adds empty_mesh, no_faces, bad_shape, too_large, non_finite, index_out_of_range, repeated_vertex.
+Readable check_arrays(const PolygonMesh& mesh, Defects& found);
+
+// --- topology.cpp: whether the faces form an oriented manifold ---
+
+// Adds duplicate_face (same vertex set, in whatever order) with all faces concerned.
+void check_duplicate_faces(const PolygonMesh& mesh, Defects& found);
+
+// Adds nonmanifold_edge (vertex pairs).
+void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found);
+
+// Adds nonmanifold_vertex, whichever way faces run. Ends of nonmanifold edges are left out: there
+// the edge is the defect.
+void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                                Defects& found);
+
+struct Orientation {
+  // The faces (ascending) that must turn over for all neighbours to agree: in each component the
+  // minority; of two halves, the one without the component's first face.
+  std::vector<std::int64_t> to_flip;
+  std::vector<std::int64_t> one_sided;  // all faces (ascending) of components that cannot agree
+};
+
+Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges);
+
+// Adds non_orientable and inconsistent_orientation, the latter as a warning where it will be
+// repaired.
+void check_orientation(const Orientation& orientation, bool repair, Defects& found);
+
+// --- geometry.cpp: whether the faces have an extent, and which vertices share a point ---
+
+// Adds coincident_vertices: an error for vertices of one face that lie at one point; for all
+// vertices that share a point without such a face (seams) a warning.
+void check_coincident_vertices(const PolygonMesh& mesh, Defects& found);
+
+// Adds degenerate_face: area below 1e-12 of the longest side squared.
+void check_areas(const PolygonMesh& mesh, Defects& found);
+
+// Adds isolated_vertices, a warning.
+void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found);
+
+}  // namespace fairing

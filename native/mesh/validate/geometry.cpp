@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+
+#include "mesh/validate/checks.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+using Point = Eigen::Vector3d;
+
+constexpr double least_area = 1e-12;  // of the longest side squared
+
+bool has_no_area(const PolygonMesh& mesh, std::span<const std::int64_t> face) {
+  const auto point = [&](std::size_t i) {
+    return Point(Eigen::Map<const Point>(&mesh.coordinates[3 * std::size_t(face[i])]));
+  };
+  // Relative to one corner, or a small face far from the origin would drown in rounding.
+  const Point origin = point(0);
+  Point twice_area = Point::Zero(), last = point(face.size() - 1) - origin;
+  double longest = 0;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Point here = point(i) - origin;
+    twice_area += last.cross(here);
+    longest = std::max(longest, (here - last).squaredNorm());
+    last = here;
+  }
+  return !(twice_area.norm() > 2 * least_area * longest);  // so written, NaN counts as none
+}
+
+std::uint64_t hash(const double* point) {
+  std::uint64_t h = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = point[axis] + 0.0;  // −0 and 0 are one point
+    h = (h ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 32;
+  }
+  return h;
+}
+
+// For every vertex the first vertex at the same coordinates (itself, most often). Linear time.
+std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinates) {
+  const std::size_t vertices = coordinates.size() / 3;
+  const std::size_t mask = std::bit_ceil(2 * vertices + 1) - 1;
+  std::vector<std::int32_t> table(mask + 1, -1), first(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    stop_if_cancelled(v);
+    const double* p = &coordinates[3 * v];
+    for (std::size_t slot = hash(p) & mask;; slot = (slot + 1) & mask) {
+      if (table[slot] < 0) table[slot] = std::int32_t(v);
+      const double* q = &coordinates[3 * std::size_t(table[slot])];
+      if (p[0] != q[0] || p[1] != q[1] || p[2] != q[2]) continue;
+      first[v] = table[slot];
+      break;
+    }
+  }
+  return first;
+}
+
+std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
+  std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
+  for (std::int64_t v : mesh.corners) used[std::size_t(v)] = 1;
+  return used;
+}
+
+}  // namespace
+
+void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
+  const std::vector<std::int32_t> first = first_at_same_point(mesh.coordinates);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+
+  Ids shared;
+  std::vector<std::uint8_t> listed(first.size(), 0);
+  const auto add = [&](std::size_t v) {
+    if (!listed[v]) shared.push_back(std::int64_t(v));
+    listed[v] = 1;
+  };
+  // A group is led by its first *used* vertex, so that an isolated one is not reported twice over.
+  std::vector<std::int32_t> leader(first.size(), -1);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    stop_if_cancelled(v);
+    if (!used[v]) continue;
+    auto& lead = leader[std::size_t(first[v])];
+    if (lead >= 0) {
+      add(std::size_t(lead));
+      add(v);
+    } else {
+      lead = std::int32_t(v);
+    }
+  }
+  if (shared.empty()) return;
+
+  Ids touching;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      if (!listed[std::size_t(face[i])]) continue;
+      for (std::size_t j = 0; j < i; ++j)
+        if (face[i] != face[j] && first[std::size_t(face[i])] == first[std::size_t(face[j])])
+          touching.insert(touching.end(), {face[i], face[j]});
+    }
+  }
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  if (!touching.empty())
+    found.emplace_back(ErrorCode::coincident_vertices,
+                       listing(vertex_s, touching, {"lies", "lie"}) +
+                           " exactly on another vertex of the same face. Merge them by distance.",
+                       touching);
+
+  std::erase_if(shared, [&](std::int64_t v) {
+    return std::binary_search(touching.begin(), touching.end(), v);
+  });
+  if (shared.empty()) return;
+  std::sort(shared.begin(), shared.end());
+  found.emplace_back(
+      ErrorCode::coincident_vertices,
+      listing(vertex_s, shared, {"shares", "share"}) +
+          " a point with others without being joined to them: the surface is open there. "
+          "Merge by distance if it should be closed.",
+      shared, Severity::warning);
+}
+
+void check_areas(const PolygonMesh& mesh, Defects& found) {
+  Ids bad;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
+  }
+  if (bad.empty()) return;
+  found.emplace_back(ErrorCode::degenerate_face,
+                     listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.",
+                     bad);
+}
+
+void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  Ids isolated;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) isolated.push_back(std::int64_t(v));
+  if (isolated.empty()) return;
+  found.emplace_back(
+      ErrorCode::isolated_vertices,
+      listing(vertex_s, isolated, {"belongs", "belong"}) + " to no face: kept where they are.",
+      isolated, Severity::warning);
+}
+
+}  // namespace fairing

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "mesh/validate/checks.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+std::uint64_t scramble(std::uint64_t x) {  // splitmix64
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+struct Print {
+  std::uint64_t hash;  // of the vertex set: a sum, so that order does not matter
+  std::int32_t face;
+  bool operator<(const Print& other) const {
+    return hash != other.hash ? hash < other.hash : face < other.face;
+  }
+};
+
+Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
+  const auto face = mesh.face(f);
+  Ids vertices(face.begin(), face.end());
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+// Faces of equal hash are compared in earnest.
+void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_hash,
+                        Ids& duplicates) {
+  std::vector<std::pair<Ids, std::int32_t>> sets;
+  for (const Print& print : same_hash)
+    sets.emplace_back(sorted_vertices(mesh, print.face), print.face);
+  std::sort(sets.begin(), sets.end());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const bool as_before = i > 0 && sets[i - 1].first == sets[i].first;
+    const bool as_after = i + 1 < sets.size() && sets[i].first == sets[i + 1].first;
+    if (as_before || as_after) duplicates.push_back(sets[i].second);
+  }
+}
+
+// All corners of v's fan that holds corner k, whichever way the faces run.
+std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
+  const std::int64_t v = half_edges.from(k);
+  std::int32_t size = 1;
+  for (std::int32_t exit : {k, half_edges.previous(k)}) {
+    for (std::int32_t t = half_edges.twin(exit); t >= 0; t = half_edges.twin(exit)) {
+      const bool outgoing = half_edges.from(t) == v;
+      const std::int32_t corner = outgoing ? t : half_edges.next(t);
+      if (corner == k) return size;  // once around
+      ++size;
+      exit = outgoing ? half_edges.previous(t) : corner;
+    }
+  }
+  return size;
+}
+
+bool all_agree(const HalfEdges& half_edges) {
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
+    if (half_edges.twin(k) > k && half_edges.runs_as_twin(k)) return false;
+  }
+  return true;
+}
+
+// Spreads over each component which way its faces run: +1 as its first face does, -1 against it.
+class Senses {
+ public:
+  Senses(const PolygonMesh& mesh, const HalfEdges& half_edges)
+      : mesh_(mesh), half_edges_(half_edges), sense_(std::size_t(mesh.face_count()), 0) {}
+
+  bool seen(std::int32_t f) const { return sense_[std::size_t(f)] != 0; }
+
+  // Visits the component of a face; false if it is one-sided.
+  bool visit(std::int32_t seed) {
+    component_.assign(1, seed);
+    sense_[std::size_t(seed)] = 1;
+    bool two_sided = true;
+    for (std::size_t i = 0; i < component_.size(); ++i) {
+      stop_if_cancelled(i);
+      const auto f = std::size_t(component_[i]);
+      for (auto k = std::int32_t(mesh_.offsets[f]); k < mesh_.offsets[f + 1]; ++k) {
+        if (half_edges_.twin(k) < 0) continue;
+        const std::int32_t neighbour = half_edges_.face(half_edges_.twin(k));
+        const auto wanted = std::int8_t(half_edges_.runs_as_twin(k) ? -sense_[f] : sense_[f]);
+        auto& sense = sense_[std::size_t(neighbour)];
+        if (sense == 0) {
+          sense = wanted;
+          component_.push_back(neighbour);
+        } else if (sense != wanted) {
+          two_sided = false;
+        }
+      }
+    }
+    return two_sided;
+  }
+
+  const std::vector<std::int32_t>& component() const { return component_; }
+
+  void append_minority(Ids& faces) const {
+    const auto has = [&](std::int8_t side) {
+      return [this, side](std::int32_t f) { return sense_[std::size_t(f)] == side; };
+    };
+    const auto second = std::count_if(component_.begin(), component_.end(), has(-1));
+    const auto smaller = std::int8_t(2 * std::size_t(second) > component_.size() ? 1 : -1);
+    std::copy_if(component_.begin(), component_.end(), std::back_inserter(faces), has(smaller));
+  }
+
+ private:
+  const PolygonMesh& mesh_;
+  const HalfEdges& half_edges_;
+  std::vector<std::int8_t> sense_;
+  std::vector<std::int32_t> component_;
+};
+
+}  // namespace
+
+void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
+  // Faces are filed under their lowest vertex: buckets of two on average, as in HalfEdges.
+  const auto faces = std::int32_t(mesh.face_count());
+  const auto lowest = [&](std::int32_t f) {
+    const auto face = mesh.face(f);
+    return std::size_t(*std::min_element(face.begin(), face.end()));
+  };
+  std::vector<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
+  for (std::int32_t f = 0; f < faces; ++f) {
+    stop_if_cancelled(std::size_t(f));
+    ++start[lowest(f) + 1];
+  }
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+
+  std::vector<Print> prints(std::size_t(faces), Print{});
+  std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
+  for (std::int32_t f = 0; f < faces; ++f) {
+    stop_if_cancelled(std::size_t(f));
+    std::uint64_t hash = 0;
+    for (std::int64_t v : mesh.face(f)) hash += scramble(std::uint64_t(v));
+    prints[std::size_t(fill[lowest(f)]++)] = {hash, f};
+  }
+
+  Ids duplicates;
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    stop_if_cancelled(v);
+    const auto begin = prints.begin() + start[v], end = prints.begin() + start[v + 1];
+    std::sort(begin, end);
+    for (auto first = begin; first != end;) {
+      const auto last =
+          std::find_if(first, end, [&](const Print& p) { return p.hash != first->hash; });
+      if (last - first > 1) collect_equal_sets(mesh, {first, last}, duplicates);
+      first = last;
+    }
+  }
+  if (duplicates.empty()) return;
+  std::sort(duplicates.begin(), duplicates.end());
+  found.emplace_back(ErrorCode::duplicate_face,
+                     listing(face_s, duplicates, {"has", "have"}) +
+                         " the same vertices as another face. Delete all but one of each.",
+                     duplicates);
+}
+
+void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found) {
+  const Ids& pairs = half_edges.nonmanifold_edges();
+  if (pairs.empty()) return;
+  found.emplace_back(
+      ErrorCode::nonmanifold_edge,
+      listing_pairs({"edge", "edges"}, pairs, {"has", "have"}) +
+          " more than two faces (vertex pairs). Delete inner faces or separate the sheets.",
+      pairs);
+}
+
+void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                                Defects& found) {
+  std::vector<std::int32_t> corners(std::size_t(mesh.vertex_count()), 0), some(corners.size(), -1);
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
+    const auto v = std::size_t(half_edges.from(k));
+    ++corners[v];
+    some[v] = k;
+  }
+  for (std::int64_t v : half_edges.nonmanifold_edges()) corners[std::size_t(v)] = 0;
+  Ids bad;
+  for (std::size_t v = 0; v < corners.size(); ++v) {
+    stop_if_cancelled(v);
+    if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v])
+      bad.push_back(std::int64_t(v));
+  }
+  if (bad.empty()) return;
+  found.emplace_back(
+      ErrorCode::nonmanifold_vertex,
+      listing(vertex_s, bad, {"joins", "join"}) +
+          " parts of the surface that share no edge there. Separate (rip) the parts.",
+      bad);
+}
+
+Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+  Orientation result;
+  if (all_agree(half_edges)) return result;
+  Senses senses(mesh, half_edges);
+  Ids &to_flip = result.to_flip, &one_sided = result.one_sided;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    if (senses.seen(f)) continue;
+    if (senses.visit(f))
+      senses.append_minority(to_flip);
+    else
+      one_sided.insert(one_sided.end(), senses.component().begin(), senses.component().end());
+  }
+  std::sort(one_sided.begin(), one_sided.end());
+  std::sort(to_flip.begin(), to_flip.end());
+  return result;
+}
+
+void check_orientation(const Orientation& orientation, bool repair, Defects& found) {
+  const auto& [to_flip, one_sided] = orientation;
+  if (!one_sided.empty())
+    found.emplace_back(
+        ErrorCode::non_orientable,
+        listing(face_s, one_sided, {"belongs", "belong"}) +
+            " to a surface with only one side, like a Möbius strip: no turning of faces can "
+            "help. Cut it open.",
+        one_sided);
+  if (!to_flip.empty())
+    found.emplace_back(
+        ErrorCode::inconsistent_orientation,
+        listing(face_s, to_flip, {"looks", "look"}) +
+            " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
+        to_flip, repair ? Severity::warning : Severity::error);
+}
+
+}  // namespace fairing

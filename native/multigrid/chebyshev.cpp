@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multigrid/chebyshev.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/simd.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// A block of points. The diagonal, one number a point, is spread to all components first, a few
+// points at a time: the rest then runs on whole packs.
+struct StepJob {
+  SmoothingStep step;
+  const float *inverse, *product;
+  std::size_t components;  // 1 or 3
+};
+
+constexpr std::size_t spread_points = 64;
+
+// Lanczos comes from below, and the smoother amplifies what lies above the eigenvalue that it is
+// given: hence the margin.
+constexpr int lanczos_steps = 10;
+constexpr double lanczos_margin = 1.1;
+// What is left of a Lanczos vector, to its eigenvalue, below which the rest is rounding.
+constexpr double lanczos_end = 1e-5;
+
+template <class T, int Bytes>
+struct StepLoop {
+  using P = Packs<T, Bytes>;
+  using Pack = typename P::Pack;
+
+  DF_INLINE static void run(const StepJob* job, std::size_t count) {
+    const SmoothingStep s = job->step;
+    const std::size_t components = job->components;
+    T weight[3 * spread_points + vector_room];
+    for (std::size_t first = 0; first < count; first += spread_points) {
+      const std::size_t points = count - first < spread_points ? count - first : spread_points;
+      if (components == 1)
+        std::memcpy(weight, job->inverse + first, points * sizeof(T));
+      else
+        for (std::size_t p = 0; p < points; ++p)
+          weight[3 * p] = weight[3 * p + 1] = weight[3 * p + 2] = job->inverse[first + p];
+      const std::size_t at = components * first, size = components * points;
+      const T *d = s.d + at, *product = job->product + at;
+      T *next = s.next + at, *x = s.x + at, *residual = s.r + at;
+      std::size_t i = 0;
+      for (; i + P::size <= size; i += P::size) {
+        Pack r, old, sum, w;
+        P::load(residual + i, r);
+        P::load(product + i, w);
+        r -= w;
+        P::store(r, residual + i);
+        P::load(weight + i, w);
+        P::load(d + i, old);
+        w = s.step * w * r + s.momentum * old;
+        P::load(x + i, sum);
+        if (s.adds_d) sum += old;
+        sum += w;
+        P::store(w, next + i);
+        P::store(sum, x + i);
+      }
+      for (; i < size; ++i) {
+        residual[i] -= product[i];
+        const T w = s.step * weight[i] * residual[i] + s.momentum * d[i], old = d[i];
+        if (s.adds_d) x[i] += old;
+        x[i] += w;
+        next[i] = w;
+      }
+    }
+  }
+};
+
+// x = d = step D^-1 r
+void start_from_zero(const LevelOperator& op, Workers& workers, float step, SmootherState& s) {
+  const std::size_t components = op.components();
+  const float* inverse = op.inverse_diagonal().data();
+  workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
+    const float* r = s.residual.data() + components * begin;
+    float *x = s.x.data() + components * begin, *d = s.step.data() + components * begin;
+    for (std::size_t p = begin; p < end; ++p)
+      for (std::size_t a = 0; a < components; ++a) *x++ = *d++ = step * inverse[p] * *r++;
+  });
+}
+
+}  // namespace
+
+void finish_step(const SmoothingStep& step, std::size_t components, const float* inverse_diagonal,
+                 std::size_t first, std::size_t count, const float* product) {
+  const std::size_t at = components * first;
+  const StepJob job{{step.d + at, step.next + at, step.x + at, step.r + at, step.momentum,
+                     step.step, step.adds_d},
+                    inverse_diagonal + first,
+                    product,
+                    components};
+  run_loop<StepLoop, float>(&job, count);
+}
+
+void LevelOperator::relax(const SmoothingStep& step, Workers& workers) {
+  apply(step.d, step.next);
+  workers.for_parts(points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
+    finish_step(step, components(), inverse_diagonal().data(), begin, end - begin,
+                step.next + components() * begin);
+  });
+}
+
+void LevelOperator::subtract_product(const float* x, float* room, float* y, Workers& workers) {
+  apply(x, room);
+  for_each_index(workers, size(), [=](std::size_t i) { y[i] -= room[i]; });
+}
+
+void smooth(LevelOperator& op, Workers& workers, double largest_eigenvalue, int degree,
+            SmoothFrom from, bool last_residual, SmootherState& s) {
+  const auto first_step = float(4.0 / 3.0 / largest_eigenvalue);
+  const auto relax = [&](float momentum, float step, bool adds_d) {
+    op.relax({s.step.data(), s.next.data(), s.x.data(), s.residual.data(), momentum, step, adds_d},
+             workers);
+    std::swap(s.step, s.next);
+  };
+  if (from == SmoothFrom::zero)
+    start_from_zero(op, workers, first_step, s);
+  else
+    relax(0, first_step, true);
+  for (int k = 1; k < degree; ++k)
+    relax(float((2.0 * k - 1) / (2.0 * k + 3)),
+          float((8.0 * k + 4) / (2.0 * k + 3) / largest_eigenvalue), false);
+  if (last_residual) op.subtract_product(s.step.data(), s.next.data(), s.residual.data(), workers);
+}
+
+double largest_eigenvalue(LevelOperator& op, Workers& workers, const float* start) {
+  const std::size_t components = op.components(), size = op.size();
+  const Array<float>& inverse = op.inverse_diagonal();
+  Array<float> roots(size);
+  workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      std::fill_n(roots.data() + components * p, components, float(std::sqrt(double(inverse[p]))));
+  });
+  const auto root = [&](std::size_t i) { return double(roots[i]); };
+  // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.
+  Array<float> v(size), before(size), scaled(size + vector_room), product(size);
+  const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
+    const double s = double(start[i]) * root(i);
+    return s * s;
+  }));
+  if (!(length > 0) || !std::isfinite(length)) return 4.0;  // nothing to solve; any safe value
+  for_each_index(workers, size, [&](std::size_t i) {
+    v[i] = float(double(start[i]) * root(i) / length);
+    before[i] = 0;
+  });
+  Eigen::VectorXd diagonal(lanczos_steps), off(lanczos_steps);
+  int m = 0;
+  double beta = 0;
+  for (; m < lanczos_steps; ++m) {
+    for_each_index(workers, size, [&](std::size_t i) { scaled[i] = float(v[i] * root(i)); });
+    op.apply(scaled.data(), product.data());
+    for_each_index(workers, size, [&](std::size_t i) {
+      product[i] = float(product[i] * root(i) - beta * before[i]);
+    });
+    const double alpha =
+        sum(workers, size, [&](std::size_t i) { return double(product[i]) * v[i]; });
+    diagonal(m) = alpha;
+    for_each_index(workers, size,
+                   [&](std::size_t i) { product[i] = float(product[i] - alpha * v[i]); });
+    beta = norm(workers, size, product.data());
+    off(m) = beta;
+    if (!(beta > lanczos_end * alpha)) {
+      ++m;
+      break;
+    }
+    std::swap(before, v);
+    for_each_index(workers, size, [&](std::size_t i) { v[i] = float(product[i] / beta); });
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+  eigen.computeFromTridiagonal(diagonal.head(m), off.head(m > 1 ? m - 1 : 0),
+                               Eigen::EigenvaluesOnly);
+  return lanczos_margin * eigen.eigenvalues().maxCoeff();
+}
+
+}  // namespace fairing

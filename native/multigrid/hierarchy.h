@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The operators of all levels, and linear solves on any of them: conjugate gradients around
+// V-cycles, with a direct solve where the cycle ends. It adapts to what it meets: skew makes a mesh
+// hard, on all levels alike; the smoother's degree then rises, and a level that stays hard is
+// factored.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "multigrid/pcg.h"
+#include "multigrid/v_cycle.h"
+
+namespace fairing {
+
+// Levels up to so many unknowns are factored sooner than smoothed; the cycle ends on the finest of
+// them.
+constexpr std::size_t tiny_level = 1200;
+
+struct HierarchyOptions {
+  int smoother_degree = 0;     // 0: chosen from how the solves go
+  bool always_factor = false;  // the coarsest level is ill-conditioned, however large
+  // Unknowns of a level up to which a factor costs little.
+  std::size_t cheap_factor = direct_limit_of_hard;
+  // From this level on, the coarsest being 0, the largest eigenvalue is that of the level below.
+  std::size_t settled = 4;
+};
+
+// How a solve went.
+struct LevelSolve {
+  int iterations = 0;
+  double residual = 0, energy_error = 0;  // at the end, as in PcgResult
+  double largest_eigenvalue = 0;          // that the smoother worked with
+  int smoother_degree = 0;                // at the end; 0: no smoother was asked
+  bool direct = false, converged = false;
+  std::vector<double> residuals;  // after 0, 1, … iterations
+};
+
+class Hierarchy {
+ public:
+  Hierarchy(Workers& workers, const HierarchyOptions& options);
+
+  // Coarsest first; `to_coarser` is null for the first. All must outlive the hierarchy.
+  void add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns);
+  // After the last add().
+  void complete();
+
+  // The work vectors, for the finest level: state().residual is what solve() starts from.
+  PcgState& state() { return pcg_; }
+  const Array<float>& inverse_diagonal(std::size_t index) const {
+    return cycle_.levels[index].op->inverse_diagonal();
+  }
+  // Whether the smoother adapts.
+  void set_adapting(bool adapts) { adapts_ = adapts; }
+
+  // How many times as much as usual a large factor costs.
+  void set_factor_price(std::size_t times) { factor_price_ = times; }
+
+  // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
+  // largest eigenvalues have.
+  void refresh(std::size_t top, bool spectrum);
+
+  // Solves K x = b on a level, to the limits given; state().residual is b - K x at the start.
+  // `each` is called after every iteration. Throws where the run has been cancelled, and
+  // FairingError(underdetermined) where a factor finds the level singular.
+  LevelSolve solve(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
+                   const std::function<void(const PcgResult&)>& each);
+
+  // Before a level's first solve: from how the last one went, and how far both are to be solved.
+  void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance);
+
+ private:
+  bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
+  void solve_direct(const CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
+                    double* x, LevelSolve& out);
+  void estimate_eigenvalues(std::size_t top);
+  void promote_to_coarsest(std::size_t index);
+  void raise_degree(const PcgResult& result, double tolerance);
+
+  Workers& workers_;
+  HierarchyOptions options_;
+  bool adapts_ = true;
+  std::size_t factor_price_ = 1;
+  std::vector<std::size_t> unknowns_;
+  VCycle cycle_;
+  std::unique_ptr<CoarseSolver> coarse_;
+  PcgState pcg_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the solver asks of an energy on one level: the action of its matrix K and the diagonal. A
+// new energy is a new LevelOperator; the solver knows nothing else of it.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <vector>
+
+#include "base/types.h"
+#include "parallel/memory.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+// Vectors in single precision have room for so many numbers more: operators may read them in packs.
+constexpr std::size_t vector_room = 16;
+
+// The finest subdivision of control edges for which fourth differences of smooth vectors survive in
+// single precision, which has 24 bits: they shrink with n^-4, and 32^4 takes 20 of them.
+constexpr int most_of_single = 32;
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// A level's operator as a matrix, for a direct solve.
+struct AssembledSystem {
+  SparseMatrix matrix;                // unknowns by unknowns, both triangles stored
+  std::vector<Index> unknown_points;  // row -> point of the grid
+};
+
+// One step of a smoother for K x = b with the residual r = b - K x, and d the last change of x:
+//
+//   r -= K d,   next = momentum d + step D^-1 r,   x += next,
+//
+// and x += d too where that is still to be added. D is the diagonal of K.
+struct SmoothingStep {
+  const float* d;
+  float *next, *x, *r;
+  float momentum, step;
+  bool adds_d;
+};
+
+// A symmetric positive definite operator on the unknown points of a level. Vectors hold
+// components() interleaved numbers a point, which the operator does not mix: x, y and z, or one
+// displacement. Results are zero on points that are not unknowns. All calls throw where the run has
+// been cancelled.
+class LevelOperator {
+ public:
+  virtual ~LevelOperator() = default;
+  virtual std::size_t points() const = 0;
+  virtual std::size_t components() const = 0;
+  std::size_t size() const { return components() * points(); }  // of a vector
+
+  // y <- K x. In single precision inside the preconditioner.
+  virtual void apply(const double* x, double* y) = 0;
+  virtual void apply(const float* x, float* y) = 0;
+  // Whether apply() in single precision tells smooth vectors from zero: of fourth order, it cancels
+  // their leading digits.
+  virtual bool single_precision_suffices() const = 0;
+  virtual const Array<float>& inverse_diagonal() const = 0;
+
+  // A smoothing step, and y -= K x with a vector `room` to work in. Both may be overridden by
+  // something faster than one application, and then passes over the vectors.
+  virtual void relax(const SmoothingStep& step, Workers& workers);
+  virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
+
+  virtual AssembledSystem assemble() const = 0;  // small levels only
+};
+
+}  // namespace fairing

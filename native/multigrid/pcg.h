@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Preconditioned conjugate gradients on one level.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "multigrid/v_cycle.h"
+
+namespace fairing {
+
+struct PcgLimits {
+  // Of the residual, relative to `residual_scale`, and of the error in the energy norm, relative to
+  // `energy_scale`: residuals of fourth order hide the smooth part of an error.
+  double tolerance = 1e-8;
+  double residual_scale = 0;  // the residual of the control polyhedron on this level
+  double energy_scale = 0;    // sqrt(energy)
+  double noise = 0;           // a residual below this is rounding
+  int max_iterations = 200;
+  bool from_start = false;  // both scales are what the start has
+};
+
+struct PcgResult {
+  int iterations = 0;
+  double residual = 0;      // relative to the scale, at the end
+  double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
+  bool converged = false;
+  std::vector<double> history;  // relative residual, the start's first
+};
+
+// The linear system of a level: r = b - K x, in double.
+using Residual = std::function<void(const double* x, double* r)>;
+
+// Work vectors of the conjugate gradients, kept between levels.
+struct PcgState {
+  Array<double> residual;
+  Array<double> direction, product;                             // of iterations in double
+  Array<float> rest, fast_direction, fast_product, correction;  // of those in single precision
+};
+
+// Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates
+// turn with the mesh). Where single precision does for the level they run in it, on a residual that
+// is computed anew in double, from x, each time it has become a hundred times smaller [residual
+// replacement: van der Vorst and Ye 2000]; so the limits hold in double. The flexible beta allows
+// for a preconditioner of single precision, and for one that changes on the way: `each` may raise
+// cycle.degree after an iteration; it returns false to stop. On entry state.residual is b - K x; x
+// is updated in place. Ends unconverged at max_iterations, or where rounding leaves nothing to
+// gain. Throws where the run has been cancelled.
+PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers,
+                              const PcgLimits& limits, const Residual& residual, PcgState& state,
+                              double* x, const std::function<bool(const PcgResult&)>& each);
+
+}  // namespace fairing

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multigrid/v_cycle.h"
+
+#include <Eigen/SparseCholesky>
+#include <utility>
+
+#include "base/error.h"
+
+namespace fairing {
+
+struct CoarseSolver::Factor {
+  std::vector<Index> points;
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+};
+
+CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
+                           bool always_direct)
+    : op_(op), workers_(workers) {
+  if (unknowns > direct_limit && !always_direct) return;
+  factor_ = std::make_unique<Factor>();
+  refactor();
+}
+
+void CoarseSolver::refactor() {
+  MemoryLedger::remove(std::exchange(factor_bytes_, 0));
+  AssembledSystem system = op_.assemble();
+  factor_->points = std::move(system.unknown_points);
+  if (factor_->points.empty()) return;
+  // A valence-three vertex alone cannot see some coarse waves; a trace of the diagonal, well above
+  // rounding, keeps the factor definite, and the preconditioner as good.
+  const Eigen::VectorXd diagonal = system.matrix.diagonal();
+  for (Eigen::Index i = 0; i < system.matrix.rows(); ++i)
+    system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
+  factor_->ldlt.compute(system.matrix);
+  if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0))
+    throw FairingError(ErrorCode::underdetermined,
+                       "The surface is not determined: a part of the mesh has too few fixed "
+                       "points. Interpolate more "
+                       "control vertices, or give them weights.");
+  factor_bytes_ = std::size_t(factor_->ldlt.matrixL().nestedExpression().nonZeros()) *
+                  (sizeof(double) + sizeof(int));
+  MemoryLedger::add(factor_bytes_);
+}
+
+CoarseSolver::~CoarseSolver() { MemoryLedger::remove(factor_bytes_); }
+
+void CoarseSolver::solve(const double* b, double* x) const {
+  std::fill(x, x + op_.size(), 0.0);
+  const auto& points = factor_->points;
+  if (points.empty()) return;
+  const std::size_t components = op_.components();
+  Eigen::MatrixXd right(Eigen::Index(points.size()), Eigen::Index(components));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t a = 0; a < components; ++a)
+      right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
+  right = factor_->ldlt.solve(right).eval();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t a = 0; a < components; ++a)
+      x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
+}
+
+void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& state) {
+  if (!factor_) {
+    // As much as on any other level: more gains no iteration, and small faces are dear.
+    smooth(op_, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
+    return;
+  }
+  const std::size_t size = op_.size();
+  const std::vector<double> b(state.residual.begin(),
+                              state.residual.begin() + std::ptrdiff_t(size));
+  std::vector<double> x(size);
+  solve(b.data(), x.data());
+  std::copy(x.begin(), x.end(), state.x.begin());
+}
+
+void VCycle::run(std::size_t top) {
+  CycleLevel& level = levels[top];
+  if (top == base) {
+    coarse->solve(level.largest_eigenvalue, degree, level.state);
+    return;
+  }
+  SmootherState& s = level.state;
+  smooth(*level.op, workers_, level.largest_eigenvalue, degree, SmoothFrom::zero, true, s);
+  level.transfer->restrict_to(s.residual.data(), levels[top - 1].state.residual.data());
+  run(top - 1);
+  level.transfer->prolong(levels[top - 1].state.x.data(), s.step.data());
+  smooth(*level.op, workers_, level.largest_eigenvalue, degree, SmoothFrom::correction, false, s);
+}
+
+}  // namespace fairing

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The V-cycle as a preconditioner, and the solver where it ends.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "multigrid/chebyshev.h"
+#include "parallel/workers.h"
+#include "transfer/level_transfer.h"
+
+namespace fairing {
+
+// The solver of the coarsest level: a sparse Cholesky factorization where the level is small
+// enough, a fixed number of Chebyshev steps otherwise (interpolated control vertices keep the
+// system well-conditioned, however many they are).
+//
+// Where it factors, it throws FairingError(underdetermined) if the matrix is singular, and
+// bad_alloc.
+class CoarseSolver {
+ public:
+  CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns, bool always_direct);
+  ~CoarseSolver();
+
+  // Call after the operator has changed.
+  void refactor();
+
+  std::size_t size() const { return op_.size(); }  // of a vector
+  bool direct() const { return factor_ != nullptr; }
+
+  // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
+  void solve(double largest_eigenvalue, int degree, SmootherState& state);
+  // x <- K^-1 b in double; direct() only.
+  void solve(const double* b, double* x) const;
+
+ private:
+  struct Factor;
+  LevelOperator& op_;
+  Workers& workers_;
+  std::unique_ptr<Factor> factor_;
+  std::size_t factor_bytes_ = 0;
+};
+
+// Largest levels, in unknowns, that are factored: the coarsest; any other, once smoothing has
+// proved hard since faces are thin; and of these such as are cheap to factor where a factor serves
+// one right-hand side only. They balance a factor's time, which grows faster than the unknowns,
+// with that of smoothing; the first is small, as factoring has one thread.
+constexpr std::size_t direct_limit = 6000, direct_limit_of_hard = 80000;
+constexpr std::size_t direct_limit_of_steps = 16000;
+
+// One level as the cycle sees it.
+struct CycleLevel {
+  LevelOperator* op = nullptr;
+  LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
+  double largest_eigenvalue = 0;
+  SmootherState state;
+};
+
+// The V-cycle as a preconditioner, in single precision: one linear, symmetric positive definite
+// map, since restriction is the transpose of prolongation and the smoother is the same before and
+// after the coarser levels' correction.
+class VCycle {
+ public:
+  explicit VCycle(Workers& workers) : workers_(workers) {}
+
+  std::vector<CycleLevel> levels;  // coarsest first
+  CoarseSolver* coarse = nullptr;  // of levels[base]
+  std::size_t base = 0;
+  int degree = 6;  // of the smoother, before and after
+
+  // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
+  // where the run has been cancelled.
+  void run(std::size_t top);
+
+ private:
+  Workers& workers_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cancellation. A run names its Monitor once, in a CancelScope; whatever it calls, on its own
+// thread and on its Workers' threads, asks in passing by stop_if_cancelled(). Without a scope
+// nobody cancels. So every long function of the core may throw FairingError(cancelled).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "parallel/monitor.h"
+
+namespace fairing {
+
+// While it exists, stop_if_cancelled() on this thread obeys the monitor (null: nobody).
+class CancelScope {
+ public:
+  explicit CancelScope(const Monitor* monitor) : before_(own()) { own() = monitor; }
+  ~CancelScope() { own() = before_; }
+  CancelScope(const CancelScope&) = delete;
+  CancelScope& operator=(const CancelScope&) = delete;
+
+  static const Monitor* current() { return own(); }
+
+ private:
+  static const Monitor*& own() {
+    thread_local const Monitor* monitor = nullptr;
+    return monitor;
+  }
+  const Monitor* before_;
+};
+
+// Throws FairingError(cancelled) when this thread's run has been cancelled.
+inline void stop_if_cancelled() {
+  if (const Monitor* monitor = CancelScope::current()) monitor->check_cancelled();
+}
+
+// The same for long loops: asks at every 1024th step only.
+inline void stop_if_cancelled(std::size_t step) {
+  if (step % 1024 == 0) stop_if_cancelled();
+}
+
+// The same in the loop over a face's rows, of which large faces have many.
+inline void stop_in_large_face(int row) {
+  if (row % 64 == 0) stop_if_cancelled();
+}
+
+// Calls body(begin, end) for one stretch of [0, size) after another and asks before each: for
+// simple loops over long arrays on one thread.
+template <class Body>
+void for_stretches(std::size_t size, Body&& body) {
+  constexpr std::size_t at_once = std::size_t(1) << 20;
+  for (std::size_t begin = 0; begin < size; begin += at_once) {
+    stop_if_cancelled();
+    body(begin, std::min(size, begin + at_once));
+  }
+}
+
+// std::fill and std::copy (with conversion) that can be cancelled.
+template <class T>
+void fill_long(T* to, std::size_t size, T value) {
+  for_stretches(
+      size, [&](std::size_t begin, std::size_t end) { std::fill(to + begin, to + end, value); });
+}
+
+template <class From, class To>
+void copy_long(const From* from, std::size_t size, To* to) {
+  for_stretches(size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = To(from[i]);
+  });
+}
+
+}  // namespace fairing

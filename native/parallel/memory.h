@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Large arrays whose bytes are counted, so that a run can report its peak. Errors: std::bad_alloc.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace fairing {
+
+// Bytes held by the Arrays that the current thread allocates while a ledger is open.
+// Ledgers do not nest; worker threads never allocate Arrays.
+class MemoryLedger {
+ public:
+  MemoryLedger();
+  ~MemoryLedger();
+  MemoryLedger(const MemoryLedger&) = delete;
+  MemoryLedger& operator=(const MemoryLedger&) = delete;
+
+  std::size_t peak() const { return peak_; }
+  std::size_t current() const { return current_; }
+
+  static void add(std::size_t bytes);
+  static void remove(std::size_t bytes);
+
+ private:
+  std::size_t current_ = 0;
+  std::size_t peak_ = 0;
+};
+
+// Asks the system for large pages, where it gives them on request: mapping and unmapping them is
+// many times as fast.
+void prefer_large_pages(void* memory, std::size_t bytes);
+
+// Physical memory of the machine in bytes (0 where it cannot be told).
+std::size_t physical_memory();
+
+template <class T>
+struct CountingAllocator {
+  using value_type = T;
+  CountingAllocator() = default;
+  template <class U>
+  CountingAllocator(const CountingAllocator<U>&) {}
+
+  T* allocate(std::size_t n) {
+    T* p = std::allocator<T>().allocate(n);
+    MemoryLedger::add(n * sizeof(T));
+    prefer_large_pages(p, n * sizeof(T));
+    return p;
+  }
+  void deallocate(T* p, std::size_t n) {
+    MemoryLedger::remove(n * sizeof(T));
+    std::allocator<T>().deallocate(p, n);
+  }
+  // resize() leaves numbers unset: every array is written before it is read, and a sweep of zeros
+  // costs as much bandwidth as a pass.
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* p, Args&&... args) {
+    ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
+  }
+  bool operator==(const CountingAllocator&) const { return true; }
+};
+
+template <class T>
+using Array = std::vector<T, CountingAllocator<T>>;
+
+}  // namespace fairing

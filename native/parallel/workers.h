@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Threads that share index ranges among them, and the buffers that each thread keeps. Every output
+// is written for one index, every sum is taken over blocks of fixed size in fixed order: results
+// are bit-identical for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <thread>
+#include <vector>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+
+class Workers {
+ public:
+  explicit Workers(int threads = 0);  // 0: one a core
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  int count() const { return int(threads_.size()) + 1; }
+
+  // Calls body(begin, end) on disjoint contiguous parts of [0, size), and returns when all are
+  // done. `grain` is the smallest part worth handing out. Each thread that is free takes another
+  // part; one that sleeps, or has lost its core to another program, is not waited for.
+  //
+  // The caller's CancelScope holds on all threads, and is asked before each part. An exception of
+  // any part (cancelled, bad_alloc, what body() throws) is rethrown here; parts that have not begun
+  // by then are left out. Calls do not nest.
+  template <class Body>
+  void for_parts(std::size_t size, std::size_t grain, Body&& body) {
+    const std::size_t parts = part_count(size, grain);
+    if (threads_.empty() || parts <= 1) {
+      for (std::size_t part = 0; part < parts; ++part) {
+        stop_if_cancelled();
+        body(size * part / parts, size * (part + 1) / parts);
+      }
+      return;
+    }
+    struct Call {
+      Body* body;
+      std::size_t size, parts;
+      const Monitor* monitor;
+    } call{&body, size, parts, CancelScope::current()};
+    dispatch(int(parts), &call, [](void* data, int part) {
+      auto& c = *static_cast<Call*>(data);
+      const CancelScope scope(c.monitor);
+      stop_if_cancelled();
+      const std::size_t begin = c.size * std::size_t(part) / c.parts;
+      const std::size_t end = c.size * std::size_t(part + 1) / c.parts;
+      (*c.body)(begin, end);
+    });
+  }
+
+ private:
+  using Task = void (*)(void*, int);
+  using State = std::uint64_t;
+  static constexpr std::size_t parts_a_thread = 4;
+  // A cancelled run finishes the parts that it has begun: at least `enough_parts`, as far as the
+  // grain allows, keep that short. state_ has 16 bits for their number.
+  static constexpr std::size_t enough_parts = 256, grains_a_part = 8, most_parts = 0xffff;
+
+  std::size_t part_count(std::size_t size, std::size_t grain) const {
+    if (size == 0) return 0;
+    const std::size_t grains = std::max<std::size_t>(1, grain ? size / grain : size);
+    const std::size_t wanted =
+        std::max({parts_a_thread * std::size_t(count()), enough_parts, grains / grains_a_part});
+    return std::min({grains, wanted, most_parts});
+  }
+
+  void dispatch(int parts, void* data, Task task);
+  void serve();
+  void work(State state, bool from_end);
+  void run_part(Task task, void* data, int part);
+
+  std::vector<std::thread> threads_;
+  // Bits 0–15: the first unclaimed part; 16–31: the end of the unclaimed parts; 32–63: the call's
+  // number. A thread reads task_ and data_, then claims a part by compare-and-swap: its success
+  // proves that the call is still the same, and so that what was read belongs to the part.
+  std::atomic<State> state_{0};
+  std::atomic<Task> task_{nullptr};
+  std::atomic<void*> data_{nullptr};
+  std::atomic<std::uint32_t> calls_{0};  // what idle threads wait for
+  std::atomic<std::uint32_t> unfinished_{0};
+  std::atomic<bool> stop_{false};
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_{false};
+};
+
+// --- buffers of a thread ---
+
+// Scratch memory that each thread keeps from one call to the next: to allocate and clear large
+// buffers in every pass would cost as much as the pass. A worker's buffers are freed with its
+// thread; the thread that owns the Workers frees its own when they are destroyed.
+template <class T>
+struct ThreadScratch {
+  // Of accumulate() (grid/accumulate.h): the closed face and the edge that a body writes, and a
+  // buffer for the body to work in.
+  std::vector<T> closed, run, work;
+  std::vector<T> gathered;  // the closed faces or edges that a body reads
+  std::vector<T> columns;   // of sparse products: the entries of x that a block of rows reads
+};
+
+template <class T>
+ThreadScratch<T>& thread_scratch() {
+  thread_local ThreadScratch<T> own;
+  return own;
+}
+
+// Memory for `size` numbers, with whatever values; valid until the next call for the same buffer.
+template <class T>
+T* room_in(std::vector<T>& buffer, std::size_t size) {
+  if (buffer.size() < size) buffer.resize(size);
+  return buffer.data();
+}
+
+// Which columns of a sparse matrix a row has named already: those whose marks are greater than
+// `last`. Raising `last` clears them all at once.
+struct ColumnMarks {
+  std::vector<std::uint32_t> mark;
+  std::uint32_t last = 0;
+
+  void fit(std::size_t columns) {
+    constexpr std::uint32_t most = std::uint32_t(1) << 31;
+    if (mark.size() < columns) mark.resize(columns, 0);
+    if (last < most) return;
+    std::fill(mark.begin(), mark.end(), 0);
+    last = 0;
+  }
+};
+inline std::array<ColumnMarks, 2>& thread_column_marks() {
+  thread_local std::array<ColumnMarks, 2> own;
+  return own;
+}
+
+inline void release_thread_scratch() {
+  thread_column_marks() = {};
+  thread_scratch<float>() = {};
+  thread_scratch<double>() = {};
+}
+
+}  // namespace fairing

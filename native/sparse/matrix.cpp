@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sparse/matrix.h"
+
+#include "base/simd.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Four = Packs<float, 16>;
+
+// C numbers of each of the chunk's columns: three of them in packs of four.
+template <int C>
+constexpr std::size_t local_stride = C == 3 ? 4 : 1;
+
+template <int C>
+DF_INLINE void gather(const RowChunk& chunk, const float* x, float* local) {
+  for (const std::uint32_t column : chunk.column) {
+    if constexpr (C == 3) {
+      Four::Pack p;
+      Four::load(x + 3 * std::size_t(column), p);
+      Four::store(p, local);
+    } else {
+      *local = x[column];
+    }
+    local += local_stride<C>;
+  }
+}
+
+DF_INLINE void set_row(const RowChunk::LocalColumn* column, const RowChunk::LocalColumn* end,
+                       const float* number, const float* local, float* product,
+                       std::integral_constant<int, 3>) {
+  Four::Pack sum[row_block] = {}, p;
+  for (; column < end; column += row_block, number += row_block)
+#pragma GCC unroll 4
+    for (std::size_t m = 0; m < row_block; ++m) {
+      Four::load(local + 4 * std::size_t(column[m]), p);
+      sum[m] += number[m] * p;
+    }
+  Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), product);
+}
+
+DF_INLINE void set_row(const RowChunk::LocalColumn* column, const RowChunk::LocalColumn* end,
+                       const float* number, const float* local, float* product,
+                       std::integral_constant<int, 1>) {
+  float sum[row_block] = {};
+  for (; column < end; column += row_block, number += row_block)
+#pragma GCC unroll 4
+    for (std::size_t m = 0; m < row_block; ++m) sum[m] += number[m] * local[column[m]];
+  *product = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+template <int C>
+struct RowsLoop {
+  template <class T, int Bytes>
+  struct Of {
+    DF_INLINE static void run(const RowChunk* chunk, const float* x, float* local, float* product) {
+      gather<C>(*chunk, x, local);
+      const RowChunk::LocalColumn* column = chunk->local_column.data();
+      for (const RowChunk::Row& row : chunk->row) {
+        const RowChunk::LocalColumn* const end = chunk->local_column.data() + row.end;
+        set_row(column, end, chunk->number.data() + row.number, local, product,
+                std::integral_constant<int, C>());
+        column = end;
+        product += C;
+      }
+    }
+  };
+};
+
+template <class Visit>
+void visit_numbers(const RowChunk& chunk, Visit&& visit) {
+  std::uint32_t k = 0;
+  for (std::size_t r = 0; r < chunk.row.size(); ++r)
+    for (const float* number = chunk.number.data() + chunk.row[r].number; k < chunk.row[r].end;
+         ++k, ++number)
+      if (*number != 0) visit(r, std::size_t(chunk.column[chunk.local_column[k]]), *number);
+}
+
+}  // namespace
+
+template <int C>
+void chunk_product(const RowChunk& chunk, const float* x, float* product) {
+  float* const local =
+      room_in(thread_scratch<float>().columns, local_stride<C> * chunk.column.size());
+  run_loop<RowsLoop<C>::template Of, float>(&chunk, x, local, product);
+}
+template void chunk_product<1>(const RowChunk&, const float*, float*);
+template void chunk_product<3>(const RowChunk&, const float*, float*);
+
+void RowBuilder::finish() {
+  std::vector<RowChunk::LocalColumn>& local = chunk_.local_column;
+  for (const std::uint32_t column : column_) local.push_back(local_column(column));
+  for (const double sum : sum_) number_.push_back(float(sum));
+  for (; number_.size() % row_block != 0; number_.push_back(0)) local.push_back(local.back());
+  chunk_.row.push_back({std::uint32_t(local.size()), keep_numbers()});
+  in_row_.last += std::uint32_t(sum_.size());
+  sum_.clear();
+  column_.clear();
+  number_.clear();
+}
+
+RowChunk::LocalColumn RowBuilder::local_column(std::uint32_t column) {
+  std::uint32_t& mark = in_chunk_.mark[column];
+  if (mark <= in_chunk_.last) {
+    chunk_.column.push_back(column);
+    mark = in_chunk_.last + std::uint32_t(chunk_.column.size());
+  }
+  return RowChunk::LocalColumn(mark - in_chunk_.last - 1);
+}
+
+// Where the chunk keeps the row's numbers: with one of the latest rows that differ from one
+// another, if it is equal, or else at the end.
+std::uint32_t RowBuilder::keep_numbers() {
+  // Balances the time to compare with what equal rows save: those alike are near one another.
+  constexpr std::size_t most_compared = 24;
+  std::vector<float>& all = chunk_.number;
+  for (std::size_t k = distinct_.size(); k > 0 && k + most_compared > distinct_.size(); --k) {
+    const std::uint32_t first = distinct_[k - 1];
+    if (first + number_.size() <= all.size() &&
+        std::equal(number_.begin(), number_.end(), all.begin() + first))
+      return first;
+  }
+  distinct_.push_back(std::uint32_t(all.size()));
+  all.insert(all.end(), number_.begin(), number_.end());
+  return distinct_.back();
+}
+
+float AssembledMatrix::diagonal(std::size_t row) const {
+  const RowChunk& chunk = chunk_[row / chunk_rows];
+  const std::size_t r = row % chunk_rows;
+  float sum = 0;
+  for (std::uint32_t begin = r == 0 ? 0 : chunk.row[r - 1].end, k = begin; k < chunk.row[r].end;
+       ++k)
+    if (chunk.column[chunk.local_column[k]] == row)
+      sum += chunk.number[chunk.row[r].number + k - begin];
+  return sum;
+}
+
+AssembledMatrix::Columns AssembledMatrix::by_columns() const {
+  Columns out;
+  out.first.assign(columns_ + 1, 0);
+  for (const RowChunk& chunk : chunk_) {
+    stop_if_cancelled();
+    visit_numbers(chunk, [&](std::size_t, std::size_t column, float) { ++out.first[column + 1]; });
+  }
+  for (std::size_t c = 0; c < columns_; ++c) out.first[c + 1] += out.first[c];
+  out.entry.resize(out.first.back());
+  std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
+  for (std::size_t c = 0; c < chunk_.size(); ++c) {
+    stop_if_cancelled();
+    visit_numbers(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
+      out.entry[next[column]++] = {Index(c * chunk_rows + row), number};
+    });
+  }
+  return out;
+}
+
+}  // namespace fairing

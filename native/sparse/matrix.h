@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sparse matrices in single precision, for the many applications inside a preconditioner.
+//
+// What a large matrix costs is reading it. So it is kept in chunks of rows: a row names its columns
+// by 16-bit indices among those of its chunk, and equal rows, as there are many along an edge and
+// inside a face, share their numbers: between 2 and 6 bytes an entry, where rows of 32-bit indices
+// take 8.
+//
+// Built once, and not changed afterwards.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/types.h"
+#include "parallel/memory.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+// Whether a level of n subdivisions and so many points is served by rows: where faces are small,
+// passes over faces and edges cost more than an index a number; where they are large, rows cost
+// more memory, and the time to read it.
+constexpr bool has_rows(int n, std::size_t points) {
+  return n > 1 && n <= 16 && points <= std::size_t(1) << 22;
+}
+
+// Rows of a chunk: enough to share columns and numbers, few enough that what a chunk reads of a
+// vector, and its product, stay in a near cache.
+constexpr std::size_t chunk_rows = 256;
+// Rows are filled up with zeros to whole blocks, one partial sum for each place in a block.
+constexpr std::uint32_t row_block = 4;
+
+struct RowChunk {
+  using LocalColumn = std::uint16_t;
+  struct Row {
+    std::uint32_t end;     // of its local columns; a zero row has none
+    std::uint32_t number;  // the first of as many
+  };
+  std::vector<std::uint32_t> column;  // those of the chunk, each once
+  std::vector<Row> row;
+  std::vector<LocalColumn> local_column;  // row by row: indices into `column`
+  std::vector<float> number;
+
+  void clear() {
+    column.clear();
+    row.clear();
+    local_column.clear();
+    number.clear();
+  }
+  std::size_t bytes() const {
+    return column.capacity() * sizeof(std::uint32_t) + row.capacity() * sizeof(Row) +
+           local_column.capacity() * sizeof(LocalColumn) + number.capacity() * sizeof(float);
+  }
+};
+
+// product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x
+// holds C numbers a column and `vector_room` (multigrid/level_operator.h) more. Every number sees
+// the same operations in the same order on all machines.
+template <int C>
+void chunk_product(const RowChunk& chunk, const float* x, float* product);
+
+// Sums the rows of a chunk, one after another, in double precision.
+class RowBuilder {
+ public:
+  // For columns 0 … columns - 1.
+  explicit RowBuilder(std::size_t columns)
+      : in_row_(thread_column_marks()[0]), in_chunk_(thread_column_marks()[1]) {
+    in_row_.fit(columns);
+    in_chunk_.fit(columns);
+  }
+
+  ~RowBuilder() { in_chunk_.last += std::uint32_t(chunk_.column.size()); }
+  RowBuilder(const RowBuilder&) = delete;
+  RowBuilder& operator=(const RowBuilder&) = delete;
+
+  void begin_chunk() {
+    in_chunk_.last += std::uint32_t(chunk_.column.size());
+    chunk_.clear();
+    distinct_.clear();
+  }
+
+  // To the row's number in a column.
+  void add(Index column, double number) {
+    std::uint32_t& mark = in_row_.mark[std::size_t(column)];
+    if (mark <= in_row_.last) {
+      column_.push_back(std::uint32_t(column));
+      sum_.push_back(0);
+      mark = in_row_.last + std::uint32_t(sum_.size());
+    }
+    sum_[mark - in_row_.last - 1] += number;
+  }
+
+  // The row goes to the chunk, its columns in the order in which they were first named.
+  void finish();
+
+  const RowChunk& chunk() const { return chunk_; }
+  // Whether 16 bits tell the chunk's columns apart.
+  bool fits() const {
+    return chunk_.column.size() <= std::numeric_limits<RowChunk::LocalColumn>::max();
+  }
+
+ private:
+  RowChunk::LocalColumn local_column(std::uint32_t column);
+  std::uint32_t keep_numbers();
+
+  // Which columns the row and the chunk have named: where, counted from `last`.
+  ColumnMarks &in_row_, &in_chunk_;
+  RowChunk chunk_;
+  std::vector<std::uint32_t> distinct_;  // where rows of numbers begin, all different
+  // Of the row at hand.
+  std::vector<std::uint32_t> column_;
+  std::vector<double> sum_;
+  std::vector<float> number_;
+};
+
+class AssembledMatrix {
+ public:
+  AssembledMatrix(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns) {}
+  AssembledMatrix(const AssembledMatrix&) = delete;
+  AssembledMatrix& operator=(const AssembledMatrix&) = delete;
+  ~AssembledMatrix() { MemoryLedger::remove(bytes_); }
+
+  // Call once. make_writer() gives a writer, one for each stretch of rows that a thread takes;
+  // writer(row, builder) adds the numbers of one row after another; none: the row is zero. False:
+  // the matrix has too many columns in one chunk, and is not to be used. Throws where the run has
+  // been cancelled.
+  template <class MakeWriter>
+  bool build(Workers& workers, MakeWriter&& make_writer) {
+    chunk_.resize((rows_ + chunk_rows - 1) / chunk_rows);
+    std::atomic<bool> fits = true;
+    workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
+      RowBuilder builder(columns_);
+      auto write = make_writer();
+      for (std::size_t c = begin; c < end; ++c) {
+        builder.begin_chunk();
+        for (std::size_t r = c * chunk_rows; r < std::min(rows_, (c + 1) * chunk_rows); ++r) {
+          write(Index(r), builder);
+          builder.finish();
+        }
+        if (!builder.fits()) fits = false;
+        chunk_[c] = builder.chunk();  // a copy: its vectors are no longer than they need be
+      }
+    });
+    for (const RowChunk& chunk : chunk_) bytes_ += chunk.bytes();
+    MemoryLedger::add(bytes_);
+    return fits;
+  }
+
+  // The number of a row in its own column; 0 where the row is zero.
+  float diagonal(std::size_t row) const;
+
+  // Its numbers column by column: first[c] … first[c + 1] of (row, number), rows ascending.
+  struct Columns {
+    std::vector<std::size_t> first;
+    std::vector<std::pair<Index, float>> entry;
+  };
+  Columns by_columns() const;
+
+  // Calls finish(row, count, product) on blocks of rows, in parallel, with product the matrix times
+  // x there, C numbers a row, 1 or 3: what comes after the product is done while it is in the
+  // cache. x has `vector_room` more.
+  template <int C, class Finish>
+  void visit_products(const float* x, Workers& workers, const Finish& finish) const {
+    constexpr std::size_t grain = 8;  // chunks worth a thread
+    workers.for_parts(chunk_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      alignas(64) float product[C * chunk_rows + 4];
+      for (std::size_t c = begin; c < end; ++c) {
+        chunk_product<C>(chunk_[c], x, product);
+        finish(c * chunk_rows, chunk_[c].row.size(), static_cast<float*>(product));
+      }
+    });
+  }
+
+  // y <- the matrix times x
+  template <int C>
+  void apply(const float* x, Workers& workers, float* y) const {
+    visit_products<C>(x, workers, [=](std::size_t row, std::size_t count, const float* product) {
+      std::copy_n(product, C * count, y + C * row);
+    });
+  }
+
+ private:
+  std::size_t rows_, columns_, bytes_ = 0;
+  Array<RowChunk> chunk_;
+};
+
+}  // namespace fairing

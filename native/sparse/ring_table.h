@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one-rings of a level's points as lists of points: what rows of sparse matrices are summed
+// from. 4 bytes a neighbour and 16 a point, so for levels of few points only (has_rows()).
+#pragma once
+
+#include "parallel/memory.h"
+#include "parallel/workers.h"
+#include "sparse/unknown_points.h"
+#include "stencil/stencils.h"
+
+namespace fairing {
+
+class RingTable {
+ public:
+  // `grid` must outlive the table. Throws where the run has been cancelled.
+  RingTable(const GridLevel& grid, const Unknowns& unknowns, Workers& workers);
+
+  // The id of a point, or ~id where it is no unknown.
+  using Member = Index;
+  static constexpr Index id_of(Member m) { return m < 0 ? ~m : m; }
+
+  struct Ring {
+    // The first of `size` members: the point itself, then its neighbours in the order of its chart
+    // (stencil/chart.h).
+    std::size_t member;
+    std::uint32_t size;
+    Index element;  // whose stencil the point has (stencil/stencils.h)
+  };
+  const Ring& about(Index p) const { return ring_[std::size_t(p)]; }
+  const Member* members(const Ring& ring) const { return member_.data() + ring.member; }
+  // Which member of the ring a point is; `size` where it is none.
+  std::size_t slot(const Ring& ring, Index p) const {
+    const Member* const member = members(ring);
+    std::size_t s = 0;
+    while (s < ring.size && id_of(member[s]) != p) ++s;
+    return s;
+  }
+  std::size_t points() const { return ring_.size(); }
+  bool is_unknown(Index p) const { return coded_[std::size_t(p)] >= 0; }
+
+ private:
+  void code_points(const Unknowns& unknowns);
+  void lay_out_rings();
+  void write_members(Workers& workers);
+
+  const GridLevel& grid_;
+  Array<Member> coded_;  // one a point
+  Array<Ring> ring_;     // one a point
+  Array<Member> member_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "stencil/round_fit.h"
+#include "stencil/staged_fit.h"
+
+namespace fairing {
+namespace {
+
+constexpr double half_root_half = std::numbers::sqrt2 / 4;  // 1 / (2 sqrt 2)
+constexpr double root_half = std::numbers::sqrt2 / 2;
+
+// Least squares after the ring has been made round: quadratics are invariant under linear maps, so
+// the fit is the same, and its normal equations are well-conditioned for any skew. Empty when
+// undetermined.
+bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
+  Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : ring) moment += p * p.transpose();
+  moment /= double(ring.size());
+  const Eigen::LLT<Eigen::Matrix2d> root(moment);
+  if (root.info() != Eigen::Success) return false;
+  const Eigen::Matrix2d l = root.matrixL();
+  if (!(l(0, 0) > 0) || !(l(1, 1) > 1e-12 * l(0, 0))) return false;
+  const Eigen::Matrix2d w = l.inverse();
+  FitRows a(5, Eigen::Index(ring.size()));
+  for (std::size_t j = 0; j < ring.size(); ++j) a.col(Eigen::Index(j)) = basis(w * ring[j]);
+  Eigen::Matrix<double, 5, 5> gram = a * a.transpose();
+  const Coefficients scale = gram.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return false;
+  gram = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::Matrix<double, 5, 5>> factor(gram);
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::Matrix<double, 5, 5> lower = factor.matrixL();
+  if (lower.diagonal().minCoeff() < undetermined) return false;
+  a = scale.cwiseInverse().asDiagonal() * a;
+  factor.solveInPlace(a);
+  a = scale.cwiseInverse().asDiagonal() * a;
+  // Back: gradient w^T g, Hessian w^T H w, column by column.
+  rows.resize(5, a.cols());
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    const auto c = a.col(j);
+    Eigen::Matrix2d h;
+    h << root_half * (c(2) + c(3)), root_half * c(4), root_half * c(4), root_half * (c(2) - c(3));
+    h = w.transpose() * h * w;
+    rows.col(j).head<2>() = w.transpose() * c.head<2>();
+    rows(2, j) = root_half * (h(0, 0) + h(1, 1));
+    rows(3, j) = root_half * (h(0, 0) - h(1, 1));
+    rows(4, j) = std::numbers::sqrt2 * h(0, 1);
+  }
+  return true;
+}
+
+Vec3 orthonormal(double uu, double uv, double vv) {
+  return {root_half * (uu + vv), root_half * (uu - vv), std::numbers::sqrt2 * uv};
+}
+
+using Round = RoundFit<double>;
+
+// False where the ring does not determine a quadratic. No weights: all are one.
+bool make(std::span<const Vec2> ring, std::span<const double> weight, Round& fit) {
+  if (ring.size() < 5) return false;
+  double uu = 0, uv = 0, vv = 0;
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Vec2 &p = ring[j], q = weight.empty() ? p : Vec2(weight[j] * p);
+    uu += q.x() * p.x();
+    uv += q.x() * p.y();
+    vv += q.y() * p.y();
+  }
+  bool determined = true;
+  const auto neighbour = [&](int j, double& u, double& v, double& w) {
+    u = ring[std::size_t(j)].x();
+    v = ring[std::size_t(j)].y();
+    w = weight.empty() ? 1.0 : weight[std::size_t(j)];
+  };
+  fit.make(int(ring.size()), uu, uv, vv, neighbour, determined);
+  return determined;
+}
+
+// sum += neighbour p's terms times g.
+void add(const Round& fit, const Vec2& p, double g, Round::Term& sum) {
+  Round::Term t;
+  fit.term(p.x(), p.y(), t);
+  sum.x += g * t.x, sum.y += g * t.y, sum.a += g * t.a, sum.b += g * t.b, sum.c += g * t.c;
+}
+
+Vec3 hessian(const Round& fit, const Round::Term& sum) {
+  double xx, xy, yy;
+  fit.solve(sum, xx, xy, yy);
+  const double w0 = fit.w0, w1 = fit.w1, w2 = fit.w2;
+  return orthonormal(w0 * w0 * xx + 2 * w0 * w1 * xy + w1 * w1 * yy, w2 * (w0 * xy + w1 * yy),
+                     w2 * w2 * yy);
+}
+
+}  // namespace
+
+Coefficients basis(const Vec2& p) {
+  const double u = p.x(), v = p.y();
+  Coefficients c;
+  c << u, v, half_root_half * (u * u + v * v), half_root_half * (u * u - v * v), root_half * u * v;
+  return c;
+}
+
+FitRows fit(const Chart& chart) {
+  const auto n = Eigen::Index(chart.ring.size());
+  FitRows rows;
+  if (n >= 5 && round_fit(chart.ring, rows)) return rows;
+  double radius = 0;
+  for (const Vec2& p : chart.ring) radius += p.norm() / double(n);
+  Eigen::MatrixXd a(n, 5);
+  for (Eigen::Index j = 0; j < n; ++j)
+    a.row(j) = basis(chart.ring[std::size_t(j)] / radius).transpose();
+  rows = staged_fit(a, chart.closed ? 3 : 2);
+  rows.topRows(2) /= radius;
+  rows.bottomRows(3) /= radius * radius;
+  return rows;
+}
+
+Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
+                    std::span<const double> weight) {
+  Round round;
+  if (!make(ring, weight, round)) return staged_hessian(ring, difference);
+  Round::Term sum;
+  for (std::size_t j = 0; j < ring.size(); ++j)
+    add(round, ring[j], weight.empty() ? difference[j] : weight[j] * difference[j], sum);
+  return hessian(round, sum);
+}
+
+void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
+                  std::vector<Vec3>& rows) {
+  rows.resize(ring.size());
+  Round round;
+  if (make(ring, weight, round)) {
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      Round::Term sum;
+      add(round, ring[j], weight.empty() ? 1.0 : weight[j], sum);
+      rows[j] = hessian(round, sum);
+    }
+    return;
+  }
+  std::vector<double> unit(ring.size(), 0.0);
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    unit[j] = 1;
+    rows[j] = staged_hessian(ring, unit);
+    unit[j] = 0;
+  }
+}
+
+}  // namespace fairing

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Divided differences: the least-squares quadratic of a one-ring [Kobbelt 1997a, §4], as rows for
+// the thin plate and the transfers, and in closed form for one function at one point.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "stencil/chart.h"
+
+namespace fairing {
+
+// A quadratic about the chart's origin, f(u, v) - f(0) = basis(u, v) . c, in coefficients c =
+//
+//   (f_u, f_v, (f_uu + f_vv)/sqrt 2, (f_uu - f_vv)/sqrt 2, sqrt 2 f_uv).
+//
+// The last three are the Hessian in an orthonormal basis of the symmetric matrices (its trace and
+// its trace-free part), so their squares add up to f_uu^2 + 2 f_uv^2 + f_vv^2.
+using Coefficients = Eigen::Matrix<double, 5, 1>;
+using FitRows = Eigen::Matrix<double, 5, Eigen::Dynamic>;  // one column a neighbour
+
+Coefficients basis(const Vec2& p);
+
+// A direction whose singular value is below this share of the largest counts as undetermined: what
+// it would add is noise. And the same where singular values are squared, in normal equations.
+constexpr double undetermined = 3e-3, undetermined_square = 3e-3 * 3e-3;
+
+// Rows that turn the differences f_j - f_0 over the chart's ring into the coefficients.
+//
+// Five and more neighbours: least squares. Fewer, or neighbours too near a common conic through the
+// origin, do not determine a quadratic: a closed ring then fits f_u, f_v and the trace, and takes
+// the trace-free part of least norm (valence 3: none); an open ring fits f_u, f_v and takes the
+// Hessian of least norm.
+FitRows fit(const Chart& chart);
+
+// The divided differences of one function at one point, where writing the rows of fit() would cost
+// too much: on the stack, in closed form.
+//
+// The last three of fit()'s coefficients from the differences f_j - f_0 over a closed ring. The
+// same rules hold where the ring does not determine a quadratic: valence 4 gives the trace and the
+// trace-free part of least norm, valence 3 the trace alone. Zero for a ring without any extent.
+// Where a quadratic is determined, squared residuals count by their weights (empty: all are one).
+Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
+                    std::span<const double> weight = {});
+
+// The same as rows: the result is the sum of rows[j] times difference j.
+void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
+                  std::vector<Vec3>& rows);
+
+}  // namespace fairing

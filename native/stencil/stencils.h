@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The divided differences of a whole control mesh: one set of rows a control vertex, one a control
+// edge, one a control face. They serve every level: level l multiplies the energy's rows by 2^l.
+//
+// An *element* is a control vertex v, a control edge e or a control face f, numbered v, V + e,
+// V + E + f: what has one stencil on all its points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid/runs.h"
+#include "parallel/memory.h"
+#include "parallel/workers.h"
+#include "stencil/chart.h"
+#include "stencil/fit.h"
+
+namespace fairing {
+
+constexpr int max_edge_ring = 8;  // forward, back, and three points in each of two quads
+
+// `energy`: the last three rows of the fit (the Hessian) times the root of the chart's area.
+// Neighbours are in the order of the charts. Zero where there is no fit: on curves, at corners and
+// outside a region.
+struct Stencils {
+  // Control vertices: the ring of v is ring_offset[v] … ring_offset[v + 1].
+  std::vector<Index> ring_offset;
+  std::vector<std::uint8_t> vertex_fit;  // whether there is one
+  Array<float> vertex_rows;              // 5 a neighbour: the fit
+  Array<float> vertex_half;              // 5 a neighbour: the basis half-way to it
+  Array<double> vertex_energy;           // 3 a neighbour
+
+  // Control edges: rings of edge_ring[e] <= 8 points, padded to 8.
+  std::vector<std::uint8_t> edge_ring, edge_fit;
+  Array<float> edge_half;  // 8 x 8: value half-way to neighbour j, minus f_0, from the differences
+  Array<double> edge_energy;  // 3 x 8
+
+  // Control faces: 3 rows on the second differences along 3 (triangle) or 4 (quad) grid directions
+  // (face_directions() in grid/ring.h).
+  std::vector<std::uint8_t> face_fit;
+  Array<double> face_energy;  // 3 x 4
+};
+
+// The element of a run.
+inline Index element_of(const ControlMesh& mesh, const Run& run) {
+  if (run.kind == RunKind::vertex) return run.element;
+  const Index first_edge = mesh.vertex_count();
+  return run.element + first_edge + (run.kind == RunKind::edge ? 0 : Index(mesh.edges.size()));
+}
+
+// The energy's rows of one element by neighbours, however they are stored: what matrices are
+// assembled from. The centre's numbers are minus the sum of all.
+class EnergyRows {
+ public:
+  using Column = std::array<double, 3>;
+
+  // No neighbours where there is no fit. Refers to `stencils`.
+  EnergyRows(const ControlMesh& mesh, const Stencils& stencils, Index element);
+
+  std::size_t size() const { return size_; }
+  Column operator[](std::size_t neighbour) const {
+    const double* at = first_ + step_ * (neighbour % period_);
+    return {at[0], at[stride_], at[2 * stride_]};
+  }
+  // How many come before one that has the numbers of its opposite: all, or half inside a face.
+  std::size_t distinct() const { return period_; }
+  // The neighbour that is k-th in the order in which opposite ones of a face follow one another, so
+  // that they are summed pair by pair.
+  std::size_t by_pairs(std::size_t k) const {
+    return period_ < size_ ? k / 2 + period_ * (k % 2) : k;
+  }
+
+ private:
+  const double* first_;
+  std::size_t size_ = 0, step_, stride_, period_;  // opposite neighbours share their numbers
+};
+
+// Makes all of them. Throws where the run has been cancelled.
+Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers);
+
+}  // namespace fairing

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/weights.h"
+
+#include <algorithm>
+
+namespace fairing {
+
+bool RegionWeight::weighs_edge(Index e) const {
+  if (!fades()) return any() && clamped_edge(e);
+  return clamped_vertex(edge(e).vertex[0]) || clamped_vertex(edge(e).vertex[1]);
+}
+
+bool RegionWeight::weighs_face(Index f) const {
+  if (!fades()) return false;
+  const Face& face = mesh_.faces[std::size_t(f)];
+  for (int c = 0; c < face.size; ++c)
+    if (clamped_vertex(face.vertex[std::size_t(c)])) return true;
+  return false;
+}
+
+bool RegionWeight::weighs(const Run& run) const {
+  switch (run.kind) {
+    case RunKind::vertex: return any() && clamped_vertex(run.element);
+    case RunKind::edge: return weighs_edge(run.element);
+    default: return weighs_face(run.element);
+  }
+}
+
+double RegionWeight::point(const Run& run, std::size_t i) const {
+  const int k = int(i) + 1;
+  switch (run.kind) {
+    case RunKind::vertex: return vertex(run.element);
+    case RunKind::edge: return edge_point(run.element, k);
+    default: return face_point(run.element, k, run.row);
+  }
+}
+
+double RegionWeight::edge_point(Index e, int k) const {
+  if (!any()) return 1;
+  if (clamped_edge(e)) return on_joint();
+  if (!fades()) return 1;
+  int steps = n_;
+  if (clamped_vertex(edge(e).vertex[0])) steps = std::min(steps, k);
+  if (clamped_vertex(edge(e).vertex[1])) steps = std::min(steps, n_ - k);
+  return off_joint(steps);
+}
+
+// The steps to a side are its row; to a corner they are those that agree with the edges on either
+// side.
+double RegionWeight::face_point(Index f, int i, int j) const {
+  if (!fades()) return 1;
+  const Face& face = mesh_.faces[std::size_t(f)];
+  const bool quad = face.quad();
+  const int far_i = quad ? n_ - i : n_ - i - j, far_j = n_ - j;
+  const int row_of_side[4] = {j, far_i, quad ? far_j : i, i};
+  double steps = n_;
+  for (int s = 0; s < face.size; ++s) {
+    const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
+    if (clamped_edge(mesh_.sides[std::size_t(face.first_side + s)].edge))
+      steps = std::min(steps, row);
+    if (clamped_vertex(face.vertex[std::size_t(s)]))
+      steps = std::min(steps, quad ? row + before - row * before / n_ : row + before);
+  }
+  return off_joint(std::max(steps, 1.0));  // only points inside the face count
+}
+
+}  // namespace fairing

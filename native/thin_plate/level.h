@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate as the solver sees it: its operator on one level.
+#pragma once
+
+#include <memory>
+
+#include "multigrid/chebyshev.h"
+#include "multigrid/level_operator.h"
+#include "thin_plate/matrix.h"
+#include "thin_plate/operator.h"
+
+namespace fairing {
+
+// What all levels share.
+struct ThinPlateShared {
+  const ControlMesh& mesh;
+  const Stencils& stencils;
+  ThinPlateRows<double> double_rows;
+  ThinPlateRows<float> float_rows;
+  Unknowns unknowns;
+  VertexWeights weights;
+  Workers& workers;
+  ElementSlots<double> double_slots;
+  ElementSlots<float> float_slots;
+
+  ThinPlateShared(const ControlMesh& control, const Stencils& s, Unknowns u, VertexWeights w,
+                  Workers& crew)
+      : mesh(control),
+        stencils(s),
+        double_rows(control, s),
+        float_rows(control, s),
+        unknowns(std::move(u)),
+        weights(std::move(w)),
+        workers(crew) {}
+};
+
+// K plus the weights of control vertices. In double always by passes; in single precision by a
+// matrix where one suits the level.
+class ThinPlateLevel final : public LevelOperator {
+ public:
+  ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid) : shared_(shared), grid_(grid) {
+    matrix_ = PlateMatrix::make(grid, shared.stencils, shared.unknowns, shared.workers);
+    update();
+  }
+
+  // Call after the weights have changed.
+  void update() {
+    if (matrix_) {
+      matrix_->set_weights(shared_.weights);
+      inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
+      return;
+    }
+    inverse_diagonal_ = thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns,
+                                            shared_.weights, shared_.workers, shared_.double_slots);
+    for (float& d : inverse_diagonal_) d = 1 / d;
+  }
+
+  std::size_t points() const override { return grid_.size(); }
+  std::size_t components() const override { return 3; }
+  void apply(const double* x, double* y) override {
+    apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, shared_.weights, shared_.workers,
+                     shared_.double_slots, x, y);
+  }
+  void apply(const float* x, float* y) override {
+    if (matrix_)
+      return matrix_->visit_products(
+          x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
+            std::copy_n(product, 3 * count, y + 3 * first);
+          });
+    apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, shared_.weights, shared_.workers,
+                     shared_.float_slots, x, y);
+  }
+  void relax(const SmoothingStep& step, Workers& workers) override {
+    if (!matrix_) return LevelOperator::relax(step, workers);
+    matrix_->visit_products(step.d, workers,
+                            [&](std::size_t first, std::size_t count, const float* product) {
+                              finish_step(step, 3, inverse_diagonal_.data(), first, count, product);
+                            });
+  }
+  void subtract_product(const float* x, float* room, float* y, Workers& workers) override {
+    if (!matrix_) return LevelOperator::subtract_product(x, room, y, workers);
+    matrix_->visit_products(x, workers,
+                            [=](std::size_t first, std::size_t count, const float* product) {
+                              for (std::size_t i = 0; i < 3 * count; ++i)
+                                y[3 * first + i] -= product[i];
+                            });
+  }
+  // Control vertices that move leave waves longer than a face.
+  bool single_precision_suffices() const override {
+    return grid_.n() <= most_of_single && !shared_.unknowns.any_vertex;
+  }
+  const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
+  AssembledSystem assemble() const override {
+    return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
+                               shared_.workers);
+  }
+
+ private:
+  ThinPlateShared& shared_;
+  const GridLevel& grid_;
+  std::unique_ptr<PlateMatrix> matrix_;  // null: the passes serve
+  Array<float> inverse_diagonal_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/matrix.h"
+
+#include <cmath>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Column = EnergyRows::Column;
+
+// The factor of the energy at each point; empty: all are one.
+Array<double> point_weights(const GridLevel& grid) {
+  if (grid.mesh().region.whole()) return {};
+  const RegionWeight joint(grid);
+  Array<double> weight(grid.size(), 1.0);
+  for_each_run(grid, [&](const Run& run) {
+    if (!joint.weighs(run)) return;
+    for (std::size_t i = 0; i < run.count; ++i) weight[run.first + i] = joint.point(run, i);
+  });
+  return weight;
+}
+
+// The divided differences of one level as what they contribute to the rows of K.
+class PlateRings {
+ public:
+  PlateRings(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
+             Workers& workers)
+      : rings_(grid, unknowns, workers), weight_(point_weights(grid)) {
+    write_grams(grid, stencils);
+  }
+
+  const RingTable& rings() const { return rings_; }
+  // The ring about a point that carries a fit; null: it does not.
+  const RingTable::Ring* fit_about(Index p) const {
+    const RingTable::Ring& ring = rings_.about(p);
+    return gram_begin_[std::size_t(ring.element)] != none ? &ring : nullptr;
+  }
+  // Row s of J^T J: what a unit at member s does to half the energy's gradient at all members, but
+  // for the weight.
+  const double* row(const RingTable::Ring& ring, std::size_t s) const {
+    return gram_.data() + gram_begin_[std::size_t(ring.element)] + s * ring.size;
+  }
+  double weight(Index p) const { return weight_.empty() ? 1.0 : weight_[std::size_t(p)]; }
+
+ private:
+  static constexpr std::size_t none = std::size_t(-1);
+
+  void write_grams(const GridLevel& grid, const Stencils& stencils) {
+    const ControlMesh& mesh = grid.mesh();
+    const double scale = double(grid.n()) * grid.n();
+    const auto elements = std::size_t(mesh.vertex_count()) + mesh.edges.size() + mesh.faces.size();
+    std::vector<Column> column;  // the centre's first
+    for (std::size_t element = 0; element < elements; ++element) {
+      stop_if_cancelled(element);
+      const EnergyRows rows(mesh, stencils, Index(element));
+      gram_begin_.push_back(rows.size() > 0 ? gram_.size() : none);
+      if (rows.size() == 0) continue;
+      column.assign(1, {});
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        column.push_back(rows[k]);
+        for (std::size_t c = 0; c < 3; ++c) column[0][c] -= column.back()[c];
+      }
+      for (const Column& s : column)
+        for (const Column& m : column)
+          gram_.push_back(scale * (s[0] * m[0] + s[1] * m[1] + s[2] * m[2]));
+    }
+  }
+
+  RingTable rings_;
+  Array<double> weight_;                 // per point; empty: all are one
+  std::vector<std::size_t> gram_begin_;  // per element
+  Array<double> gram_;
+};
+
+// Row p of K, from the rings that hold the point: they are those about its own ring's members.
+void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
+  const RingTable& rings = plate.rings();
+  if (!rings.is_unknown(p)) return;
+  const RingTable::Ring& own = rings.about(p);
+  for (std::size_t k = 0; k < own.size; ++k) {
+    const Index centre = RingTable::id_of(rings.members(own)[k]);
+    const RingTable::Ring* ring = plate.fit_about(centre);
+    const std::size_t slot = ring ? rings.slot(*ring, p) : 0;
+    if (!ring || slot == ring->size) continue;
+    const RingTable::Member* members = rings.members(*ring);
+    const double* numbers = plate.row(*ring, slot);
+    const double weight = plate.weight(centre);
+    for (std::size_t m = 0; m < ring->size; ++m)
+      if (members[m] >= 0) row.add(members[m], weight * numbers[m]);
+  }
+}
+
+// Products that a row is summed from, at the most on average: a point's rings by their sizes, 81 in
+// a quad's grid.
+constexpr std::size_t most_products = 128;
+
+bool suits(const GridLevel& grid, const Stencils& stencils) {
+  if (!has_rows(grid.n(), grid.size())) return false;
+  std::size_t products = 81 * grid.size();
+  for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
+    const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);
+    products += size * size;
+  }
+  return products < most_products * grid.size();
+}
+
+}  // namespace
+
+AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
+                                    const Unknowns& unknowns, const VertexWeights& weights,
+                                    Workers& workers) {
+  const RingTable rings(grid, unknowns, workers);
+  const Array<double> weight = point_weights(grid);
+  const std::vector<Index> number = number_unknowns(grid, unknowns);
+  AssembledSystem system;
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] >= 0) system.unknown_points.push_back(Index(p));
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Column> column;  // the centre's first
+  for (std::size_t p = 0; p < rings.points(); ++p) {
+    stop_if_cancelled(p);
+    const RingTable::Ring& ring = rings.about(Index(p));
+    const EnergyRows rows(grid.mesh(), stencils, ring.element);
+    if (rows.size() == 0) continue;
+    const double scale = grid.n() * std::sqrt(weight.empty() ? 1.0 : weight[p]);
+    column.assign(ring.size, {});
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t j = rows.by_pairs(k);
+      for (std::size_t c = 0; c < 3; ++c) {
+        column[1 + j][c] = scale * rows[j][c];
+        column[0][c] -= column[1 + j][c];
+      }
+    }
+    const RingTable::Member* const members = rings.members(ring);
+    for (std::size_t a = 0; a < ring.size; ++a) {
+      if (members[a] < 0) continue;
+      for (std::size_t b = 0; b < ring.size; ++b) {
+        if (members[b] < 0) continue;
+        double sum = 0;
+        for (std::size_t c = 0; c < 3; ++c) sum += column[a][c] * column[b][c];
+        entries.emplace_back(number[std::size_t(members[a])], number[std::size_t(members[b])], sum);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (number[v] >= 0) entries.emplace_back(number[v], number[v], weights[v]);
+  const auto size = Index(system.unknown_points.size());
+  system.matrix.resize(size, size);
+  stop_if_cancelled();
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
+                                               const Unknowns& unknowns, Workers& workers) {
+  if (!suits(grid, stencils)) return nullptr;
+  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
+  const PlateRings plate(grid, stencils, unknowns, workers);
+  const auto writer = [&] {
+    return [&plate](Index p, RowBuilder& row) { write_row(plate, p, row); };
+  };
+  return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
+}
+
+void PlateMatrix::set_weights(const VertexWeights& weights) {
+  weight_.clear();
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
+}
+
+Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
+  Array<float> inverse(points_);
+  workers.for_parts(points_, chunk_rows, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const float diagonal = rows_.diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+      inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
+    }
+  });
+  return inverse;
+}
+
+}  // namespace fairing

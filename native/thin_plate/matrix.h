@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate's K on one level as a matrix, in two forms summed from the same rows of the
+// stencils (EnergyRows in stencil/stencils.h) over the same rings (sparse/ring_table.h): in double
+// for a factor, and in single precision for the smoother. Without a matrix: thin_plate/operator.h.
+#pragma once
+
+#include <memory>
+
+#include "multigrid/level_operator.h"
+#include "sparse/matrix.h"
+#include "sparse/ring_table.h"
+#include "thin_plate/operator.h"
+
+namespace fairing {
+
+// K with the control vertices' weights in double: for the direct solve on the coarsest level, for
+// the paper's Gauss-Seidel, and to check and to race the passes. Throws where the run has been
+// cancelled.
+AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
+                                    const Unknowns& unknowns, const VertexWeights& weights,
+                                    Workers& workers);
+
+// K in single precision, for levels whose faces have few points: there passes over faces and edges
+// cost more than an index a number. For the smoother, which wants many cheap applications.
+class PlateMatrix {
+ public:
+  // Null where the passes are better: with many points a face, or rings so large that their squares
+  // are not linear. Throws where the run has been cancelled.
+  static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
+                                           const Unknowns& unknowns, Workers& workers);
+
+  // Of control vertices: what is added to their diagonal.
+  void set_weights(const VertexWeights& weights);
+
+  // One number a point; 1 where it is no unknown.
+  Array<float> inverse_diagonal(Workers& workers) const;
+
+  // Calls finish(point, count, product) with K x on so many points, 3 numbers each; x has
+  // `vector_room` more.
+  template <class Finish>
+  void visit_products(const float* x, Workers& workers, const Finish& finish) const {
+    rows_.visit_products<3>(x, workers, [&](std::size_t first, std::size_t count, float* product) {
+      for (std::size_t i = 3 * first; i < std::min(3 * (first + count), weight_.size()); ++i)
+        product[i - 3 * first] += weight_[i] * x[i];
+      finish(first, count, static_cast<const float*>(product));
+    });
+  }
+
+ private:
+  PlateMatrix(const GridLevel& grid, const Unknowns& unknowns)
+      : points_(grid.size()), rows_(points_, points_), moves_(unknowns.vertex) {}
+
+  std::size_t points_;
+  AssembledMatrix rows_;
+  std::vector<std::uint8_t> moves_;  // whether a control vertex is an unknown
+  std::vector<float> weight_;        // 3 a control vertex; empty: none
+};
+
+}  // namespace fairing

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/operator.h"
+
+#include "parallel/cancel.h"
+#include "thin_plate/kernels.h"
+
+namespace fairing {
+namespace {
+
+// y = rows (x_ring - x_0): 3 rows by 3 coordinates.
+template <class T>
+struct Moment {
+  T y[3][3] = {};
+  void add(const T* row, std::size_t stride, const T* difference) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t a = 0; a < 3; ++a) y[c][a] += row[c * stride] * difference[a];
+  }
+  // The transposed row's part for one neighbour.
+  void transposed(const T* row, std::size_t stride, T* z) const {
+    for (std::size_t a = 0; a < 3; ++a)
+      z[a] = row[0] * y[0][a] + row[stride] * y[1][a] + row[2 * stride] * y[2][a];
+  }
+  double square() const {
+    double sum = 0;
+    for (const auto& r : y)
+      for (const T v : r) sum += double(v) * double(v);
+    return sum;
+  }
+};
+
+template <class T>
+void difference(const T* p, const T* origin, T* d) {
+  for (std::size_t a = 0; a < 3; ++a) d[a] = p[a] - origin[a];
+}
+
+template <class T>
+Moment<T> vertex_moment(const GridLevel& grid, const ThinPlateRows<T>& rows, Index v, const T* x) {
+  Moment<T> moment;
+  const T* row = rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
+  visit_ring(grid, v, [&](Index point, std::size_t) {
+    T d[3];
+    difference(x + 3 * std::size_t(point), x + 3 * std::size_t(v), d);
+    moment.add(row, 1, d);
+    row += 3;
+  });
+  return moment;
+}
+
+template <class T>
+void edge_weights(const RegionWeight& joint, int n, Index e, T* weight) {
+  for (int k = 1; k < n; ++k) *weight++ = T(joint.edge_point(e, k));
+}
+
+// Three equal numbers a point of the closed face.
+template <class T>
+void face_weights(const RegionWeight& joint, bool quad, int n, Index f, T* weight) {
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= (quad ? n : n - j); ++i, weight += 3)
+      std::fill(weight, weight + 3, T(joint.face_point(f, i, j)));
+}
+
+// The energy's rows of the element that a run is on, read once.
+struct ElementRows {
+  using Column = EnergyRows::Column;
+  const ControlMesh& mesh;
+  const Stencils& stencils;
+  // By neighbour; inside a face by direction, on second differences. None: no fit.
+  std::vector<Column> column{};
+
+  void read(const Run& run) {
+    if (run.row > 1) return;
+    const EnergyRows rows(mesh, stencils, element_of(mesh, run));
+    column.clear();
+    for (std::size_t k = 0; k < rows.distinct(); ++k) column.push_back(rows[k]);
+  }
+};
+
+double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// What the squares of an element's coefficients add to the diagonal of K: at the point itself, and
+// at each neighbour.
+struct Squares {
+  ElementRows rows;
+  double own = 0;
+  std::vector<double> neighbour{};
+
+  void read(const Run& run) {
+    if (run.row > 1) return;
+    rows.read(run);
+    own = 0;
+    neighbour.clear();
+    const bool second = run.kind == RunKind::face_row;
+    for (int side = 0; side < (second ? 2 : 1); ++side)
+      for (const auto& c : rows.column) neighbour.push_back(dot(c, c));
+    if (second) {
+      double all = 0;
+      for (const auto& a : rows.column)
+        for (const auto& b : rows.column) all += dot(a, b);
+      own = 4 * all;
+    } else {
+      EnergyRows::Column total = {};
+      for (const auto& column : rows.column)
+        for (std::size_t c = 0; c < 3; ++c) total[c] += column[c];
+      own = dot(total, total);
+    }
+  }
+};
+
+}  // namespace
+
+template <class T>
+ThinPlateRows<T>::ThinPlateRows(const ControlMesh& mesh, const Stencils& s) : stencils(s) {
+  vertex.resize(s.vertex_energy.size());
+  copy_long(s.vertex_energy.data(), vertex.size(), vertex.data());
+  edge.resize(s.edge_energy.size());
+  copy_long(s.edge_energy.data(), edge.size(), edge.data());
+  face.resize(16 * mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    stop_if_cancelled(f);
+    const double* g = s.face_energy.data() + 12 * f;
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b)
+        face[16 * f + 4 * a + b] = T(g[a] * g[b] + g[4 + a] * g[4 + b] + g[8 + a] * g[8 + b]);
+  }
+}
+
+template struct ThinPlateRows<float>;
+template struct ThinPlateRows<double>;
+
+template <class T>
+void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const Unknowns& unknowns,
+                      const VertexWeights& weights, Workers& workers, ElementSlots<T>& slots,
+                      const T* x, T* y) {
+  const ControlMesh& mesh = grid.mesh();
+  const int n = grid.n();
+  const T level_scale = T(n) * T(n);
+  const RegionWeight joint(grid);
+
+  const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>&) {
+    if (rows.stencils.vertex_fit[std::size_t(v)]) {
+      const T scale = level_scale * T(joint.vertex(v));
+      const Moment<T> moment = vertex_moment(grid, rows, v, x);
+      const T* row =
+          rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
+      visit_ring(grid, v, [&](Index, std::size_t slot) {
+        T z[3];
+        moment.transposed(row, 1, z);
+        row += 3;
+        for (std::size_t a = 0; a < 3; ++a) {
+          spokes[3 * slot + a] += scale * z[a];
+          centre[a] -= scale * z[a];
+        }
+      });
+    }
+    if (!weights.empty())
+      for (std::size_t a = 0; a < 3; ++a)
+        centre[a] += T(weights[std::size_t(v)]) * x[3 * std::size_t(v) + a];
+  };
+
+  const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
+    if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) {
+      clear_lanes(n, run, left, right);
+      return;
+    }
+    const std::size_t stride = lane_stride(n) + lane_block;
+    if (scratch.size() < 9 * stride) scratch.resize(9 * stride);
+    const EdgeRingLanes ring(mesh, e);
+    const EdgeLanes<T> lanes(grid, x, e, scratch);
+    T* const target[3] = {run, left, right};
+    T* weight = joint.weighs_edge(e) ? scratch.data() + 8 * stride : nullptr;
+    if (weight) edge_weights(joint, n, e, weight);
+    set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), level_scale, lanes.lane, weight,
+                  target, scratch.data() + 3 * stride);
+  };
+
+  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
+    const bool quad = mesh.faces[std::size_t(f)].quad();
+    const std::size_t size = 3 * closed_size(quad, std::size_t(n)) + lane_block;
+    const std::size_t moments = passes::moments_size(n);
+    if (n < (quad ? 2 : 3)) {
+      std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
+      return;
+    }
+    const bool weighted = joint.weighs_face(f);
+    if (scratch.size() < moments) scratch.resize(moments);
+    T* gathered = room_in(thread_scratch<T>().gathered, (weighted ? 2 : 1) * size);
+    gather_face(grid, x, f, gathered);
+    T* weight = weighted ? gathered + size : nullptr;
+    if (weight) face_weights(joint, quad, n, f, weight);
+    const T* c = rows.face.data() + 16 * std::size_t(f);
+    if (quad)
+      set_face_pass<true>(n, c, level_scale, gathered, weight, closed, scratch.data());
+    else
+      set_face_pass<false>(n, c, level_scale, gathered, weight, closed, scratch.data());
+  };
+
+  accumulate(grid, workers, slots, &unknowns, y, vertex_body, edge_body, face_body);
+}
+
+template void apply_thin_plate<float>(const GridLevel&, const ThinPlateRows<float>&,
+                                      const Unknowns&, const VertexWeights&, Workers&,
+                                      ElementSlots<float>&, const float*, float*);
+template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<double>&,
+                                       const Unknowns&, const VertexWeights&, Workers&,
+                                       ElementSlots<double>&, const double*, double*);
+
+Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
+                                 const Unknowns& unknowns, const VertexWeights& weights,
+                                 Workers& workers, ElementSlots<double>& slots) {
+  const double level_scale = double(grid.n()) * double(grid.n());
+  const RegionWeight joint(grid);
+  // The same sums as K's, of the squared coefficients; all three coordinates carry the same number.
+  const auto body = [&](const Run& run, double* const* target, Squares& squares) {
+    const auto put = [&](std::size_t slot, std::size_t i, double number) {
+      for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;
+    };
+    if (run.kind == RunKind::vertex && !weights.empty())
+      put(0, 0, weights[std::size_t(run.element)]);
+    squares.read(run);
+    if (squares.rows.column.empty()) return;
+    const bool weighted = joint.weighs(run);
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const double weight = weighted ? joint.point(run, i) : 1.0;
+      for (std::size_t s = 0; s < squares.neighbour.size(); ++s)
+        put(1 + s, i, level_scale * weight * squares.neighbour[s]);
+      put(0, i, level_scale * weight * squares.own);
+    }
+  };
+  Array<double> sums(3 * grid.size());
+  accumulate_runs(
+      grid, workers, slots, &unknowns, sums.data(),
+      [&] { return Squares{{grid.mesh(), stencils}}; }, body);
+  Array<float> diagonal(grid.size());
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;
+  return diagonal;
+}
+
+double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
+                         const double* x) {
+  const RegionWeight joint(grid);
+  ElementSums sums(grid.mesh());
+  struct Local {
+    RunGather<double, 3> gather;
+    ElementRows rows;
+  };
+  for_each_run(
+      grid, workers, [&] { return Local{{grid, x}, {grid.mesh(), stencils}}; },
+      [&](const Run& run, Local& local) {
+        local.rows.read(run);
+        const std::size_t columns = local.rows.column.size();
+        if (columns == 0) return;
+        const double* const* at = local.gather(run);
+        const bool weighted = joint.weighs(run), second = run.kind == RunKind::face_row;
+        double& sum = sums.of(run);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          Moment<double> moment;
+          const double* const here = at[0] + 3 * i;
+          for (std::size_t k = 0; k < columns; ++k) {
+            const double* const plus = at[1 + k] + 3 * i;
+            double d[3];
+            if (second) {
+              const double* const minus = at[1 + columns + k] + 3 * i;
+              for (std::size_t a = 0; a < 3; ++a) d[a] = plus[a] + minus[a] - 2 * here[a];
+            } else {
+              difference(plus, here, d);
+            }
+            moment.add(local.rows.column[k].data(), 1, d);
+          }
+          sum += (weighted ? joint.point(run, i) : 1.0) * moment.square();
+        }
+      });
+  return sums.total() * double(grid.n()) * double(grid.n());
+}
+
+}  // namespace fairing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the thin plate's solver is asked, and what it answers.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "grid/grid_level.h"
+#include "multigrid/hierarchy.h"
+#include "stencil/chart.h"
+
+namespace fairing {
+
+struct ThinPlateOptions {
+  int levels = 3;  // of refinement; the finest has edges in 2^levels pieces
+  // Of the finest level's residual and error, as in PcgLimits::tolerance.
+  double relative_residual = 1e-8;
+  int max_iterations = 200;  // a level
+  int smoother_degree = 0;   // 0: chosen from how the coarse levels converge
+  double pad_size = 0;       // of the pads under control vertices (pads.h); 0: point forces
+  // What pads are judged by: the energy of a surface on a level, in its own metric, over the star
+  // of each control vertex. Null: all pads stay as wide as asked.
+  std::function<std::vector<double>(const GridLevel&, const double*)> star_energies;
+  ChartOptions chart;         // the metric that pads are measured in
+  bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
+};
+
+// `residual` and `residuals` are relative to the residual of the control polyhedron on that level;
+// `energy_error` estimates |error| over the solution, both in the energy norm.
+struct LevelReport : LevelSolve {
+  int level = 0;
+  std::size_t points = 0;
+  std::size_t unknowns = 0;
+  int pad_corrections = 0;  // of the loads on pads
+  double pad_force = 0;  // what the last correction changed of the loads, or would have; relative
+};
+
+}  // namespace fairing

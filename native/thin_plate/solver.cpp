@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/solver.h"
+
+#include <cmath>
+
+#include "grid/linear.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Coarse levels are only starts for finer ones: solving them further than their own error is waste.
+constexpr double coarse_tolerance = 1e-4;
+// The differences that other control positions make are starts as well, and small beside the
+// surface.
+constexpr double difference_tolerance = 1e-2;
+// Of the mesh's size: a difference that the finest level takes in its stride.
+constexpr double negligible = 1e-6;
+
+// Of the norm of a residual's terms: what is left of it below is rounding, some 20 units in the
+// last place. And where the control polyhedron's own residual is less than so many times that, it
+// measures nothing: the polyhedron is the solution already.
+constexpr double rounding = 2e-15, least_over_noise = 1e8;
+
+// Edges in four pieces below: from such levels on the largest eigenvalue hardly changes. The
+// hierarchy counts from the level base_.
+constexpr std::size_t settled_from_level_0 = 3, settled_from_level_1 = 2;
+
+// Where the widths of pads are chosen: the coarsest level that shows how a pad bends its faces.
+constexpr int widths_level = 2;
+
+// Shares of the run in the progress: before the finest level's iterations and after them; the
+// latter where Gauss-Newton steps follow, which take longer; and what a level takes of the next
+// finer one's.
+constexpr double solve_begin = 0.25, solve_end = 0.8, begin_of_steps = 0.3;
+constexpr double share_of_coarser = 0.25;
+
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options) {
+  HierarchyOptions out;
+  out.smoother_degree = options.smoother_degree;
+  out.always_factor = unknowns.any_vertex;
+  out.settled = unknowns.any_vertex ? settled_from_level_0 : settled_from_level_1;
+  return out;
+}
+
+}  // namespace
+
+ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& curves,
+                                 const Stencils& stencils, Unknowns unknowns, VertexWeights weights,
+                                 const ThinPlateOptions& options, Workers& workers,
+                                 Monitor& monitor)
+    : mesh_(mesh),
+      curves_(&curves),
+      options_(options),
+      workers_(workers),
+      monitor_(monitor),
+      base_(unknowns.any_vertex ? 0 : std::min(1, options.levels)),
+      hierarchy_(workers, hierarchy_options(unknowns, options)),
+      shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers) {
+  for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
+  for (int l = base_; l <= top(); ++l) {
+    monitor.check_cancelled();
+    operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l)));
+    if (l > base_) {
+      transfer_matrices_.push_back(
+          AssembledTransfer::make(grid(l - 1), grid(l), stencils, shared_.unknowns, workers));
+      transfers_.push_back(std::make_unique<QuadraticTransfer<3>>(
+          grid(l - 1), grid(l), stencils, shared_.unknowns, transfer_matrices_.back().get(),
+          workers, shared_.float_slots));
+    }
+    hierarchy_.add(*operators_.back(), l > base_ ? transfers_.back().get() : nullptr,
+                   count_unknowns(grid(l), shared_.unknowns));
+  }
+  hierarchy_.complete();
+  if (options.pad_size > 0)
+    pads_ =
+        std::make_unique<Pads>(mesh, options.chart, shared_.unknowns, options.pad_size, workers);
+  if (pads_ && !pads_->any()) pads_.reset();
+}
+
+ThinPlateSolver::~ThinPlateSolver() = default;
+
+void ThinPlateSolver::set_weights(const VertexWeights& weights, int level) {
+  shared_.weights = weights;
+  weighted_up_to_ = level;
+  for (int l = base_; l <= level; ++l) operators_[std::size_t(l - base_)]->update();
+  hierarchy_.refresh(std::size_t(level - base_), false);
+}
+
+void ThinPlateSolver::take_shape(const FeatureCurves& curves, const VertexWeights& weights,
+                                 bool adapts) {
+  curves_ = &curves;
+  hierarchy_.set_adapting(adapts);
+  if (shared_.weights != weights) set_weights(weights, top());
+}
+
+void ThinPlateSolver::set_fixed(int level, std::span<const Vec3> targets, double* x) const {
+  const GridLevel& lat = grid(level);
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    if (!shared_.unknowns.vertex[v])
+      for (int a = 0; a < 3; ++a) x[3 * v + std::size_t(a)] = targets[v][a];
+  const int stride = grid(top()).n() / lat.n();
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    if (curves_->run[e] < 0) continue;
+    const auto points = curves_->of(Index(e));
+    for (int k = 1; k < lat.n(); ++k)
+      for (int a = 0; a < 3; ++a)
+        x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
+            points[std::size_t(k * stride - 1)][a];
+  }
+  refine_outside_linearly(lat, targets, x);
+}
+
+void ThinPlateSolver::residual(int level, std::span<const Vec3> targets, const double* x,
+                               double* r) {
+  operators_[std::size_t(level - base_)]->apply(x, r);
+  for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
+  const VertexWeights& w = shared_.weights;
+  for (std::size_t v = 0; v < w.size(); ++v)
+    if (shared_.unknowns.vertex[v])
+      for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
+}
+
+double ThinPlateSolver::energy(int level, const double* x) {
+  return thin_plate_energy(grid(level), shared_.stencils, workers_, x);
+}
+
+ThinPlateSolver::Scales ThinPlateSolver::scales(int level, std::span<const Vec3> targets,
+                                                double* x) {
+  const std::size_t size = 3 * grid(level).size();
+  Array<double>& r = hierarchy_.state().residual;
+  refine_linearly(grid(level), targets, workers_, x);
+  set_fixed(level, targets, x);
+  residual(level, targets, x, r.data());
+  const Array<float>& inverse = operators_[std::size_t(level - base_)]->inverse_diagonal();
+  const double terms = std::sqrt(sum(workers_, size, [&](std::size_t i) {
+    const double t = x[i] / double(inverse[i / 3]);
+    return t * t;
+  }));
+  const double noise = rounding * terms;
+  return {std::max(norm(workers_, size, r.data()), least_over_noise * noise), noise};
+}
+
+PcgLimits ThinPlateSolver::limits_of(double tolerance, const Scales& scale,
+                                     double energy_scale) const {
+  PcgLimits limits;
+  limits.tolerance = tolerance;
+  limits.residual_scale = scale.residual;
+  limits.noise = scale.noise;
+  limits.energy_scale = std::sqrt(energy_scale);
+  limits.max_iterations = options_.max_iterations;
+  return limits;
+}
+
+LevelReport ThinPlateSolver::solve_level(int level, std::span<const Vec3> targets,
+                                         const PcgLimits& limits, double* x) {
+  if (pads_) return solve_on_pads(level, limits, x);
+  residual(level, targets, x, hierarchy_.state().residual.data());
+  LevelReport report;
+  report.level = level;
+  report.points = grid(level).size();
+  report.unknowns = count_unknowns(grid(level), shared_.unknowns);
+  static_cast<LevelSolve&>(report) = hierarchy_.solve(
+      std::size_t(level - base_), limits,
+      [&](const double* y, double* r) { residual(level, targets, y, r); }, x,
+      [&](const PcgResult& so_far) { report_progress(level, so_far, limits.tolerance); });
+  return report;
+}
+
+// On the finest level the iterations are most of the run.
+void ThinPlateSolver::report_progress(int level, const PcgResult& so_far, double tolerance) {
+  if (level != top()) return;
+  const double start = so_far.history.front();
+  const double done = start > tolerance && so_far.residual > 0
+                          ? std::log(start / so_far.residual) / std::log(start / tolerance)
+                          : 1.0;
+  const double end = options_.starts_steps ? begin_of_steps : solve_end;
+  monitor_.report(Phase::solve, solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
+}
+
+const Array<double>& ThinPlateSolver::surface_below(int level, Array<double>& x) {
+  x.resize(3 * grid(top()).size());
+  below_.resize(level > base_ ? 3 * grid(level - 1).size() : 0);
+  for_each_index(workers_, below_.size(), [&](std::size_t i) { below_[i] = x[i]; });
+  return below_;
+}
+
+void ThinPlateSolver::start_level(int level, std::span<const Vec3> targets,
+                                  const Array<double>& below, Array<double>& x) {
+  if (pads_) start_loads(level);
+  if (level == base_)
+    refine_linearly(grid(level), targets, workers_, x.data());
+  else
+    prolong(grid(level - 1), grid(level), shared_.stencils, nullptr, workers_, shared_.double_slots,
+            below.data(), x.data());
+  set_fixed(level, targets, x.data());
+}
+
+void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>& x,
+                                   std::vector<LevelReport>& reports,
+                                   const std::function<void(const double*)>& on_prediction,
+                                   const std::function<void(int, Array<double>&)>& on_level) {
+  double energy_below = 0;  // energies hardly change from level to level
+  for (int l = base_; l <= top(); ++l) {
+    monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, top() - l));
+    if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
+    const Array<double>& below = surface_below(l, x);
+    const Scales scale = scales(l, targets, x.data());
+    start_level(l, targets, below, x);
+    if (l == top() && on_prediction) on_prediction(x.data());
+    const auto tolerance = [&](int level) {
+      return level >= top() ? options_.relative_residual
+                            : std::max(coarse_tolerance, options_.relative_residual);
+    };
+    if (l == base_) energy_below = energy(l, x.data());
+    const PcgLimits limits = limits_of(tolerance(l), scale, energy_below);
+    if (l == top()) finest_limits_ = limits;
+    if (pads_ && !widths_chosen_ && l == std::clamp(widths_level, base_, top()))
+      reports.push_back(choose_widths(l, targets, limits, x));
+    else
+      reports.push_back(solve_level(l, targets, limits, x.data()));
+    if (l < top()) energy_below = energy(l, x.data());
+    if (l < top())
+      hierarchy_.choose_degree(pads_ ? pace_ : reports.back(), tolerance(l), tolerance(l + 1));
+    on_level(l, x);
+  }
+}
+
+void ThinPlateSolver::solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets,
+                                  double tolerance, Array<double>& x,
+                                  std::vector<LevelReport>& reports,
+                                  const std::function<void(const double*)>& on_prediction) {
+  double farthest = 0;
+  for (std::size_t v = 0; v < targets.size(); ++v)
+    farthest = std::max(farthest, (targets[v] - before[v]).lpNorm<Eigen::Infinity>());
+  if (farthest > negligible && base_ < top()) add_difference(before, targets, x, reports);
+  set_fixed(top(), targets, x.data());
+  if (on_prediction) on_prediction(x.data());
+  PcgLimits limits = finest_limits_;
+  limits.tolerance = tolerance;
+  reports.push_back(solve_level(top(), targets, limits, x.data()));
+}
+
+// The difference solves the same system, for the differences of what is fixed or weighted.
+void ThinPlateSolver::add_difference(std::span<const Vec3> before, std::span<const Vec3> targets,
+                                     Array<double>& x, std::vector<LevelReport>& reports) {
+  const Loads loads = loads_;  // start_level() begins those of the difference
+  moved_.resize(targets.size());
+  for (std::size_t v = 0; v < targets.size(); ++v) moved_[v] = targets[v] - before[v];
+  const FeatureCurves& curves = *curves_;
+  moved_curves_ = curves;
+  const GridLevel& finest = grid(top());
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    if (curves.run[e] < 0) continue;
+    Vec3* const moved = moved_curves_.points.data() +
+                        std::size_t(curves.run[e]) * std::size_t(curves.points_per_edge);
+    const double* const now = x.data() + 3 * std::size_t(finest.edge_base(Index(e)));
+    for (int k = 0; k < curves.points_per_edge; ++k)
+      moved[k] -= Vec3(now[3 * k], now[3 * k + 1], now[3 * k + 2]);
+  }
+  curves_ = &moved_curves_;
+  PcgLimits rough;
+  rough.tolerance = difference_tolerance;
+  rough.from_start = true;
+  rough.noise = finest_limits_.noise;
+  rough.max_iterations = options_.max_iterations;
+  for (int l = base_; l < top(); ++l) {
+    start_level(l, moved_, surface_below(l, difference_), difference_);
+    reports.push_back(solve_level(l, moved_, rough, difference_.data()));
+  }
+  start_level(top(), moved_, surface_below(top(), difference_), difference_);
+  curves_ = &curves;
+  for_each_index(workers_, 3 * finest.size(), [&](std::size_t i) { x[i] += difference_[i]; });
+  for (std::size_t v = 0; v < loads.size(); ++v) loads_[v] += loads[v];
+}
+
+LevelReport ThinPlateSolver::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,
+                                         double tolerance) {
+  Array<double> polyhedron(3 * grid(level).size());
+  const Scales scale = scales(level, targets, polyhedron.data());
+  set_fixed(level, targets, x.data());
+  return solve_level(level, targets, limits_of(tolerance, scale, energy(level, x.data())),
+                     x.data());
+}
+
+}  // namespace fairing

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate's linear system on all levels, and the order in which they are solved: full
+// multigrid from the control polyhedron, or from an earlier surface.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "curves/feature_curves.h"
+#include "parallel/monitor.h"
+#include "thin_plate/level.h"
+#include "thin_plate/options.h"
+#include "thin_plate/pads.h"
+#include "transfer/level_transfer.h"
+
+namespace fairing {
+
+// The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every
+// level once; solves as often as weights or control positions change.
+//
+// Vectors hold 3 numbers a point of their level; `targets` are one a control vertex. Whatever
+// solves throws FairingError: cancelled where `monitor` says so, underdetermined where a factor
+// finds that the surface is loose. Then only a new solver is of use.
+class ThinPlateSolver {
+ public:
+  // `curves` are in working coordinates, on the finest level; all references must outlive the
+  // solver.
+  ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& curves, const Stencils& stencils,
+                  Unknowns unknowns, VertexWeights weights, const ThinPlateOptions& options,
+                  Workers& workers, Monitor& monitor);
+  ~ThinPlateSolver();
+
+  int base() const { return base_; }  // the coarsest level with unknowns worth a solve
+  int top() const { return int(grids_.size()) - 1; }
+  const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
+  // Between a level and the one below; null where passes serve, and on the coarsest.
+  const AssembledTransfer* transfer_matrix(int level) const {
+    return level > base_ ? transfer_matrices_[std::size_t(level - base_ - 1)].get() : nullptr;
+  }
+  ThinPlateShared& shared() { return shared_; }
+  Monitor& monitor() { return monitor_; }
+
+  // From here on for another shape: its curves, and the weights to start from. Unless it `adapts`,
+  // the smoother stays as it is, so that a surface depends on its own shape alone.
+  void take_shape(const FeatureCurves& curves, const VertexWeights& weights, bool adapts);
+
+  // Full multigrid: from the control polyhedron to the solution on the finest level.
+  // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
+  // `on_prediction` sees the finest level's start; `on_level` may change weights, and x, after each
+  // level's solve.
+  void solve_nested(std::span<const Vec3> targets, Array<double>& x,
+                    std::vector<LevelReport>& reports,
+                    const std::function<void(const double*)>& on_prediction,
+                    const std::function<void(int, Array<double>&)>& on_level);
+
+  // From x, a surface of the control positions `before`, to that of `targets` on the finest level,
+  // to `tolerance`: the difference first, roughly and level by level.
+  void solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets, double tolerance,
+                   Array<double>& x, std::vector<LevelReport>& reports,
+                   const std::function<void(const double*)>& on_prediction);
+
+  // A copy of what x holds of the level below, where there is one; x gets room for the finest
+  // level.
+  const Array<double>& surface_below(int level, Array<double>& x);
+  // x <- the start of a level: the control polyhedron on the coarsest, the prolongated surface
+  // below on others.
+  void start_level(int level, std::span<const Vec3> targets, const Array<double>& below,
+                   Array<double>& x);
+
+  // A level again, from x as it is.
+  LevelReport solve_again(int level, std::span<const Vec3> targets, Array<double>& x,
+                          double tolerance);
+
+  // New weights on all levels up to `level`.
+  void set_weights(const VertexWeights& weights, int level);
+
+  // residual <- W c - (K + W) x on the level's unknowns.
+  void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
+
+  // Puts whatever is no unknown in its place: control vertices, points of curves, all outside a
+  // region.
+  void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
+
+  double energy(int level, const double* x);
+
+  // On the pads, of the surface that was solved for last; empty without pads.
+  Loads& loads() { return loads_; }
+  // Null without. The first surface that is solved for from nothing narrows them where it must
+  // (pad_widths.cpp); then widths stay, so that surfaces are linear in the control vertices.
+  const Pads* pads() const { return pads_.get(); }
+
+  // The norm of the control polyhedron's residual on a level: what residuals are relative to.
+  double reference_residual(int level, std::span<const Vec3> targets) {
+    Array<double> polyhedron(3 * grid(level).size());
+    return scales(level, targets, polyhedron.data()).residual;
+  }
+
+ private:
+  struct Scales {
+    double residual, noise;
+  };
+  // x: room for a surface.
+  Scales scales(int level, std::span<const Vec3> targets, double* x);
+  PcgLimits limits_of(double tolerance, const Scales& scale, double energy_scale) const;
+  LevelReport solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits,
+                          double* x);
+  // On pads (solve_on_pads.cpp).
+  LevelReport solve_on_pads(int level, const PcgLimits& limits, double* x);
+  void residual_on_pads(int level, const double* x, double* r);
+  void take_forces(double* r);
+  void start_loads(int level);
+  // The surface of a level in place of solve_level(), and the widths of pads on the way.
+  LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
+                            Array<double>& x);
+  bool narrow_pads(const std::vector<double>& energy, const std::vector<double>& of_needles,
+                   int round);
+  void report_progress(int level, const PcgResult& so_far, double tolerance);
+  void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
+                      std::vector<LevelReport>& reports);
+
+  const ControlMesh& mesh_;
+  const FeatureCurves* curves_;
+  ThinPlateOptions options_;
+  Workers& workers_;
+  Monitor& monitor_;
+  int weighted_up_to_ = -1;  // the finest level that knows the present weights; -1: all do
+  int base_;                 // the coarsest level with unknowns worth a solve
+  Hierarchy hierarchy_;
+  std::vector<std::unique_ptr<GridLevel>> grids_;
+  ThinPlateShared shared_;
+  std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
+  std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;
+  std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
+  std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
+  bool widths_chosen_ = false;
+  Loads loads_, forces_;     // on the pads; left at the control vertices on them
+  LevelSolve pace_;          // what one solve in place of a level's many would have taken
+  Array<double> below_;      // the level below a start
+  PcgLimits finest_limits_;  // of the last surface that was solved from nothing
+  // Of solve_moved.
+  std::vector<Vec3> moved_;
+  FeatureCurves moved_curves_;
+  Array<double> difference_;
+};
+
+}  // namespace fairing

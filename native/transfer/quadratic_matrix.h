@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prolongation by local quadratics and its transpose as rows, for levels of few points, where
+// passes over faces and edges cost more than an index a number.
+#pragma once
+
+#include <memory>
+
+#include "sparse/matrix.h"
+#include "sparse/ring_table.h"
+#include "stencil/stencils.h"
+
+namespace fairing {
+
+class AssembledTransfer {
+ public:
+  // Null where the passes are better (has_rows()), or columns are too many for 16 bits in one
+  // place. Throws where the run has been cancelled.
+  static std::unique_ptr<AssembledTransfer> make(const GridLevel& coarse, const GridLevel& fine,
+                                                 const Stencils& stencils, const Unknowns& unknowns,
+                                                 Workers& workers);
+
+  // As prolong() and restrict_to() do on unknowns, with C numbers a point; the vector that is read
+  // has `vector_room` more.
+  template <int C>
+  void prolong(const float* coarse, Workers& workers, float* fine) const {
+    prolongation_.apply<C>(coarse, workers, fine);
+  }
+  template <int C>
+  void restrict_to(const float* fine, Workers& workers, float* coarse) const {
+    restriction_.apply<C>(fine, workers, coarse);
+  }
+
+ private:
+  AssembledTransfer(std::size_t coarse, std::size_t fine)
+      : prolongation_(fine, coarse), restriction_(coarse, fine) {}
+
+  AssembledMatrix prolongation_, restriction_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command on real files: what goes in comes out finer, with exit codes and a report."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from cli_files import BOX_QUADS, read_obj, write_obj, write_ply, write_stl
+
+from addon import core
+from addon.cli import main as command
+
+ROOT = Path(__file__).resolve().parents[2]
+CORE = Path(core.module().__file__).parents[1]  # of this process, for others
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """Every test in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*words):
+    return command.main([str(word) for word in words])
+
+
+def entries(*words):
+    """The exit code and the report's inputs."""
+    code = run(*words, "--json", "report.json")
+    report = json.loads(Path("report.json").read_text(encoding="utf-8"))
+    assert report["exit_code"] == code
+    return code, report["inputs"]
+
+
+def imported(path):
+    """All vertices of a file, as Blender reads them, and the face sizes."""
+    found = command.read_file(Path(path))
+    positions = [vertex.co[:] for item in found for vertex in item.data.vertices]
+    return np.array(positions), [
+        len(face.vertices) for item in found for face in item.data.polygons
+    ]
+
+
+def contains(positions, wanted, tolerance):
+    distance = np.linalg.norm(positions[:, None] - np.asarray(wanted)[None], axis=2)
+    return (distance.min(axis=0) <= tolerance).all()
+
+
+WRITERS = {"obj": write_obj, "ply": write_ply, "stl": write_stl}
+
+
+@pytest.mark.parametrize("into", WRITERS)
+@pytest.mark.parametrize("out_of", WRITERS)
+def test_control_vertices_come_out_where_they_went_in(out_of, into):
+    points = WRITERS[out_of](f"in.{out_of}")
+    assert run(f"in.{out_of}", f"out.{into}", "--levels", 2) == 0
+    positions, sizes = imported(f"out.{into}")
+    assert contains(positions, points, 1e-6)
+    quads = out_of != "stl" and into != "stl"
+    assert set(sizes) == ({4} if quads else {3})
+    assert len(sizes) == BOX_QUADS * 4**2 * (1 if quads else 2)
+
+
+def test_objects_keep_their_names_and_their_materials():
+    points = write_obj("in.obj", names=("Left", "Right"), materials=("red", "blue"))
+    assert run("in.obj", "out.obj", "--levels", 1) == 0
+    text = Path("out.obj").read_text()
+    assert [line[2:] for line in text.splitlines() if line.startswith("o ")] == ["Left", "Right"]
+    assert {line for line in text.splitlines() if line.startswith("usemtl")} == {
+        "usemtl red",
+        "usemtl blue",
+    }
+    assert Path("out.mtl").exists()
+    assert contains(read_obj("out.obj"), points, 1e-6)
+
+
+def test_no_material_no_material_file():
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj") == 0
+    assert not Path("out.mtl").exists()
+
+
+def test_merge_closes_what_is_apart():
+    write_obj("in.obj", shared=False)
+    _, (apart,) = entries("in.obj", "apart.obj", "--levels", 1)
+    _, (merged,) = entries("in.obj", "merged.obj", "--levels", 1, "--merge")
+    assert apart["objects"][0]["control"]["vertices"] == 24
+    assert merged["objects"][0]["control"]["vertices"] == 8
+
+
+def test_many_files_and_one_that_is_bad(capfd):
+    write_obj("a.obj")
+    write_ply("b.ply")
+    Path("bad.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"
+    )
+    code, (a, bad, b) = entries(
+        "a.obj", "bad.obj", "b.ply", "new/deep/", "--format", "stl", "--levels", 1
+    )
+    assert code == command.SOME_FAILED
+    assert (a["status"], bad["status"], b["status"]) == ("done", "failed", "done")
+    assert bad["error"]["code"] == "NONMANIFOLD_EDGE" and bad["error"]["elements"]
+    assert sorted(path.name for path in Path("new/deep").iterdir()) == ["a.stl", "b.stl"]
+    assert "error: bad.obj: " in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "code"),
+    [
+        ("nothing.obj", b"", "UNREADABLE"),
+        ("nothing.ply", b"", "UNREADABLE"),
+        ("nothing.stl", b"", "UNREADABLE"),
+        ("noise.obj", b"\x00\x01 not a mesh\n", "NO_MESH"),
+        ("noise.ply", b"\x00\x01 not a mesh\n", "UNREADABLE"),
+        ("noise.stl", b"\x00\x01 not a mesh\n", "UNREADABLE"),
+        ("points.obj", b"v 0 0 0\nv 1 0 0\n", "NO_FACES"),
+        ("missing.obj", None, "UNREADABLE"),
+    ],
+)
+def test_what_cannot_be_read_is_named(name, content, code, capfd):
+    if content is not None:
+        Path(name).write_bytes(content)
+    exit_code, (entry,) = entries(name, "out.obj")
+    assert (exit_code, entry["status"], entry["error"]["code"]) == (1, "failed", code)
+    assert name in entry["error"]["message"] and entry["error"]["message"] in capfd.readouterr().err
+    assert not Path("out.obj").exists()
+
+
+def test_settings_reach_the_core():
+    write_obj("in.obj")
+    _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, "--crease-angle", 30, "--threads", 1)
+    assert entry["settings"]["use_crease_angle"]
+    assert np.isclose(entry["settings"]["crease_angle"], np.radians(30))
+    assert entry["objects"][0]["report"]["threads"] == 1
+    assert np.allclose(
+        np.abs(read_obj("out.obj")).max(axis=1), 1.0
+    )  # all edges creased: the box itself
+    near = (
+        "--tolerance",
+        0.1,
+        "--energy",
+        "thin_plate",
+    )  # the others find a sphere there and move nothing
+    _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, *near)
+    assert 0 < entry["objects"][0]["report"]["largest_deviation"] <= 0.1 * (1 + 1e-6)
+
+
+def test_an_output_that_exists_is_replaced_unless_it_is_to_be_kept():
+    write_obj("in.obj")
+    Path("out.obj").write_text("old")
+    code, (entry,) = entries("in.obj", "out.obj", "--no-overwrite")
+    assert (code, entry["error"]["code"], Path("out.obj").read_text()) == (1, "EXISTS", "old")
+    assert run("in.obj", "out.obj") == 0
+    assert Path("out.obj").read_text() != "old"
+
+
+def test_an_output_that_cannot_be_written():
+    write_obj("in.obj")
+    Path("file").write_text("in the way")
+    code, (entry,) = entries("in.obj", "file/out.obj")
+    assert (code, entry["error"]["code"]) == (1, "UNWRITABLE")
+    assert run("in.obj", "out.obj", "--json", "file/report.json") == command.SOME_FAILED
+
+
+def test_quiet_says_nothing_of_itself(capfd):
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj", "--quiet") == 0
+    assert capfd.readouterr().err == ""
+
+
+def test_the_table_has_a_line_for_each_file(capfd):
+    write_obj("in.obj")
+    run("in.obj", "out.obj", "--levels", 2)
+    head, *_progress, line = capfd.readouterr().err.splitlines()
+    assert head.split()[0] == "file" and line.split()[:3] == ["in.obj", "6", "96"] and "→" in line
+
+
+def radii(path):
+    return np.linalg.norm(read_obj(path), axis=1)
+
+
+def test_energy_reaches_the_core_and_the_report():
+    write_obj("in.obj")
+    _, (plate,) = entries("in.obj", "plate.obj", "--levels", 2, "--energy", "thin_plate")
+    _, (round_one,) = entries("in.obj", "round.obj", "--levels", 2, "--energy", "total_curvature")
+    assert (plate["settings"]["energy"], round_one["settings"]["energy"]) == (
+        "THIN_PLATE",
+        "TOTAL_CURVATURE",
+    )
+    assert plate["objects"][0]["report"]["curvature"] == []
+    assert round_one["objects"][0]["report"]["curvature"][-1]["converged"]
+    assert np.ptp(radii("round.obj")) < 1e-5 < 0.1 < np.ptp(radii("plate.obj")), (
+        "a sphere from a cube's vertices"
+    )
+
+
+def test_the_table_says_accuracy_as_the_energy_has_it(capfd):
+    write_obj("in.obj")
+    run("in.obj", "out.obj", "--levels", 1, "--energy", "thin_plate")
+    head, *_, line = capfd.readouterr().err.splitlines()
+    assert head.split()[-1] == "residual" and float(line.split()[-1]) < 1e-6
+    run("in.obj", "out.obj", "--levels", 1, "--energy", "total_curvature")
+    head, *_, line = capfd.readouterr().err.splitlines()
+    assert head.split()[-2:] == ["steps", "decrement"] and len(head) == len(line)
+    assert int(line.split()[-2]) >= 1 and float(line.split()[-1]) < 0.1
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        (),
+        ("in.obj",),
+        ("in.obj", "in.obj"),
+        ("in.obj", "out.fbx"),
+        ("in.obj", "out.obj", "--levels", "0"),
+        ("in.obj", "out.obj", "--levels", "two"),
+        ("in.obj", "out.obj", "--lev", "2"),
+        ("in.obj", "out.obj", "--crease-angle", "181"),
+        ("in.obj", "out.obj", "--boundary", "round"),
+        ("in.obj", "out.obj", "--energy", "least"),
+        ("in.obj", "out.obj", "--interpolation", "exact", "--tolerance", "0.1"),
+    ],
+)
+def test_wrong_usage_is_two(words, capfd):
+    write_obj("in.obj")
+    before = Path("in.obj").read_bytes()
+    assert run(*words) == command.WRONG_USAGE
+    assert "usage: " in capfd.readouterr().err
+    assert Path("in.obj").read_bytes() == before
+    assert not Path("out.obj").exists()
+
+
+def test_help_and_version_are_no_errors(capsys):
+    assert run("--help") == 0
+    assert "exit codes" in capsys.readouterr().out
+    assert run("--version") == 0
+    assert core.module().__version__ in capsys.readouterr().out
+
+
+def test_without_the_native_module_it_is_three(monkeypatch, capfd):
+    monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj") == command.NO_NATIVE_MODULE
+    assert core.MISSING in capfd.readouterr().err
+    assert run("--version") == 0
+
+
+def test_an_interruption_ends_all_and_is_reported(monkeypatch):
+    write_obj("a.obj")
+    write_obj("b.obj")
+    write_obj("c.obj")
+    after_first = iter([False, True])
+
+    class Interrupted(command.Job):
+        def compute(self, **watchers):
+            if next(after_first):
+                signal.raise_signal(signal.SIGINT)
+            super().compute(**watchers)
+
+    monkeypatch.setattr(command, "Job", Interrupted)
+    code, records = entries("a.obj", "b.obj", "c.obj", "out/")
+    assert code == command.INTERRUPTED
+    assert [entry["status"] for entry in records] == ["done", "cancelled", "not_run"]
+    assert [path.name for path in Path("out").iterdir()] == ["a.obj"]
+
+
+def test_a_fault_of_ours_spares_the_other_files(monkeypatch, capfd):
+    write_obj("a.obj")
+    write_obj("b.obj")
+    faults = iter([True, False])
+
+    class Faulty(command.Job):
+        def warnings(self):
+            if next(faults):
+                raise AttributeError("oops")
+            return super().warnings()
+
+    monkeypatch.setattr(command, "Job", Faulty)
+    code, (a, b) = entries("a.obj", "b.obj", "out/")
+    assert (code, a["error"]["code"], b["status"]) == (1, "INTERNAL", "done")
+    assert "oops" in capfd.readouterr().err
+
+
+def test_blender_is_told_of_the_command(monkeypatch):
+    from addon import cli as registration
+
+    told = []
+    monkeypatch.setattr(
+        bpy.utils, "register_cli_command", lambda name, call: told.append(name) or "handle"
+    )
+    monkeypatch.setattr(bpy.utils, "unregister_cli_command", told.remove, raising=False)
+    monkeypatch.setattr(registration, "_handles", [])
+    registration.register()
+    assert told == ["discrete_fairing"] and registration._handles == ["handle"]
+    monkeypatch.setattr(bpy.utils, "unregister_cli_command", told.append)
+    registration.unregister()
+    assert told[-1] == "handle" and not registration._handles
+    registration.register()
+    assert registration._command(["--version"]) == 0
+
+
+_PROCESS = """
+import os, sys
+import addon
+from addon.cli import _command
+addon.register()
+code = _command(sys.argv[1:])
+sys.stdout.flush()
+os._exit(code)  # as Blender does: bpy as a module is slow to end
+"""
+
+
+def process(*words):
+    """A process of its own: exit code, standard output, standard error."""
+    done = subprocess.run(
+        [sys.executable, "-c", _PROCESS, *map(str, words)],
+        env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": ""},
+        capture_output=True,
+        timeout=120,
+    )
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def test_standard_output_has_the_report_and_nothing_else():
+    write_obj("in.obj")
+    code, output, _ = process("in.obj", "missing.obj", "out/", "--json", "-", "--quiet")
+    assert code == 1
+    assert [entry["status"] for entry in json.loads(output)["inputs"]] == ["done", "failed"]
+
+
+def test_a_process_without_a_report_ends_well():
+    write_obj("in.obj")
+    assert process("in.obj", "out.ply")[0] == 0
+    assert Path("out.ply").stat().st_size

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options follow the settings, and every input has its place."""
+
+from pathlib import Path
+
+import pytest
+
+from addon.cli import options
+from addon.cli.options import parser
+from addon.cli.places import BadPlaces, places
+from addon.settings import DEFAULT_ENERGY, ENERGIES, NAMES
+
+
+def settings(*words):
+    return options.settings_of(parser("").parse_intermixed_args(["in.obj", "out.obj", *words]))
+
+
+def targets(inputs, output, chosen_format=None):
+    return [str(place.target) for place in places(inputs, output, chosen_format)]
+
+
+def test_only_settings_are_left_out():
+    assert set(NAMES) >= options.NOT_HERE
+
+
+def test_every_other_setting_can_be_said():
+    words = parser("").format_help()
+    for name in set(NAMES) - options.NOT_HERE:
+        assert options.option(name) + " " in words or options.option(name) + "," in words, name
+    for name in options.NOT_HERE:
+        assert options.option(name) + " " not in words, name
+
+
+def test_defaults_are_those_of_blender(blender):
+    defaults = blender.context.scene.discrete_fairing
+    for name, value in vars(settings()).items():
+        assert value == pytest.approx(getattr(defaults, name)), name
+
+
+def test_an_option_may_stand_anywhere():
+    parsed = parser("").parse_intermixed_args(["a.obj", "b.obj", "--levels", "2", "c.obj", "out/"])
+    assert (parsed.inputs, parsed.output, parsed.levels) == (["a.obj", "b.obj", "c.obj"], "out/", 2)
+
+
+def test_a_value_switches_its_rule_on():
+    assert not settings().use_crease_angle
+    assert settings("--crease-angle", "40").use_crease_angle
+    assert settings("--corner-angle", "180").corner_angle == pytest.approx(3.14159265)
+
+
+def test_a_tolerance_needs_no_second_option():
+    assert settings("--tolerance", "0.1").interpolation == "APPROXIMATE"
+    assert settings("--interpolation", "approximate").tolerance == 0.01
+    with pytest.raises(ValueError, match="--interpolation approximate"):
+        settings("--interpolation", "exact", "--tolerance", "0.1")
+
+
+def test_energies():
+    assert settings().energy == DEFAULT_ENERGY
+    for key, *_ in ENERGIES:
+        assert settings("--energy", key.lower()).energy == key
+        assert settings("--energy", key.lower().replace("_", "-")).energy == key, (
+            "as options are spelled"
+        )
+        assert f"{key.lower()}: " in " ".join(parser("").format_help().split())
+    assert "--energy thin_plate|total_curvature|minimum_variation" in parser("").format_help()
+
+
+def test_switches():
+    assert settings("--shade-smooth").shade_smooth
+    assert not settings("--shade-smooth", "--no-shade-smooth").shade_smooth
+    assert settings("--sharp-edges").use_sharp_edges
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "-1", "x"])
+def test_no_number_out_of_range_passes(number):
+    with pytest.raises(SystemExit):
+        settings("--tolerance", number)
+
+
+def test_places(tmp_path):
+    assert targets(["a.obj"], "b.ply") == ["b.ply"]
+    assert targets(["x/a.obj", "b.PLY"], "out/") == ["out/a.obj", "out/b.ply"]
+    assert targets(["x/a.obj"], str(tmp_path)) == [str(tmp_path / "a.obj")]
+    assert targets(["a.b.obj", "c.stl"], "out/", "ply") == ["out/a.b.ply", "out/c.ply"]
+    assert targets(["a.obj", "c.stl"], "o/{name}_fair.stl") == ["o/a_fair.stl", "o/c_fair.stl"]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "output", "chosen_format", "match"),
+    [
+        (["a.fbx"], "b.obj", None, "a.fbx.*OBJ, PLY, STL"),
+        (["a.obj"], "b", None, "b is of no known type"),
+        (["a.obj"], "{name}", None, "no known type"),
+        (["a.obj", "b.obj"], "c.obj", None, "2 inputs need a folder"),
+        (["a.obj"], "c.obj", "ply", "--format is for"),
+        (["x/a.obj", "y/a.obj"], "out/", None, "x/a.obj and y/a.obj would both"),
+        (["a.obj"], "./a.obj", None, "is an input"),
+        (["x/a.obj", "b.obj"], "x/", None, "x/a.obj is an input"),
+        (["a.obj", "b.obj"], "./", "obj", "is an input"),
+    ],
+)
+def test_bad_places(inputs, output, chosen_format, match):
+    with pytest.raises(BadPlaces, match=match):
+        places(inputs, output, chosen_format)
+
+
+def test_a_link_to_an_input_is_an_input(tmp_path):
+    source, link = tmp_path / "a.obj", tmp_path / "b.obj"
+    source.write_text("")
+    link.hardlink_to(source)
+    with pytest.raises(BadPlaces, match="is an input"):
+        places([str(source)], str(link))
+    assert Path(source).exists()

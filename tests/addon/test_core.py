@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings arrive at the core under its own names; creases and corners from plain arrays."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, add, set_edge_attribute
+
+from addon import core
+from addon.core import (
+    are_equal,
+    corner_vertices,
+    crease_edges,
+    fair_arguments,
+    without_vertices,
+)
+from addon.mesh.read import ControlArrays, read_mesh
+from addon.preferences import Defaults
+from addon.settings import DEFAULT_ENERGY, ENERGIES, NAMES
+
+
+def settings(**changes):
+    """The defaults as the panel has them, with some changed."""
+    scene = bpy.context.scene.discrete_fairing
+    return SimpleNamespace(**{**{name: getattr(scene, name) for name in NAMES}, **changes})
+
+
+def arguments(mesh=None, **changes):
+    return fair_arguments(read_mesh(mesh or add("Box", *CUBE).data), settings(**changes), Defaults)
+
+
+def test_defaults():
+    given = arguments()
+    assert (given["levels"], given["energy"], given["interpolation"], given["boundary"]) == (
+        3,
+        DEFAULT_ENERGY.lower(),
+        "exact",
+        "curve",
+    )
+    assert given["metric_exponent"] == 0.5 and given["epsilon"] == 0.0 and given["tolerance"] == 0.0
+    assert given["crease_angle"] is None and given["corner_angle"] is None
+    assert given["crease_edges"].shape == (0, 2) and given["corner_vertices"].shape == (0,)
+
+
+def test_values():
+    given = arguments(
+        levels=5, interpolation="APPROXIMATE", tolerance=0.25, boundary="FREE", metric_exponent=1.0, vertex_release=0.125,
+        use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair_orientation=True, memory_limit=3,
+    )  # fmt: skip
+    assert (
+        given["levels"] == 5
+        and given["interpolation"] == "approximate"
+        and given["tolerance"] == 0.25
+    )
+    assert (
+        given["boundary"] == "free"
+        and given["metric_exponent"] == 1.0
+        and given["epsilon"] == 0.125
+    )
+    assert given["crease_angle"] == 1.0 and given["corner_angle"] == 2.0
+    assert given["repair_orientation"] and given["memory_limit"] == 3 * 2**20
+
+
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_energies_are_those_of_the_core(energy):
+    given = arguments(energy=energy)["energy"]
+    assert given in core.module()._native.Energy.__members__ and given.upper() == energy
+
+
+def test_tolerance_belongs_to_approximation():
+    assert arguments(interpolation="EXACT", tolerance=0.25)["tolerance"] == 0.0
+
+
+@pytest.mark.parametrize(
+    "name, data_type, value, changes",
+    [
+        ("crease_edge", "FLOAT", 1.0, {}),
+        ("crease_edge", "FLOAT", 0.3, {"crease_threshold": 0.3}),
+        ("sharp_edge", "BOOLEAN", True, {"use_sharp_edges": True}),
+    ],
+)
+def test_creases_from_the_mesh(name, data_type, value, changes):
+    mesh = add("Box", *CUBE).data
+    set_edge_attribute(mesh, name, data_type, [(0, 1), (3, 7)], value)
+    assert {
+        tuple(sorted(pair)) for pair in arguments(mesh, **changes)["crease_edges"].tolist()
+    } == {
+        (0, 1),
+        (3, 7),
+    }
+
+
+@pytest.mark.parametrize(
+    "name, data_type, value, changes",
+    [
+        ("crease_edge", "FLOAT", 1.0, {"use_crease_attribute": False}),
+        ("crease_edge", "FLOAT", 0.25, {}),
+        ("sharp_edge", "BOOLEAN", True, {}),
+    ],
+)
+def test_creases_that_were_not_asked_for(name, data_type, value, changes):
+    mesh = add("Box", *CUBE).data
+    set_edge_attribute(mesh, name, data_type, [(0, 1)], value)
+    assert len(arguments(mesh, **changes)["crease_edges"]) == 0
+
+
+def test_arrays_are_flat_and_whole():
+    given = arguments()
+    corners, offsets = given["faces"]
+    assert corners.dtype == offsets.dtype == np.int32 and given["vertices"].dtype == np.float64
+    assert given["vertices"].flags["C_CONTIGUOUS"]
+
+
+def triangle(**attributes):
+    """One triangle 0 1 2 and a loose edge 2 3."""
+    nothing = dict.fromkeys(("edge_crease", "vertex_crease", "sharp_edge"))
+    return ControlArrays(
+        positions=np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 2, 0)], float),
+        edges=np.array([(0, 1), (1, 2), (0, 2), (2, 3)], np.int32),
+        corners=np.array([0, 1, 2], np.int32),
+        corner_edges=np.array([0, 1, 2], np.int32),
+        offsets=np.array([0, 3], np.int32),
+        **{**nothing, **attributes},
+    )
+
+
+def test_nothing_without_attributes():
+    assert crease_edges(triangle(), 0.0, True).shape == (0, 2)
+    assert corner_vertices(triangle(), 0.0).shape == (0,)
+
+
+@pytest.mark.parametrize(
+    "threshold, expected",
+    [(0.0, [(0, 1), (1, 2)]), (0.5, [(0, 1), (1, 2)]), (0.6, [(0, 1)]), (None, [])],
+)
+def test_crease_threshold(threshold, expected):
+    weights = np.array([1.0, 0.5, 0.0, 1.0], np.float32)
+    assert [tuple(e) for e in crease_edges(triangle(edge_crease=weights), threshold)] == expected
+
+
+def test_threshold_compares_in_the_precision_of_the_attribute():
+    weights = np.full(4, 0.1, np.float32)
+    assert len(crease_edges(triangle(edge_crease=weights), 0.1)) == 3
+
+
+def test_sharp_edges_add_to_creases():
+    arrays = triangle(
+        edge_crease=np.array([1, 0, 0, 0], np.float32),
+        sharp_edge=np.array([True, False, True, True]),
+    )
+    assert [tuple(e) for e in crease_edges(arrays, 0.5, use_sharp=True)] == [(0, 1), (0, 2)]
+    assert [tuple(e) for e in crease_edges(arrays, 0.5, use_sharp=False)] == [(0, 1)]
+    assert [tuple(e) for e in crease_edges(arrays, None, use_sharp=True)] == [(0, 1), (0, 2)]
+
+
+def test_corners_from_vertex_creases():
+    weights = np.array([1.0, 0.2, 0.0, 1.0], np.float32)
+    assert corner_vertices(triangle(vertex_crease=weights), 0.5).tolist() == [0]
+    assert corner_vertices(triangle(vertex_crease=weights), None).tolist() == []
+
+
+def test_vertices_are_not_fixed():
+    assert without_vertices({"vertices": 1, "levels": 2}) == {"levels": 2}
+
+
+@pytest.mark.parametrize(
+    "value", [None, 1, 0.5, "x", np.arange(3), (np.arange(3), np.arange(2)), {"a": 1}]
+)
+def test_equal_arguments(value):
+    assert are_equal({"k": value}, {"k": value})
+
+
+@pytest.mark.parametrize(
+    "a, b",
+    [
+        (None, np.arange(3)),
+        (np.arange(3), np.arange(4)),
+        (np.arange(3), np.zeros(3, int)),
+        ((np.arange(3), 1), (np.arange(3), 2)),
+        ((1,), (1, 1)),
+        ({"a": 1}, {"b": 1}),
+        (1, True),
+        (0.5, 0.25),
+    ],
+)
+def test_different_arguments(a, b):
+    assert not are_equal({"k": a}, {"k": b})

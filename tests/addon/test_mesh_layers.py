@@ -1,0 +1,346 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Attributes, UV maps, colours, materials and marks, from a mesh object to the refined one."""
+
+import bpy
+import numpy as np
+import pytest
+from refined import corner_vertices, edge_vertices, refine, values
+from scenes import CUBE, activate, add, set_edge_attribute
+
+from addon.mesh.layers import read_data
+
+DOMAINS = ["POINT", "EDGE", "FACE", "CORNER"]
+SAMPLE = {
+    "FLOAT": 0.1,
+    "FLOAT2": (0.1, 0.7),
+    "FLOAT_VECTOR": (0.1, 0.7, -3.3),
+    "FLOAT_COLOR": (0.1, 0.7, 3.3, 1 / 3),
+    "INT": -7,
+    "INT8": -7,
+    "INT16_2D": (3, -4),
+    "INT32_2D": (300000, -4),
+    "BOOLEAN": True,
+    "QUATERNION": (0.5, 0.5, -0.5, 0.5),
+    "FLOAT4X4": [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12], [13, 14, 15, 16]],
+    "STRING": b"text",
+}
+FIELD = {
+    "FLOAT2": "vector",
+    "FLOAT_VECTOR": "vector",
+    "FLOAT_COLOR": "color",
+    "BYTE_COLOR": "color",
+}
+
+
+def cube():
+    """A cube whose UV map is Blender's own, six squares with seams between most."""
+    bpy.ops.mesh.primitive_cube_add()
+    return bpy.context.object
+
+
+def plain(value):
+    return (
+        np.asarray(value).tolist()
+        if hasattr(value, "__len__") and not isinstance(value, bytes)
+        else value
+    )
+
+
+@pytest.mark.parametrize("domain", DOMAINS)
+@pytest.mark.parametrize("data_type", SAMPLE)
+def test_constant_attributes_stay_to_the_bit(data_type, domain):
+    source = add("Cube", *CUBE)
+    given = source.data.attributes.new("given", data_type, domain)
+    field = FIELD.get(data_type, "value")
+    for item in given.data:
+        setattr(item, field, SAMPLE[data_type])
+    expected = plain(getattr(given.data[0], field))
+    made = refine(source)
+    found = made.mesh.attributes["given"]
+    assert (found.data_type, found.domain) == (data_type, domain)
+    elements = range(len(found.data))
+    if domain == "EDGE":
+        elements = np.flatnonzero(on_control_edges(made))
+        inside = np.setdiff1d(np.arange(len(found.data)), elements)
+        unset = plain(getattr(found.data[int(inside[0])], field))
+        assert unset == b"" if data_type == "STRING" else not np.any(unset)
+    assert len(elements)
+    assert all(plain(getattr(found.data[int(i)], field)) == expected for i in elements)
+    assert made.mesh.validate() is False
+
+
+def on_control_edges(made):
+    """(refined edges,) bool, found by the positions of a cube: two coordinates of either end are 1
+    in size.
+    """
+    linear = made.carrier.point(made.arrays.positions)
+    a, b = linear[edge_vertices(made.mesh)].transpose(1, 0, 2)
+    return ((np.abs(a) == 1) & (a == b)).sum(axis=1) >= 2
+
+
+@pytest.mark.parametrize("domain", ["POINT", "CORNER", "FACE", "EDGE"])
+def test_all_256_byte_colors_come_through(domain):
+    source = add(
+        "Row",
+        [(x, y, 0) for x in range(65) for y in range(2)],
+        [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(64)],
+    )
+    given = source.data.attributes.new("given", "BYTE_COLOR", domain)
+    bytes_ = np.arange(4 * len(given.data)) % 256
+    given.data.foreach_set("color_srgb", (bytes_ / 255).astype(np.float32))
+    made = refine(source, 0)
+    name = "given"
+    found = np.round(values(made.mesh, name, "color_srgb", 4) * 255).astype(int)
+    before = bytes_.reshape(-1, 4)
+    if domain == "EDGE":
+        key = {tuple(sorted(e)): i for i, e in enumerate(edge_vertices(source.data).tolist())}
+        before = before[[key[tuple(sorted(e))] for e in edge_vertices(made.mesh).tolist()]]
+    assert np.array_equal(found, before)
+
+
+def test_byte_colors_mix_as_light():
+    source = add("Square", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    given = source.data.attributes.new("given", "BYTE_COLOR", "POINT")
+    given.data.foreach_set("color", np.repeat([0, 1, 1, 0], 4).astype(np.float32))
+    made = refine(source, 1)
+    middle = values(made.mesh, "given", "color", 4)[4:].mean(axis=1)
+    assert np.isclose(middle, 0.5, atol=0.01).sum() == 3
+
+
+def test_uv_of_a_plane_stays_affine():
+    """On a grid of equal squares with straight borders the refined vertices are evenly spaced."""
+    grid = [(x, y, 0) for y in range(4) for x in range(4)]
+    squares = [(i, i + 1, i + 5, i + 4) for y in range(3) for i in range(4 * y, 4 * y + 3)]
+    source = add("Grid", grid, squares)
+    layer = source.data.uv_layers.new(name="Map")
+    place = np.array(grid, float)[corner_vertices(source.data)]
+    matrix = np.array([(0.3, 0.1), (-0.2, 0.25), (0, 0)])
+    layer.uv.foreach_set("vector", (place @ matrix + 0.5).astype(np.float32).ravel())
+    made = refine(source, 3, boundary="linear")
+    expected = made.result.vertices[corner_vertices(made.mesh)] @ matrix + 0.5
+    assert np.abs(values(made.mesh, "Map", "vector", 2) - expected).max() < 1e-6
+
+
+def test_uv_islands_keep_their_squares():
+    source = cube()
+    made = refine(source, 3)
+    before = values(source.data, "UVMap", "vector", 2).reshape(6, 4, 2)
+    after = values(made.mesh, "UVMap", "vector", 2).reshape(6, 64, 4, 2)
+    assert np.array_equal(before.min(axis=1), after.min(axis=(1, 2)))
+    assert np.array_equal(before.max(axis=1), after.max(axis=(1, 2)))
+    assert np.allclose(signed_area(after).sum(axis=1), signed_area(before), rtol=1e-6)
+
+
+def signed_area(loops):
+    x, y = loops[..., 0], loops[..., 1]
+    return (x * np.roll(y, -1, -1) - np.roll(x, -1, -1) * y).sum(axis=-1) / 2
+
+
+def test_seams_stay_apart():
+    """Where two faces of the control cube have different UVs at a common edge, so have the refined
+    ones.
+    """
+    source = cube()
+    made = refine(source, 2)
+    on_seam = on_control_edges(made)
+    uv, edge = (
+        values(made.mesh, "UVMap", "vector", 2),
+        values(made.mesh, ".corner_edge", dtype=np.int32),
+    )
+    order = np.argsort(edge, kind="stable").reshape(-1, 2)  # the two corners that an edge leaves
+    following = following_corner(made.mesh)
+    one, other = order.T
+    here = np.maximum(
+        np.abs(uv[one] - uv[following[other]]).max(axis=1),
+        np.abs(uv[following[one]] - uv[other]).max(axis=1),
+    )
+    assert (here[~on_seam] == 0).all()
+    assert (here[on_seam] > 0).sum() == 7 * 4  # a cube unfolds along 7 of its 12 edges
+
+
+def following_corner(mesh):
+    starts, sizes = np.empty((2, len(mesh.polygons)), np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    following = np.arange(1, len(mesh.loops) + 1)
+    following[starts + sizes - 1] = starts
+    return following
+
+
+def test_active_maps_and_colors():
+    source = cube()
+    mesh = source.data
+    for name in ("Second", "Third"):
+        mesh.uv_layers.new(name=name)
+    mesh.uv_layers.active = mesh.uv_layers["Second"]
+    mesh.uv_layers["Third"].active_render = True
+    for name in ("Paint", "More", "Last"):
+        mesh.color_attributes.new(name, "FLOAT_COLOR", "POINT")
+    mesh.attributes.active_color_name, mesh.attributes.default_color_name = "More", "Last"
+    found = refine(source).mesh
+    assert [layer.name for layer in found.uv_layers] == ["UVMap", "Second", "Third"]
+    assert found.uv_layers.active.name == "Second"
+    assert [layer.name for layer in found.uv_layers if layer.active_render] == ["Third"]
+    assert (found.attributes.active_color_name, found.attributes.default_color_name) == (
+        "More",
+        "Last",
+    )
+
+
+def test_materials_and_flat_faces():
+    source = cube()
+    source.data.polygons.foreach_set("material_index", [0, 1, 2, 3, 4, 5])
+    source.data.polygons.foreach_set("use_smooth", [True, False] * 3)
+    made = refine(source, 2)
+    assert (
+        values(made.mesh, "material_index", dtype=np.int32).tolist()
+        == np.repeat(range(6), 16).tolist()
+    )
+    assert (
+        values(made.mesh, "sharp_face", dtype=bool).tolist()
+        == np.repeat([False, True] * 3, 16).tolist()
+    )
+
+
+def test_left_out():
+    source = cube()
+    source.data.polygons.foreach_set("use_smooth", [False] * 6)
+    made = refine(source, leave_out=("sharp_face", "UVMap"))
+    found = made.mesh
+    assert "UVMap" not in found.attributes
+    assert "sharp_face" in {a.name for a in made.data.attributes}
+
+
+RIM = [(0, 1), (1, 3), (3, 2), (2, 0)]
+
+
+@pytest.mark.parametrize("name", ["crease_edge", "bevel_weight_edge"])
+def test_edge_weights(name):
+    source = add("Cube", *CUBE)
+    set_edge_attribute(source.data, name, "FLOAT", RIM, 0.3)
+    made = refine(source, 2)
+    found = values(made.mesh, name)
+    assert set(found) == {np.float32(0.3), np.float32(0)}
+    assert np.array_equal(found > 0, on_rim(made))
+
+
+def test_sharp_edges_add_up():
+    source = add("Cube", *CUBE)
+    set_edge_attribute(source.data, "sharp_edge", "BOOLEAN", RIM, True)
+    made = refine(source, 0, sharp_pairs=np.array([(4, 5)]))
+    found = edge_vertices(made.mesh)[values(made.mesh, "sharp_edge", dtype=bool)]
+    assert {tuple(sorted(e)) for e in found.tolist()} == {tuple(sorted(p)) for p in RIM} | {(4, 5)}
+
+
+def test_seams_and_freestyle_marks():
+    source = add("Cube", *CUBE)
+    for edge in source.data.edges:
+        edge.use_seam = edge.use_freestyle_mark = tuple(sorted(edge.vertices)) in {
+            tuple(sorted(p)) for p in RIM
+        }
+    source.data.polygons[2].use_freestyle_mark = True
+    made = refine(source, 2)
+    for name in ("use_seam", "use_freestyle_mark"):
+        found = np.empty(len(made.mesh.edges), bool)
+        made.mesh.edges.foreach_get(name, found)
+        assert np.array_equal(found, on_rim(made))
+    marked = np.empty(len(made.mesh.polygons), bool)
+    made.mesh.polygons.foreach_get("use_freestyle_mark", marked)
+    assert np.flatnonzero(marked).tolist() == list(range(32, 48))
+
+
+def on_rim(made):
+    """The edges around the face x = -1 of the cube: 4 pieces of each of its 4 edges."""
+    linear = made.carrier.point(made.arrays.positions)
+    ends = linear[edge_vertices(made.mesh)]
+    found = on_control_edges(made) & (ends[:, :, 0] == -1).all(axis=1)
+    assert found.sum() == 16
+    return found
+
+
+@pytest.mark.parametrize("name", ["crease_vert", "bevel_weight_vert"])
+def test_vertex_weights_stay_at_their_vertices(name):
+    source = add("Cube", *CUBE)
+    source.data.attributes.new(name, "FLOAT", "POINT").data.foreach_set(
+        "value", np.full(8, 0.75, np.float32)
+    )
+    found = values(refine(source).mesh, name)
+    assert (found[:8] == 0.75).all() and not found[8:].any()
+
+
+def test_sculpt_layers_are_carried_and_hidden_faces_are_not():
+    source = add("Cube", *CUBE)
+    mesh = source.data
+    mesh.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set(
+        "value", np.full(8, 0.5, np.float32)
+    )
+    mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", np.arange(6))
+    mesh.polygons[0].hide = True
+    found = refine(source, 1).mesh
+    assert (values(found, ".sculpt_mask") == 0.5).all()
+    assert (
+        values(found, ".sculpt_face_set", dtype=np.int32).tolist()
+        == np.repeat(range(6), 4).tolist()
+    )
+    assert ".hide_poly" in source.data.attributes and ".hide_poly" not in found.attributes
+
+
+def test_custom_normals_are_dropped_with_a_note():
+    source = cube()
+    assert read_data(source, source.data).notes == []
+    source.data.normals_split_custom_set_from_vertices([(0, 0, 1)] * 8)
+    made = refine(source)
+    assert any("Custom normals" in note for note in made.data.notes)
+    assert not made.mesh.has_custom_normals
+
+
+def test_loose_edges_are_noted():
+    source = add("Cube", [*CUBE[0], (5, 5, 5)], CUBE[1], [(0, 8)])
+    assert any("without a face" in note for note in read_data(source, source.data).notes)
+
+
+def test_polygons_of_all_sizes():
+    """An attribute that is linear in the plane is so on fans too."""
+    points = [
+        (0, 0, 0),
+        (2, 0, 0),
+        (3, 1, 0),
+        (2.5, 2.5, 0),
+        (0.5, 2, 0),
+        (4, -1, 0),
+        (5, 1, 0),
+        (3, 4, 0),
+    ]
+    source = add("Plane", points, [(0, 1, 2, 3, 4), (1, 5, 6, 2), (2, 6, 3), (4, 3, 7)])
+    given = source.data.attributes.new("given", "FLOAT", "CORNER")
+    linear = np.array(points) @ (0.5, -0.25, 0)
+    given.data.foreach_set("value", linear[corner_vertices(source.data)].astype(np.float32))
+    made = refine(source, 2)
+    expected = made.carrier.point(made.arrays.positions)[corner_vertices(made.mesh)] @ (
+        0.5,
+        -0.25,
+        0,
+    )
+    assert np.allclose(values(made.mesh, "given"), expected, atol=1e-6)
+    assert made.mesh.validate() is False
+
+
+def test_edit_mode():
+    """There the mesh is a copy, of the edit's state."""
+    source = cube()
+    source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
+    activate(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    source.update_from_editmode()
+    data = read_data(source, source.to_mesh())
+    source.to_mesh_clear()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert data.active_uv == "UVMap"
+    assert data.groups[0].vertices.tolist() == [0, 1]
+    assert {a.name for a in data.attributes} >= {"UVMap"}
+
+
+def test_an_empty_mesh_is_read():
+    source = add("Empty", [], [])
+    data = read_data(source, source.data)
+    assert data.groups == [] and data.notes == []

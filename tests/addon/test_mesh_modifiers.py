@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Modifiers of the source on another object."""
+
+import bpy
+import pytest
+from scenes import CUBE, TRIANGLE, add, add_suzanne
+
+from addon.mesh.modifiers import copy_modifiers
+
+
+def copied(source):
+    target = add("Target", *TRIANGLE)
+    return target, copy_modifiers(bpy.context, source, target)
+
+
+def test_settings_and_order():
+    source = add("Cube", *CUBE)
+    mirror = source.modifiers.new("Mirror", "MIRROR")
+    mirror.use_axis, mirror.mirror_object = (False, True, True), add("Plane", *TRIANGLE)
+    source.vertex_groups.new(name="Group")
+    rig = source.modifiers.new("Rig", "ARMATURE")
+    rig.object, rig.vertex_group = (
+        bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig")),
+        "Group",
+    )
+    rig.show_viewport = False
+    target, notes = copied(source)
+    assert notes == []
+    assert [m.name for m in target.modifiers] == ["Mirror", "Rig"]
+    found = target.modifiers["Mirror"]
+    assert (
+        tuple(found.use_axis) == (False, True, True) and found.mirror_object == mirror.mirror_object
+    )
+    found = target.modifiers["Rig"]
+    assert (found.object, found.vertex_group, found.show_viewport) == (rig.object, "Group", False)
+    assert [m.name for m in source.modifiers] == ["Mirror", "Rig"]
+
+
+def test_geometry_nodes_and_their_inputs():
+    tree = bpy.data.node_groups.new("Tree", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    socket = tree.interface.new_socket("Value", in_out="INPUT", socket_type="NodeSocketFloat")
+    source = add("Cube", *CUBE)
+    nodes = source.modifiers.new("Nodes", "NODES")
+    nodes.node_group = tree
+    nodes[socket.identifier] = 3.5
+    target, notes = copied(source)
+    assert notes == []
+    assert target.modifiers["Nodes"].node_group == tree
+    assert target.modifiers["Nodes"][socket.identifier] == 3.5
+
+
+def test_drivers():
+    source = add("Cube", *CUBE)
+    source.modifiers.new("Push", "DISPLACE")
+    source.driver_add('modifiers["Push"].strength').driver.expression = "0.25"
+    source.driver_add("location", 0).driver.expression = "9"
+    target, _ = copied(source)
+    assert [d.data_path for d in target.animation_data.drivers] == ['modifiers["Push"].strength']
+    assert target.animation_data.drivers[0].driver.expression == "0.25"
+    copy_modifiers(bpy.context, source, target)
+    assert len(target.animation_data.drivers) == 1
+
+
+@pytest.mark.parametrize("kind", ["HOOK", "COLLISION"])
+def test_what_blender_does_not_copy_is_said(kind):
+    source = add("Cube", *CUBE)
+    source.modifiers.new("Special", kind)
+    source.modifiers.new("Mirror", "MIRROR")
+    target, notes = copied(source)
+    assert len(notes) == 1 and "'Special' is not copied" in notes[0]
+    assert [m.name for m in target.modifiers] == ["Mirror"]
+
+
+def test_multires_is_left_out():
+    source = add("Cube", *CUBE)
+    source.modifiers.new("Sculpt", "MULTIRES")
+    target, notes = copied(source)
+    assert len(target.modifiers) == 0
+    assert len(notes) == 1 and "sculpted" in notes[0]
+
+
+def test_bindings_are_undone():
+    cage = add("Cage", *CUBE)
+    source = add_suzanne()
+    modifier = source.modifiers.new("Follow", "SURFACE_DEFORM")
+    modifier.target = cage
+    bpy.ops.object.surfacedeform_bind(modifier="Follow")
+    assert modifier.is_bound
+    target, notes = copied(source)
+    found = target.modifiers["Follow"]
+    assert not found.is_bound and found.target == cage
+    assert len(notes) == 1 and "bind it again" in notes[0]
+    assert modifier.is_bound
+
+
+def test_none():
+    target, notes = copied(add("Cube", *CUBE))
+    assert notes == [] and len(target.modifiers) == 0

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shape keys: their settings come over, and positions are what they are given."""
+
+import bpy
+import numpy as np
+import pytest
+from refined import refine
+from scenes import CUBE, add, positions
+
+from addon.mesh.layers import read_data
+from addon.mesh.shape_keys import write_shape_keys
+
+
+@pytest.fixture
+def source():
+    made = add("Cube", *CUBE)
+    made.vertex_groups.new(name="Half").add(range(4), 1.0, "REPLACE")
+    made.shape_key_add(name="Basis")
+    for name, shift in (("Wide", (1, 0, 0)), ("Tall", (0, 0, 2))):
+        key = made.shape_key_add(name=name)
+        for point in key.data:
+            point.co = np.multiply(point.co, np.add(1, np.multiply(0.5, shift)))
+    keys = made.data.shape_keys.key_blocks
+    keys["Wide"].slider_min, keys["Wide"].slider_max, keys["Wide"].value = -2.0, 3.0, 2.5
+    keys["Tall"].relative_key, keys["Tall"].mute = keys["Wide"], True
+    keys["Tall"].vertex_group, keys["Tall"].interpolation = "Half", "KEY_CARDINAL"
+    made.active_shape_key_index = 2
+    return made
+
+
+def shaped(source):
+    """The refined object with keys that are refined linearly."""
+    made = refine(source)
+    made.shapes = [made.carrier.point(shape) for shape in made.data.shape_keys.shapes]
+    write_shape_keys(made.target, made.data.shape_keys, made.shapes, source)
+    return made
+
+
+def test_read(source):
+    keys = read_data(source, source.data).shape_keys
+    assert keys.positions.shape == (3, 8, 3) and keys.positions.dtype == np.float64
+    assert np.array_equal(keys.positions[0], positions(source.data))
+    assert np.array_equal(keys.shapes[0], keys.positions[0] * (1.5, 1, 1))
+
+
+def test_settings(source):
+    made = shaped(source)
+    given, found = source.data.shape_keys.key_blocks, made.mesh.shape_keys.key_blocks
+    assert [k.name for k in found] == ["Basis", "Wide", "Tall"]
+    for name in ("slider_min", "slider_max", "value", "mute", "vertex_group", "interpolation"):
+        assert [getattr(k, name) for k in found] == [getattr(k, name) for k in given]
+    assert found["Tall"].relative_key == found["Wide"]
+    assert made.target.active_shape_key_index == 2
+    assert made.mesh.validate() is False
+
+
+def test_positions(source):
+    made = shaped(source)
+    found = made.mesh.shape_keys.key_blocks
+    for key, expected in zip(found, [made.result.vertices, *made.shapes]):
+        place = np.empty(3 * len(key.data), np.float32)
+        key.data.foreach_get("co", place)
+        assert np.array_equal(place.reshape(-1, 3), np.float32(expected))
+
+
+def test_value_moves_the_surface(source):
+    made = shaped(source)
+    evaluated = made.target.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    basis, wide = made.result.vertices, made.shapes[0]
+    assert np.allclose(positions(evaluated.to_mesh()), basis + 2.5 * (wide - basis), atol=1e-5)
+
+
+def test_absolute_keys(source):
+    source.data.shape_keys.use_relative = False
+    source.data.shape_keys.eval_time = 7.0
+    found = shaped(source).mesh.shape_keys
+    assert not found.use_relative and found.eval_time == 7.0
+    assert [k.frame for k in found.key_blocks] == [
+        k.frame for k in source.data.shape_keys.key_blocks
+    ]
+
+
+def test_drivers(source):
+    driver = source.data.shape_keys.driver_add('key_blocks["Wide"].value').driver
+    driver.expression = "0.75"
+    found = shaped(source).mesh.shape_keys
+    assert [d.data_path for d in found.animation_data.drivers] == ['key_blocks["Wide"].value']
+    assert found.animation_data.drivers[0].driver.expression == "0.75"
+
+
+def test_animation_is_noted(source):
+    key = source.data.shape_keys.key_blocks["Wide"]
+    assert read_data(source, source.data).notes == []
+    key.keyframe_insert("value")
+    assert any("animation" in note for note in read_data(source, source.data).notes)
+
+
+def test_evaluated_meshes_have_none(source):
+    assert read_data(source, source.data, evaluated=True).shape_keys is None

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values of control meshes on refined elements: exact, linear, and never across faces."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from refined import control_arrays, core_run
+from test_transfer_lattice import TRIANGLE_ROWS, quad_cells, triangle_cells
+
+from addon.transfer.carrier import Carrier
+
+HEXAGON = [(np.cos(a), np.sin(a), 0) for a in np.arange(6) * np.pi / 3]
+# a lopsided hexagon, a quad and a triangle in a plane; vertex 9 belongs to no face
+POSITIONS = [
+    *HEXAGON[:3],
+    (-0.4, 0.3, 0),
+    *HEXAGON[4:],
+    (3, 0, 0),
+    (3, 1, 0),
+    (1.2, 1.5, 0),
+    (9, 9, 9),
+]
+POLYGONS = [[0, 1, 2, 3, 4, 5], [0, 6, 7, 1], [1, 7, 8]]
+LEVELS = [0, 1, 3]
+
+
+def mixed(levels=2):
+    arrays = control_arrays(POSITIONS, POLYGONS)
+    result, carrier = core_run(arrays, levels)
+    return arrays, result, carrier
+
+
+def refined_corners(result):
+    return np.concatenate([faces.ravel() for faces in result.faces])
+
+
+def by_hand(cells):
+    """A carrier for one face whose 16 cells are written down; its control vertices have the ids of
+    its corners.
+    """
+    size = cells.shape[1]
+    own = [0, 4, 14] if size == 3 else [0, 4, 24, 20]
+    order = {
+        old: new
+        for new, old in enumerate([*own, *(i for i in range(cells.max() + 1) if i not in own)])
+    }
+    cells = np.vectorize(order.get)(cells).astype(np.int32)
+    triangles, quads = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
+    faces = (cells, quads) if size == 3 else (triangles, cells)
+    nothing, all_zero = np.empty(0, np.int32), np.zeros(16, np.int32)
+    result = SimpleNamespace(
+        vertices=np.zeros((len(order), 3)),
+        faces=faces,
+        triangle_polygon=all_zero if size == 3 else nothing,
+        quad_polygon=nothing if size == 3 else all_zero,
+    )
+    arrays = control_arrays(np.eye(size, 3), [list(range(size))])
+    return Carrier(result, arrays, 2), order
+
+
+def test_triangle_is_linear():
+    carrier, order = by_hand(triangle_cells())
+    at = {
+        order[v]: (i / 4, j / 4) for j, row in enumerate(TRIANGLE_ROWS) for i, v in enumerate(row)
+    }
+    found = carrier.point(np.array([(0, 0), (1, 0), (0, 1)], np.float32))
+    assert np.array_equal(found, [at[v] for v in range(len(at))])
+
+
+def test_quad_is_bilinear():
+    carrier, order = by_hand(quad_cells())
+    at = {order[5 * j + i]: (i / 4, j / 4, i * j / 16) for j in range(5) for i in range(5)}
+    found = carrier.point(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0)], np.float32))
+    assert np.array_equal(found, [at[v] for v in range(25)])
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+def test_constants_stay_to_the_bit(levels):
+    arrays, _, carrier = mixed(levels)
+    for value in np.float32([0.1, 1 / 3, 1e-30, 7e20]):
+        assert (carrier.corner(np.full(len(arrays.corners), value)) == value).all()
+        used = carrier.point(np.full(len(POSITIONS), value))
+        assert (used == value).all()
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+def test_control_vertices_keep_their_values(levels):
+    _, _, carrier = mixed(levels)
+    given = np.random.default_rng(1).normal(size=(len(POSITIONS), 3)).astype(np.float32)
+    assert np.array_equal(carrier.point(given)[: len(given)], given)
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+def test_corners_and_points_agree_where_nothing_is_cut(levels):
+    arrays, result, carrier = mixed(levels)
+    given = np.random.default_rng(2).random((len(POSITIONS), 2), np.float32)
+    corners = carrier.corner(given[arrays.corners])
+    assert np.allclose(corners, carrier.point(given)[refined_corners(result)], rtol=0, atol=1e-7)
+
+
+def test_corners_come_from_their_own_polygon():
+    arrays, result, carrier = mixed()
+    polygon = np.repeat(np.arange(3), np.diff(arrays.offsets)).astype(np.float32)
+    origin = np.concatenate(
+        [np.repeat(result.triangle_polygon, 3), np.repeat(result.quad_polygon, 4)]
+    )
+    assert np.array_equal(carrier.corner(polygon)[:, 0], origin)
+    assert np.array_equal(carrier.pick_corner(polygon), origin)
+
+
+def test_polygon_centre_is_its_centroid():
+    arrays, _, carrier = mixed(0)
+    centre = carrier.point(arrays.positions)[len(POSITIONS)]
+    x, y, _ = arrays.positions[:6].T
+    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
+    area = cross.sum() / 2
+    centroid = [((v + np.roll(v, -1)) * cross).sum() / (6 * area) for v in (x, y)]
+    assert np.allclose(centre, [*centroid, 0], atol=1e-6)
+    assert not np.allclose(
+        centroid, arrays.positions[:6, :2].mean(axis=0), atol=1e-2
+    )  # else this would show nothing
+
+
+def test_faces_inherit():
+    _, result, carrier = mixed()
+    given = np.array(["a", "b", "c"], object)
+    expected = given[np.concatenate([result.triangle_polygon, result.quad_polygon])]
+    assert carrier.face(given).tolist() == expected.tolist()
+
+
+def test_picked_points_are_the_nearest():
+    carrier, order = by_hand(quad_cells())
+    found = carrier.pick_point(np.array([10, 20, 30, 40]))
+    at = {5 * j + i: found[order[5 * j + i]] for j in range(5) for i in range(5)}
+    # ties go to the lowest id: 0 | 1 along the first side, 0 in the middle
+    assert [at[i] for i in range(5)] == [10, 10, 10, 20, 20]
+    assert [at[20 + i] for i in range(5)] == [40, 40, 30, 30, 30]
+    assert at[12] == 10
+
+
+def test_picked_corners_agree_with_picked_points():
+    arrays, result, carrier = mixed(3)
+    ids = np.arange(len(POSITIONS))
+    points = carrier.pick_point(ids)
+    corners = carrier.pick_corner(arrays.corners)
+    assert np.array_equal(points[refined_corners(result)], corners)
+    assert set(points[refined_corners(result)]) == set(range(9))
+    assert np.array_equal(points[: len(ids)], ids)  # vertex 9 too, which no face uses
+
+
+def test_picked_around_a_centre():
+    _, _, carrier = mixed(0)
+    assert carrier.pick_point(np.arange(10) + 5)[10] == 5  # vertex 0 is the lowest of the hexagon's
+
+
+def test_own_points_only():
+    _, result, carrier = mixed()
+    found = carrier.own_point(np.ones(len(POSITIONS), np.float32))
+    assert found[: len(POSITIONS)].all() and not found[len(POSITIONS) :].any()
+    assert len(found) == len(result.vertices)
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+def test_edges(levels):
+    arrays, result, carrier = mixed(levels)
+    corners = [faces for faces in result.faces if len(faces)]
+    pairs = np.concatenate([np.stack([f, np.roll(f, -1, 1)], 2).reshape(-1, 2) for f in corners])
+    edges, corner_edge = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
+    origin = carrier.edge_origin(corner_edge.ravel(), len(edges))
+    count = np.bincount(origin[origin >= 0], minlength=len(arrays.edges))
+    assert (count == 2**levels).all()
+    for e, (a, b) in enumerate(arrays.edges):  # each is a path from a to b
+        ends, times = np.unique(edges[origin == e], return_counts=True)
+        assert set(ends[times == 1]) == {a, b}
+
+
+def test_turned_faces():
+    """The core may turn a face over: then its corners run the other way round than the polygon's."""
+    arrays = control_arrays(
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)], [[0, 1, 2, 3], [1, 2, 4]]
+    )
+    result, carrier = core_run(arrays, 1, repair_orientation=True)
+    assert result.report["flipped_faces"]
+    found = carrier.corner(arrays.positions[arrays.corners])
+    assert np.allclose(found, carrier.point(arrays.positions)[refined_corners(result)])
+
+
+def test_only_triangles():
+    arrays = control_arrays(HEXAGON[:3], [[0, 1, 2]])
+    assert core_run(arrays, 2)[1].corner(np.zeros(3)).shape == (48, 1)

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lattice of a refined face, and control edges found again in it, against faces by hand."""
+
+import numpy as np
+import pytest
+
+from addon.transfer.lattice import fine_edges, make_cells, mark_pairs
+
+# two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
+TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))
+
+
+def triangle_cells():
+    cells = []
+    for low, high in zip(TRIANGLE_ROWS, TRIANGLE_ROWS[1:], strict=False):
+        for i in range(len(high)):
+            cells.append((low[i], low[i + 1], high[i]))
+            if i + 1 < len(high):
+                cells.append((low[i + 1], high[i + 1], high[i]))
+    return np.array(cells, np.int32)
+
+
+def quad_cells():
+    ids = np.arange(25).reshape(5, 5)
+    corners = ids[:-1, :-1], ids[:-1, 1:], ids[1:, 1:], ids[1:, :-1]
+    return np.stack([c.ravel() for c in corners], axis=1).astype(np.int32)
+
+
+NO_TRIANGLES, NO_QUADS = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
+
+
+@pytest.mark.parametrize(
+    "pair, run",
+    [((0, 4), [0, 1, 2, 3, 4]), ((4, 14), [4, 8, 11, 13, 14]), ((14, 0), [14, 12, 9, 5, 0])],
+)
+def test_triangle_sides(pair, run):
+    expected = list(zip(run, run[1:], strict=False))
+    for given in (pair, pair[::-1]):
+        assert [tuple(e) for e in fine_edges((triangle_cells(), NO_QUADS), [given], 2)] == expected
+
+
+@pytest.mark.parametrize(
+    "pair, run",
+    [
+        ((0, 4), range(5)),
+        ((4, 24), range(4, 25, 5)),
+        ((24, 20), range(24, 19, -1)),
+        ((20, 0), range(20, -1, -5)),
+    ],
+)
+def test_quad_sides(pair, run):
+    expected = list(zip(run, run[1:], strict=False))
+    assert [tuple(e) for e in fine_edges((NO_TRIANGLES, quad_cells()), [pair], 2)] == expected
+
+
+def test_no_edge_asked_for():
+    assert fine_edges((triangle_cells(), quad_cells()), np.empty((0, 2), np.int32), 2).shape == (
+        0,
+        2,
+    )
+
+
+def test_mark_pairs():
+    edges = np.array([(0, 1), (1, 2), (2, 0)], np.int32)
+    assert mark_pairs(edges, np.array([(1, 0), (0, 2)])).tolist() == [True, False, True]
+
+
+TRIANGLE_POINTS = [(i, j) for j, row in enumerate(TRIANGLE_ROWS) for i in range(len(row))]
+QUAD_POINTS = [(i, j) for j in range(5) for i in range(5)]
+
+
+@pytest.mark.parametrize(
+    "corners, cells, points",
+    [(3, triangle_cells(), TRIANGLE_POINTS), (4, quad_cells(), QUAD_POINTS)],
+)
+def test_points_and_cells(corners, cells, points):
+    made = make_cells(corners, 2)
+    assert [tuple(p) for p in made.points] == points
+    assert np.array_equal(made.corner_point, cells.ravel())
+    assert np.array_equal(made.corner_point[made.first_corner], np.arange(len(points)))
+
+
+@pytest.mark.parametrize(
+    "corners, places", [(3, [(0, 0), (4, 0), (0, 4)]), (4, [(0, 0), (4, 0), (4, 4), (0, 4)])]
+)
+def test_weights_give_the_points_back(corners, places):
+    made = make_cells(corners, 2)
+    assert np.array_equal(made.weights @ np.array(places) / made.total, made.points)
+    assert (made.weights.sum(axis=1) == made.total).all()
+
+
+@pytest.mark.parametrize("corners", [3, 4])
+def test_no_level(corners):
+    made = make_cells(corners, 0)
+    assert np.array_equal(made.weights[made.corner_point], np.eye(corners))
+
+
+def test_apex():
+    assert tuple(make_cells(3, 2).points[make_cells(3, 2).apex]) == (0, 4)

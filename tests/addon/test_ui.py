@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel computes and draws, on a layout that only remembers."""
+
+import bpy
+import pytest
+from fake_layout import Layout, draw
+from scenes import CUBE, add, add_suzanne, face_values
+
+from addon import core, size
+from addon.settings import ENERGIES, ENERGY_MEANINGS, NAMES, copy_settings
+from addon.ui import layout as settings_layout
+from addon.ui import main, notice
+from addon.ui.layout import Sidebar
+
+
+def test_every_setting_is_shown_somewhere():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
+    bpy.context.scene.discrete_fairing.use_selection = True
+    panels = [cls for cls in main.CLASSES if issubclass(cls, Sidebar)]
+    log = [entry for cls in panels for entry in draw(cls)]
+    assert set(NAMES) <= set(log)
+
+
+def test_triangle_count_stands_under_the_levels():
+    add("Box", *CUBE)
+    assert draw(main.VIEW3D_PT_fairing)[:2] == ["levels", "768 triangles"]
+
+
+@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
+def test_energy_stands_near_the_top_with_what_it_means(energy):
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.energy = energy
+    assert draw(main.VIEW3D_PT_fairing)[2:4] == ["energy", ENERGY_MEANINGS[energy]]
+
+
+def test_what_an_energy_means_fits_the_sidebar():
+    assert set(ENERGY_MEANINGS) == {key for key, *_ in ENERGIES}
+    assert all(len(meaning) <= notice.WIDTH for meaning in ENERGY_MEANINGS.values())
+
+
+def test_button_carries_the_settings():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.levels = 4
+    draw(main.VIEW3D_PT_fairing)
+    assert Layout.button.levels == 4
+
+
+def test_a_large_result_is_announced():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.levels = 10
+    assert any("large" in text for text in draw(main.VIEW3D_PT_fairing))
+
+
+def test_missing_core_is_said_in_the_panel(monkeypatch):
+    monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
+    assert " ".join(draw(main.VIEW3D_PT_fairing)) == core.MISSING
+
+
+@pytest.mark.parametrize("levels", [1, 3])
+def test_count_is_what_comes(levels):
+    source = add_suzanne()
+    bpy.ops.object.fair_surface(levels=levels, energy="THIN_PLATE")
+    fine = face_values(bpy.context.object.data, "loop_total", "i")
+    assert size.triangle_count(size.face_sizes(source.data), levels) == int((fine - 2).sum())
+
+
+@pytest.mark.parametrize(
+    "sizes, triangles", [([], 0), ([3], 1), ([4], 2), ([5], 5), ([3, 4, 6], 9)]
+)
+def test_coarse_triangles(sizes, triangles):
+    assert size.coarse_triangles(sizes) == triangles
+
+
+def test_count_text():
+    assert size.count_text(12345) == "12,345 triangles"
+    assert size.count_text(12_345_678) == "12.3 M triangles"
+    assert size.count_text(1_015_021_568) == "1,015 M triangles"
+
+
+def test_copy_settings():
+    class Target:
+        pass
+
+    copy_settings(bpy.context.scene.discrete_fairing, Target)
+    assert {name for name in vars(Target) if not name.startswith("_")} == set(NAMES)
+
+
+def test_layout_draws_operator_properties_too():
+    log = Layout()
+    properties = bpy.context.window_manager.operator_properties_last("object.fair_surface")
+    settings_layout.draw_shape(log, properties)
+    settings_layout.draw_creases(log, properties)
+    settings_layout.draw_advanced(log, properties)
+    assert "levels" in log.log

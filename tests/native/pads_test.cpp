@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pads: their hats and mass matrix, and what is left of the forces on a surface that stands on
+// them.
+#include "thin_plate/pads.h"
+
+#include <gtest/gtest.h>
+
+#include "curvature/total_curvature.h"
+#include "fairing/context.h"
+#include "grid/linear.h"
+#include "meshes.h"
+#include "parallel/reductions.h"
+
+namespace fairing::test {
+namespace {
+
+Unknowns all_but_vertices(const ControlMesh& mesh) {
+  Unknowns u;
+  u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e) u.edge.push_back(mesh.edge_fit(e));
+  return u;
+}
+
+// Omega sum f phi for these loads, three numbers a point.
+std::vector<double> loaded(const Pads& pads, const GridLevel& grid, const Loads& loads) {
+  std::vector<double> r(3 * grid.size(), 0.0);
+  pads.add_loads(loads, r.data());
+  return r;
+}
+
+double whole_area(const ControlMesh& mesh) {
+  double area = 0;
+  for (const FlatFace& flat : flatten(mesh, ChartOptions().exponent)) area += flat.area;
+  return area;
+}
+
+TEST(Pads, WideHatsAddUpToOne) {
+  for (const OwnedPolygonMesh& input : {octahedron(), cube(), torus(6, 5)}) {
+    const ControlMesh mesh = make_control_mesh(input.view(), {});
+    Workers workers(2);
+    Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+    for (const int level : {0, 1, 3}) {
+      const GridLevel grid(mesh, level);
+      pads.set_level(grid);
+      const Loads even(std::size_t(mesh.vertex_count()), Vec3(1, 2, -3));
+      const std::vector<double> r = loaded(pads, grid, even);
+      double area = 0;
+      for (std::size_t i = 0; i < grid.size(); ++i) {
+        EXPECT_GT(r[3 * i], 0);
+        EXPECT_NEAR(r[3 * i + 1], 2 * r[3 * i], 1e-14);
+        EXPECT_NEAR(r[3 * i + 2], -3 * r[3 * i], 1e-14);
+        area += r[3 * i];
+      }
+      EXPECT_NEAR(area, whole_area(mesh), 1e-12 * area);
+    }
+  }
+}
+
+TEST(Pads, HatsFallOffOverTheirWidth) {
+  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
+  Workers workers(1);
+  const GridLevel grid(mesh, 3);
+  const std::size_t count = std::size_t(mesh.vertex_count());
+  const Loads even(count, Vec3::Ones());
+  Pads wide(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+  wide.set_level(grid);
+  const std::vector<double> share = loaded(wide, grid, even);
+  for (const double size : {0.25, 0.5, 0.75}) {
+    Pads pads(mesh, {}, all_but_vertices(mesh), size, workers);
+    pads.set_level(grid);
+    Loads one(count, Vec3::Zero());
+    one[0] = Vec3::Ones();
+    const std::vector<double> r = loaded(pads, grid, one);
+    double total = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
+    EXPECT_NEAR(total, pads.total(0), 1e-14);
+    EXPECT_DOUBLE_EQ(r[0], share[0]);
+    for (const Spoke& spoke : mesh.ring(0))
+      for (int k = 1; k < grid.n(); ++k) {
+        const auto p = 3 * std::size_t(grid.edge_point(spoke.edge, spoke.outward ? k : 8 - k));
+        EXPECT_NEAR(r[p] / share[p], std::max(0.0, 1 - k / 8.0 / size), 1e-14);
+      }
+  }
+}
+
+TEST(Pads, MassIsThatOfTheHats) {
+  for (const OwnedPolygonMesh& input : {octahedron(), cube(), torus(6, 5), grid(5, 4)})
+    for (const double size : {0.5, 1.0}) {
+      const ControlMesh mesh = make_control_mesh(input.view(), {});
+      Workers workers(2);
+      const GridLevel grid(mesh, 2);
+      Pads pads(mesh, {}, all_but_vertices(mesh), size, workers);
+      pads.set_level(grid);
+      const auto count = std::size_t(mesh.vertex_count());
+      std::vector<std::vector<double>> column;
+      for (std::size_t v = 0; v < count; ++v) {
+        Loads one(count, Vec3::Zero());
+        one[v] = Vec3::Ones();
+        column.push_back(loaded(pads, grid, pads.under(v) ? one : Loads(count, Vec3::Zero())));
+      }
+      // The points' areas from pads of size 1 on all vertices do not exist on open meshes: take
+      // them from where a hat is known, as the closed face's share.
+      const std::vector<FlatFace> flat = flatten(mesh, ChartOptions().exponent);
+      std::vector<double> area(grid.size(), 0.0);
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const bool quad = mesh.faces[f].quad();
+        for (int j = 0; j <= 4; ++j)
+          for (int i = 0; i <= (quad ? 4 : 4 - j); ++i) {
+            const int sides = (i == 0) + (j == 0) + (quad ? (i == 4) + (j == 4) : (i + j == 4));
+            const double share = quad ? (sides == 0   ? 1.0
+                                         : sides == 1 ? 0.5
+                                                      : 0.25)
+                                      : (sides == 0   ? 2.0
+                                         : sides == 1 ? 1.0
+                                                      : 1.0 / 3);
+            area[std::size_t(grid.face_point(Index(f), i, j))] += share * flat[f].area / 16;
+          }
+      }
+      Loads unit(count, Vec3::Zero()), product, back;
+      for (std::size_t c = 0; c < count; ++c) {
+        if (!pads.under(c)) continue;
+        unit[c] = Vec3(1, 0, 2);
+        pads.multiply_mass(unit, product);
+        for (std::size_t d = 0; d < count; ++d) {
+          double mass = 0;
+          for (std::size_t i = 0; i < grid.size(); ++i)
+            mass += column[c][3 * i] * column[d][3 * i] / area[i];
+          EXPECT_NEAR(product[d][0], mass, 1e-14);
+          EXPECT_NEAR(product[d][2], 2 * mass, 1e-14);
+        }
+        pads.divide_by_mass(product, back);
+        for (std::size_t d = 0; d < count; ++d) EXPECT_LT((back[d] - unit[d]).norm(), 1e-2);
+        unit[c].setZero();
+      }
+    }
+}
+
+TEST(Pads, NarrowToNothing) {
+  const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
+  Workers workers(1);
+  const GridLevel grid(mesh, 3);
+  Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers), wide = pads;
+  pads.narrow(3, 1);
+  pads.narrow(4, 2);
+  pads.narrow(4, 2);
+  EXPECT_EQ(pads.widths()[2], 1);
+  EXPECT_EQ(pads.widths()[3], 0.5);
+  EXPECT_EQ(pads.widths()[4], 0);
+  EXPECT_FALSE(pads.under(4));
+  EXPECT_TRUE(pads.began_under(4));
+  EXPECT_EQ(pads.rows().vertex[3], 1);
+  EXPECT_EQ(pads.rows().vertex[4], 0);
+  wide.set_level(grid);
+  pads.set_level(grid);
+  EXPECT_EQ(pads.total(2), wide.total(2));
+  EXPECT_LT(pads.total(3), 0.5 * wide.total(3));
+  EXPECT_EQ(pads.total(4), 0);
+  for (const Index v : {3, 4}) {
+    Loads one(std::size_t(mesh.vertex_count()), Vec3::Zero());
+    one[std::size_t(v)] = Vec3::Ones();
+    const std::vector<double> r = loaded(pads, grid, one);
+    double total = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
+    EXPECT_NEAR(total, pads.total(std::size_t(v)), 1e-14);
+  }
+  for (std::size_t v = 0; v < pads.widths().size(); ++v) pads.narrow(v, 4);
+  EXPECT_FALSE(pads.any());
+  EXPECT_FALSE(pads.rows().any_vertex);
+}
+
+TEST(Pads, StarsShareTheEnergy) {
+  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
+  Workers workers(2);
+  const GridLevel grid(mesh, 3);
+  std::vector<double> x(3 * grid.size());
+  refine_linearly(grid, mesh.positions, workers, x.data());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    Eigen::Map<Vec3> p(x.data() + 3 * i);
+    p.normalize();
+  }
+  const std::vector<double> stars = total_curvature_of_stars(grid, workers, x.data());
+  double total = 0;
+  for (const double star : stars) {
+    EXPECT_NEAR(star, stars[0], 1e-9 * stars[0]);
+    total += star;
+  }
+  // Each face is in three stars, each edge in two, each vertex in one.
+  const double whole = total_curvature(grid, workers, x.data());
+  EXPECT_GT(total, 2 * whole);
+  EXPECT_LT(total, 3 * whole);
+}
+
+TEST(Pads, StandOffCurvesOnly) {
+  FeatureOptions features;
+  const ControlMesh plain = make_control_mesh(cube().view(), {});
+  for (const std::size_t e : {0, 1})
+    features.crease_edges.push_back({plain.edges[e].vertex[0], plain.edges[e].vertex[1]});
+  const ControlMesh mesh = make_control_mesh(cube().view(), features);
+  Workers workers(1);
+  const Pads pads(mesh, {}, all_but_vertices(mesh), 0.5, workers);
+  for (std::size_t v = 0; v < 8; ++v) EXPECT_EQ(pads.under(v), mesh.feature_vertex[v] == 0);
+  EXPECT_TRUE(pads.any());
+  const ControlMesh open = make_control_mesh(single_quad().view(), {});
+  EXPECT_FALSE(Pads(open, {}, all_but_vertices(open), 0.5, workers).any());
+}
+
+// K x = Omega phi f on all points off curves, control vertices included.
+TEST(Pads, HoldTheSurface) {
+  for (const OwnedPolygonMesh& input : {octahedron(), torus(6, 5), grid(5, 4), dodecahedron()})
+    for (const double size : {0.5, 1.0}) {
+      OwnedPolygonMesh bent = input;
+      for (std::size_t i = 0; i < bent.coordinates.size(); i += 3)
+        bent.coordinates[i + 2] +=
+            0.3 * std::sin(2 * bent.coordinates[i] + bent.coordinates[i + 1]);
+      FairOptions options;
+      options.pad_size = size;
+      options.relative_residual = 1e-11;
+      Monitor monitor;
+      Report report;
+      Stopwatch watch(report, monitor);
+      FairingContext run(bent.view(), options, monitor, watch, report);
+      Array<double> x;
+      run.solve(run.basis(), false, watch, report, x);
+      ThinPlateSolver& system = run.system();
+      const GridLevel& grid = run.finest();
+      for (Index v = 0; v < run.mesh().input_vertices; ++v)
+        for (std::size_t a = 0; a < 3; ++a)
+          EXPECT_EQ(x[3 * std::size_t(v) + a],
+                    run.basis().working[std::size_t(v)][Eigen::Index(a)]);
+      Pads pads = *system.pads();
+      pads.set_level(grid);
+      std::vector<double> forces(3 * grid.size()), loads(3 * grid.size(), 0.0);
+      apply_thin_plate(grid, system.shared().double_rows, pads.rows(), {}, run.workers(),
+                       system.shared().double_slots, x.data(), forces.data());
+      pads.add_loads(system.loads(), loads.data());
+      double largest = 0, left = 0;
+      for (std::size_t i = 0; i < loads.size(); ++i) {
+        largest = std::max(largest, std::abs(loads[i]));
+        left = std::max(left, std::abs(forces[i] - loads[i]));
+      }
+      EXPECT_TRUE(report.levels.back().converged);
+      EXPECT_LE(report.levels.back().pad_force, 1e-4);
+      EXPECT_GT(largest, 0);
+      EXPECT_LT(left, 1e-3 * largest);
+    }
+}
+
+}  // namespace
+}  // namespace fairing::test

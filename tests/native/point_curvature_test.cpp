@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One ring at a time: the second fundamental form, the divided differences and angles behind it.
+#include "curvature/point_curvature.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "stencil/angle.h"
+#include "stencil/fit.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(PointCurvature, StaysExactWhereTheAreaHasItsFloor) {
+  // A star: triangles obtuse at its near points, so that the circumcentric area is negative.
+  const double radius = 1.5;
+  SurfaceChart chart;
+  for (const bool cells : {false, true}) {  // near points as the far corners of quads, too
+    std::vector<Vec3> offset;
+    std::vector<std::uint8_t> far;
+    for (int j = 0; j < 10; ++j) {
+      const double turn = 2 * pi * j / 10, reach = j % 2 ? 0.05 : 0.7;
+      offset.push_back(radius * Vec3(std::sin(reach) * std::cos(turn),
+                                     std::sin(reach) * std::sin(turn), std::cos(reach) - 1));
+      far.push_back(cells && j % 2);
+    }
+    double barycentric = 0;
+    for (std::size_t j = 0; j < 10 && !cells; ++j)
+      barycentric += offset[j].cross(offset[(j + 1) % 10]).norm() / 6;
+    const PointCurvature c = point_curvature({offset, far}, chart);
+    EXPECT_NEAR(c.trace, -2 / radius, 1e-12);
+    EXPECT_NEAR(std::hypot(c.trace_free[0], c.trace_free[1]), 0, 1e-11);
+    EXPECT_LT((c.normal - Vec3::UnitZ()).norm(), 1e-13);
+    EXPECT_NEAR(c.area, cells ? c.area : 0.1 * barycentric, 1e-14);
+  }
+}
+
+TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
+  // Quads along and around; the first neighbour lies along the axis, then half-way between, then
+  // around.
+  const double radius = 2, step = 0.01;
+  const auto ring = [&](int first) {
+    std::vector<Vec3> offset;
+    for (int j = first; j < first + 8; ++j) {
+      const double along[] = {1, 1, 0, -1, -1, -1, 0, 1}, around[] = {0, 1, 1, 1, 0, -1, -1, -1};
+      const double angle = step * around[j % 8] / radius;
+      offset.push_back(
+          {radius * (std::cos(angle) - 1), -radius * std::sin(angle), step * along[j % 8]});
+    }
+    return offset;
+  };
+  SurfaceChart chart;
+  for (int first = 0; first < 3; ++first) {
+    std::vector<std::uint8_t> far;
+    for (int j = 0; j < 8; ++j) far.push_back((j + first) % 2);
+    const PointCurvature c = point_curvature({ring(first), far}, chart);
+    const double part = 1 / (radius * std::numbers::sqrt2);
+    EXPECT_NEAR(c.trace, -1 / radius, 1e-5);
+    EXPECT_NEAR(c.trace_free[0], first == 0 ? part : first == 1 ? 0 : -part, 1e-5) << first;
+    EXPECT_NEAR(std::abs(c.trace_free[1]), first == 1 ? part : 0, 1e-5) << first;
+    EXPECT_NEAR(std::abs(c.normal.x()), 1, 1e-6);
+    EXPECT_NEAR(c.area, step * step, 1e-6 * step);
+    EXPECT_NEAR(c.density(), 1 / (radius * radius), 1e-5);
+    EXPECT_NEAR(chart.ring[0].y(), 0, 1e-15);
+  }
+}
+
+TEST(PointCurvature, ChartIsTheExponentialMap) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> vary(-0.2, 0.2);
+  SurfaceChart chart;
+  for (int valence = 3; valence <= 12; ++valence) {
+    std::vector<Vec3> offset;
+    for (int j = 0; j < valence; ++j) {
+      const double angle = 2 * pi * (j + vary(random)) / valence;
+      offset.push_back((1 + vary(random)) *
+                       Vec3(std::cos(angle), std::sin(angle), 0.8 + vary(random)));
+    }
+    const std::vector<std::uint8_t> far(offset.size(), 0);
+    point_curvature({offset, far}, chart);
+    std::vector<double> before{0};
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+      const Vec3 &a = offset[j], &b = offset[(j + 1) % offset.size()];
+      before.push_back(before.back() + std::acos(a.dot(b) / (a.norm() * b.norm())));
+    }
+    ASSERT_EQ(chart.ring.size(), offset.size());
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+      const double angle = before[j] * 2 * pi / before.back();
+      EXPECT_LT((chart.ring[j] - offset[j].norm() * Vec2(std::cos(angle), std::sin(angle))).norm(),
+                1e-13)
+          << valence;
+    }
+  }
+}
+
+TEST(Hessian, IsTheFitsHessian) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> vary(-0.3, 0.3);
+  for (const double skew : {1.0, 0.1, 20.0})
+    for (int valence = 3; valence <= 40; ++valence)
+      for (int trial = 0; trial < 10; ++trial) {
+        Chart chart;
+        std::vector<double> f;
+        for (int j = 0; j < valence; ++j) {
+          const double angle = 2 * pi * (j + vary(random)) / valence,
+                       radius = 0.01 * (1 + vary(random));
+          chart.ring.push_back(Vec2(skew * radius * std::cos(angle), radius * std::sin(angle)));
+          f.push_back(vary(random));
+        }
+        Coefficients expected = Coefficients::Zero();
+        const FitRows rows = fit(chart);
+        for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
+        const Vec3 found = fitted_hessian(chart.ring, f);
+        EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * rows.bottomRows(3).norm())
+            << valence << " " << skew;
+      }
+}
+
+TEST(Hessian, IsTheFitsHessianOnConics) {
+  // Points on a conic through the origin, and regular rings, do not determine a quadratic, or only
+  // just.
+  for (const int valence : {3, 4, 5, 6, 8}) {
+    Chart chart;
+    std::vector<double> f;
+    for (int j = 0; j < valence; ++j) {
+      const double angle = 2 * pi * j / valence;
+      const Vec2 p(std::cos(angle), std::sin(angle));
+      chart.ring.push_back(
+          valence < 6 ? p : Vec2(p.x(), 0.3 * p.x() * p.x() + (j % 2 ? 0.0 : p.x() * 0.5)));
+      f.push_back(std::sin(3.0 * j));
+    }
+    Coefficients expected = Coefficients::Zero();
+    const FitRows rows = fit(chart);
+    for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
+    const Vec3 found = fitted_hessian(chart.ring, f);
+    EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * (1 + expected.norm())) << valence;
+  }
+}
+
+TEST(Angle, AgreesWithTheLibrary) {
+  for (int k = 0; k <= 1000; ++k) {
+    const double angle = pi * k / 1000;
+    EXPECT_NEAR(angle_of(2.5 * std::sin(angle), 2.5 * std::cos(angle), 2.5), angle, 2e-14) << k;
+  }
+  for (int k = -300; k <= 300; ++k) {
+    double cosine, sine;
+    small_turn(0.01 * k, cosine, sine);
+    EXPECT_NEAR(cosine, std::cos(0.01 * k), 3e-16);
+    EXPECT_NEAR(sine, std::sin(0.01 * k), 3e-16);
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fits and charts.
+#include <gtest/gtest.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "level_settings.h"
+#include "stencil/fit.h"
+
+namespace fairing::test {
+namespace {
+
+Chart random_ring(int valence, std::mt19937& random, double skew = 1) {
+  std::uniform_real_distribution<double> vary(-0.3, 0.3);
+  Chart chart;
+  for (int j = 0; j < valence; ++j) {
+    const double angle = 2 * pi * (j + vary(random)) / valence, radius = 1 + vary(random);
+    chart.ring.push_back(Vec2(skew * radius * std::cos(angle), radius * std::sin(angle)));
+  }
+  return chart;
+}
+
+// The fit of a quadratic with these coefficients, as an error relative to them.
+double fit_error(const Chart& chart, const Coefficients& c) {
+  const FitRows rows = fit(chart);
+  Coefficients found = Coefficients::Zero();
+  for (std::size_t j = 0; j < chart.ring.size(); ++j)
+    found += rows.col(Eigen::Index(j)) * basis(chart.ring[j]).dot(c);
+  return (found - c).norm() / c.norm();
+}
+
+TEST(Fit, BasisIsOrthonormalOnHessians) {
+  // f = 1/2 p^T H p: the last three coefficients' squares add up to |H|^2.
+  const double uu = 0.7, uv = -0.4, vv = 1.9, u = 0.3, v = -1.1;
+  Coefficients c;
+  c << 0, 0, (uu + vv) / std::sqrt(2), (uu - vv) / std::sqrt(2), std::sqrt(2) * uv;
+  EXPECT_NEAR(basis({u, v}).dot(c), 0.5 * uu * u * u + uv * u * v + 0.5 * vv * v * v, 1e-15);
+  EXPECT_NEAR(c.squaredNorm(), uu * uu + 2 * uv * uv + vv * vv, 1e-14);
+}
+
+TEST(Fit, IsExactOnQuadratics) {
+  std::mt19937 random(3);
+  for (int valence = 5; valence <= 40; ++valence)
+    for (int trial = 0; trial < 20; ++trial)
+      EXPECT_LT(fit_error(random_ring(valence, random), Coefficients::Random()), 1e-9) << valence;
+}
+
+TEST(Fit, IsExactOnQuadraticsOverSkewedRings) {
+  std::mt19937 random(4);
+  for (const double skew : {1e-4, 0.01, 0.1, 10.0, 1e3})
+    for (const int valence : {6, 8, 12}) {
+      // In round coordinates the ring is as good as any; scale the coefficients so that all of them
+      // count.
+      Coefficients c;
+      c << 1 / skew, 1, (1 / skew / skew + 1) / std::sqrt(2), (1 / skew / skew - 1) / std::sqrt(2),
+          std::sqrt(2) / skew;
+      EXPECT_LT(fit_error(random_ring(valence, random, skew), c), 1e-8) << skew << " " << valence;
+    }
+}
+
+TEST(Fit, FewNeighboursMeasureTheLaplacian) {
+  std::mt19937 random(5);
+  Coefficients round;
+  round << 0.3, -0.8, 1, 0, 0;
+  for (const int valence : {3, 4})
+    for (int trial = 0; trial < 50; ++trial)
+      EXPECT_LT(fit_error(random_ring(valence, random), round), 1e-11);
+  // Valence 3 knows no trace-free part; at valence 4 it has one row, and agrees with the data.
+  EXPECT_LT(fit(random_ring(3, random)).bottomRows(2).norm(), 1e-11);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Chart chart = random_ring(4, random);
+    const FitRows rows = fit(chart);
+    const Eigen::JacobiSVD<Dense> svd(rows.bottomRows(2));
+    EXPECT_LT(svd.singularValues()(1), 1e-10 * svd.singularValues()(0));
+    Eigen::Matrix<double, 4, 5> a;
+    for (int j = 0; j < 4; ++j) a.row(j) = basis(chart.ring[std::size_t(j)]).transpose();
+    EXPECT_LT((a * rows - Dense::Identity(4, 4)).norm(), 1e-9);  // it interpolates
+  }
+}
+
+TEST(Fit, OpenRingsFitTheirGradient) {
+  std::mt19937 random(6);
+  Coefficients linear;
+  linear << 0.3, -0.8, 0, 0, 0;
+  for (int valence = 2; valence <= 9; ++valence) {
+    Chart chart = random_ring(2 * valence, random);
+    chart.ring.resize(std::size_t(valence));
+    chart.closed = false;
+    EXPECT_LT(fit_error(chart, linear), 1e-9) << valence;
+    EXPECT_TRUE(fit(chart).allFinite());
+  }
+}
+
+double turning(const Chart& chart) {
+  double sum = 0;
+  for (std::size_t j = 0; j < chart.ring.size(); ++j) {
+    const Vec2 &a = chart.ring[j], &b = chart.ring[(j + 1) % chart.ring.size()];
+    sum += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+  return sum;
+}
+
+TEST(Charts, GoRoundOnce) {
+  for (const double exponent : {0.0, 0.5, 1.0})
+    for (const auto& [name, mesh] : all_meshes()) {
+      SCOPED_TRACE(name);
+      const ChartMaker charts(mesh, {.exponent = exponent});
+      for (Index v = 0; v < mesh.vertex_count(); ++v)
+        EXPECT_NEAR(mesh.interior(v) ? turning(charts.vertex(v)) : 2 * pi, 2 * pi, 1e-12);
+      for (Index e = 0; e < Index(mesh.edges.size()); ++e)
+        EXPECT_NEAR(mesh.edges[std::size_t(e)].boundary() ? 2 * pi : turning(charts.edge(e)),
+                    2 * pi, 1e-12);
+      for (Index f = 0; f < Index(mesh.faces.size()); ++f)
+        EXPECT_NEAR(turning(charts.face(f)), 2 * pi, 1e-12);
+    }
+}
+
+TEST(Charts, SharesAddUpToTheArea) {
+  // A control vertex, the points of an edge and those of a face share the metric's area between
+  // them.
+  for (const auto& [name, mesh] : all_meshes()) {
+    SCOPED_TRACE(name);
+    const ChartMaker charts(mesh, {.exponent = 1});
+    const std::vector<FlatFace> flat = flatten(mesh, 1);
+    for (const int n : {1, 2, 4, 8}) {
+      double area = 0, expected = 0;
+      for (Index v = 0; v < mesh.vertex_count(); ++v)
+        if (!mesh.ring(v).empty()) area += charts.vertex(v).area;
+      for (Index e = 0; e < Index(mesh.edges.size()); ++e) area += (n - 1) * charts.edge(e).area;
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        area += double(interior_size(mesh.faces[f].quad(), n)) * charts.face(Index(f)).area;
+        expected += flat[f].area;
+      }
+      EXPECT_NEAR(area / n / n, expected, 1e-12 * expected) << n;
+    }
+  }
+}
+
+TEST(Charts, SpaceTheRowsOfAnEdgeAlike) {
+  // Else a function with a slope along the edge has a twist that grows with the level.
+  for (const ChartKind kind : {ChartKind::exponential, ChartKind::tangent})
+    for (const double blend : {1.0, 0.3})
+      for (const auto& [name, mesh] : all_meshes()) {
+        SCOPED_TRACE(name);
+        const ChartMaker charts(mesh, {.kind = kind, .exponent = 0.5, .blend = blend});
+        for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
+          const Chart chart = charts.edge(e);
+          const EdgeRingLanes ring(mesh, e);
+          for (int lane = 0; lane < 3; ++lane)
+            for (int j = 0; j < ring.size; ++j)
+              for (int k = 0; k < ring.size; ++k) {
+                if (ring.lane[j] != lane || ring.lane[k] != lane) continue;
+                const int steps = ring.at[j] - ring.at[k];  // forward along the edge
+                const Vec2 moved = chart.ring[std::size_t(j)] - chart.ring[std::size_t(k)];
+                EXPECT_LT((moved - steps * chart.ring[0]).norm(), 1e-13) << e << " lane " << lane;
+              }
+        }
+      }
+}
+
+TEST(Charts, UniformChartIsRegular) {
+  const ControlMesh mesh = control(shaken(bipyramid(7)));
+  const Chart chart = ChartMaker(mesh, {.exponent = 0}).vertex(0);
+  ASSERT_EQ(chart.ring.size(), 7u);
+  for (std::size_t j = 0; j < 7; ++j) {
+    EXPECT_NEAR(chart.ring[j].norm(), chart.ring[0].norm(), 1e-14);
+    EXPECT_NEAR(chart.ring[j].dot(chart.ring[(j + 1) % 7]) / chart.ring[j].squaredNorm(),
+                std::cos(2 * pi / 7), 1e-13);
+  }
+  const ControlMesh quads = control(shaken(torus(5, 4)));
+  const Chart cross = ChartMaker(quads, {.exponent = 0}).vertex(3);
+  ASSERT_EQ(cross.ring.size(), 8u);
+  for (std::size_t j = 0; j < 8; ++j)
+    EXPECT_NEAR(cross.ring[j].norm(), j % 2 ? std::sqrt(2) : 1, 1e-13);
+}
+
+TEST(Charts, BlendEndsAtItsTwoCharts) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    SCOPED_TRACE(name);
+    const ChartMaker plain(mesh, {.exponent = 0.7}), one(mesh, {.exponent = 0.7, .blend = 1}),
+        zero(mesh, {.exponent = 0.7, .blend = 0}), uniform(mesh, {.exponent = 0});
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.ring(v).empty()) continue;
+      const Chart a = plain.vertex(v), b = one.vertex(v), c = zero.vertex(v), d = uniform.vertex(v);
+      double mean_a = 0, mean_c = 0;
+      for (std::size_t j = 0; j < a.ring.size(); ++j) {
+        EXPECT_EQ(a.ring[j], b.ring[j]);
+        mean_a += a.ring[j].norm();
+        mean_c += c.ring[j].norm();
+      }
+      EXPECT_NEAR(mean_a, mean_c, 1e-12 * mean_a);  // the uniform chart at the chart's mean radius
+      const double scale = c.ring[0].norm() / d.ring[0].norm();
+      for (std::size_t j = 0; j < a.ring.size(); ++j)
+        for (std::size_t k = 0; k < j; ++k)
+          EXPECT_NEAR((c.ring[j] - c.ring[k]).norm(), scale * (d.ring[j] - d.ring[k]).norm(),
+                      1e-12);
+    }
+  }
+}
+
+TEST(Charts, TangentPlaneSeesAFlatMeshAsItIs) {
+  const ControlMesh mesh = control(mixed_grid(4, 4));
+  const ChartMaker tangent(mesh, {.kind = ChartKind::tangent}), plane(mesh, {.exponent = 1});
+  const auto expect_congruent = [](const Chart& a, const Chart& b) {
+    ASSERT_EQ(a.ring.size(), b.ring.size());
+    for (std::size_t j = 0; j < a.ring.size(); ++j) {
+      EXPECT_NEAR(a.ring[j].norm(), b.ring[j].norm(), 1e-13);
+      EXPECT_NEAR((a.ring[j] - a.ring[0]).norm(), (b.ring[j] - b.ring[0]).norm(), 1e-13);
+    }
+    EXPECT_NEAR(a.area, b.area, 1e-13);
+  };
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    expect_congruent(tangent.vertex(v), plane.vertex(v));
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e)
+    expect_congruent(tangent.edge(e), plane.edge(e));
+}
+
+}  // namespace
+}  // namespace fairing::test

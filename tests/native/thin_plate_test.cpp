@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate's K in all its forms against the one that is written down from charts and fits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "level_settings.h"
+#include "thin_plate/level.h"
+#include "thin_plate/matrix.h"
+#include "thin_plate/operator.h"
+#include "transfer/quadratic.h"
+
+namespace fairing::test {
+namespace {
+
+// K over all points from charts and fits, with rings found by walking around cells.
+Dense reference_stiffness(const Setting& s) {
+  const double scale = double(s.grid.n()) * s.grid.n();
+  Dense k = Dense::Zero(Eigen::Index(s.grid.size()), Eigen::Index(s.grid.size()));
+  const RingWalker walker(cells(s.grid));
+  visit_fits(s.grid, walker, s.charts, [&](const ReferenceFit& fit) {
+    if (fit.chart.ring.empty()) return;
+    ASSERT_EQ(fit.ring.size(), fit.chart.ring.size());
+    Dense g = Dense::Zero(3, k.cols());
+    for (std::size_t j = 0; j < fit.ring.size(); ++j) {
+      const Eigen::Vector3d column = fit.rows.col(Eigen::Index(j)).tail<3>();
+      g.col(fit.ring[j].point) += column;
+      g.col(fit.centre) -= column;
+    }
+    // Only the columns of the ring are set; the product below is still fine on these small levels.
+    std::vector<Index> points{fit.centre};
+    for (const auto& r : fit.ring) points.push_back(r.point);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (const Index a : points)
+      for (const Index b : points) k(a, b) += scale * fit.chart.area * g.col(a).dot(g.col(b));
+  });
+  return k;
+}
+
+Dense assembled(const Setting& s, const Unknowns& unknowns, const VertexWeights& weights = {}) {
+  Workers workers(1);
+  return Dense(assemble_thin_plate(s.grid, s.stencils, unknowns, weights, workers).matrix);
+}
+
+TEST(Assembly, IsTheMatrixOfChartsAndFits) {
+  for (const ChartOptions& options :
+       {ChartOptions{}, ChartOptions{.exponent = 1}, ChartOptions{.exponent = 0},
+        ChartOptions{.blend = 0.4}, ChartOptions{.kind = ChartKind::tangent, .exponent = 1}})
+    on_all(
+        2,
+        [](const Setting& s, Workers&) {
+          const Dense expected = reference_stiffness(s), actual = assembled(s, all_points(s.mesh));
+          EXPECT_LT((actual - expected).norm(), 1e-11 * expected.norm() + 1e-300);
+        },
+        options);
+}
+
+TEST(Assembly, KnowsConstants) {
+  on_all(2, [](const Setting& s, Workers&) {
+    const Dense k = assembled(s, all_points(s.mesh));
+    EXPECT_LT((k * Dense::Ones(k.cols(), 1)).norm(), 1e-12 * k.norm() + 1e-300);
+  });
+}
+
+TEST(ThinPlate, AppliesTheAssembledMatrix) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Dense all = assembled(s, all_points(s.mesh));
+    const ThinPlateRows<double> rows(s.mesh, s.stencils);
+    const ThinPlateRows<float> narrow(s.mesh, s.stencils);
+    ElementSlots<double> slots = poisoned<double>(s.grid);
+    ElementSlots<float> narrow_slots = poisoned<float>(s.grid);
+    const Points x = random_points(s.grid.size());
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      Points y = random_points(s.grid.size(), 2);  // what it holds before must not matter
+      apply_thin_plate(s.grid, rows, unknowns, {}, workers, slots, x.data(), y.data());
+      const Points expected = masked(s.grid, unknowns, all * x);
+      EXPECT_LT((y - expected).norm(), 1e-12 * all.norm() * x.norm() + 1e-300) << choice;
+
+      const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> xf = x.cast<float>();
+      Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> yf = xf;
+      apply_thin_plate(s.grid, narrow, unknowns, {}, workers, narrow_slots, xf.data(), yf.data());
+      EXPECT_LT((yf.cast<double>() - expected).norm(), 1e-5 * all.norm() * x.norm() + 1e-300)
+          << choice;
+    }
+  });
+}
+
+TEST(ThinPlate, IsTheAssembledSystemOnItsUnknowns) {
+  on_all(2, [](const Setting& s, Workers& workers) {
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      VertexWeights weights(std::size_t(s.mesh.vertex_count()), 0.0);
+      for (std::size_t v = 0; v < weights.size(); v += 3) weights[v] = 0.5 + double(v);
+      const AssembledSystem system =
+          assemble_thin_plate(s.grid, s.stencils, unknowns, weights, workers);
+      const Dense k(system.matrix);
+      EXPECT_EQ((k - k.transpose()).norm(), 0);
+      const ThinPlateRows<double> rows(s.mesh, s.stencils);
+      ElementSlots<double> slots = poisoned<double>(s.grid);
+      const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
+      Points y(x.rows(), 3);
+      apply_thin_plate(s.grid, rows, unknowns, weights, workers, slots, x.data(), y.data());
+      Points small(k.cols(), 3);
+      for (std::size_t r = 0; r < system.unknown_points.size(); ++r)
+        small.row(Eigen::Index(r)) = x.row(system.unknown_points[r]);
+      const Points expected = k * small;
+      const Array<float> diagonal =
+          thin_plate_diagonal(s.grid, s.stencils, unknowns, weights, workers, slots);
+      ASSERT_EQ(diagonal.size(), s.grid.size());
+      std::vector<std::uint8_t> known(s.grid.size(), 1);
+      for (std::size_t r = 0; r < system.unknown_points.size(); ++r) {
+        const Index p = system.unknown_points[r];
+        known[std::size_t(p)] = 0;
+        EXPECT_LT((y.row(p) - expected.row(Eigen::Index(r))).norm(), 1e-12 * k.norm() * x.norm());
+        const double entry = k(Eigen::Index(r), Eigen::Index(r));
+        EXPECT_NEAR(diagonal[std::size_t(p)], entry > 0 ? entry : 1.0, 1e-6 * std::max(entry, 1e-6))
+            << p;
+      }
+      for (std::size_t p = 0; p < known.size(); ++p)
+        if (known[p]) {
+          EXPECT_EQ(y.row(Eigen::Index(p)).norm(), 0);
+          EXPECT_EQ(diagonal[p], 1.0f);
+        }
+    }
+  });
+}
+
+TEST(ThinPlate, EnergyIsTheQuadraticForm) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Dense k = assembled(s, all_points(s.mesh));
+    const Points x = random_points(s.grid.size());
+    const double expected = (x.transpose() * k * x).trace();
+    EXPECT_NEAR(thin_plate_energy(s.grid, s.stencils, workers, x.data()), expected,
+                1e-12 * expected + 1e-300);
+  });
+}
+
+Unknowns inside_region(const ControlMesh& mesh, Unknowns u) {
+  for (std::size_t v = 0; v < u.vertex.size(); ++v)
+    if (mesh.vertex_part(Index(v)) != RegionPart::inside) u.vertex[v] = 0;
+  for (std::size_t e = 0; e < u.edge.size(); ++e)
+    if (mesh.edge_part(Index(e)) != RegionPart::inside) u.edge[e] = 0;
+  for (const RegionPart place : mesh.region.face) u.face.push_back(place == RegionPart::inside);
+  return u;
+}
+
+// K in rows, weights of control vertices and the diagonal included, against the assembled system.
+void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers) {
+  const std::unique_ptr<PlateMatrix> rows =
+      PlateMatrix::make(s.grid, s.stencils, unknowns, workers);
+  ASSERT_EQ(rows != nullptr, s.grid.n() > 1);
+  if (!rows) return;
+  VertexWeights weights(std::size_t(s.mesh.vertex_count()), 0.0);
+  for (const bool weighted : {true, false}) {
+    for (std::size_t v = 0; v < weights.size(); v += 2)
+      weights[v] = weighted ? 0.5 + double(v) : 0.0;
+    rows->set_weights(weights);
+    const AssembledSystem system =
+        assemble_thin_plate(s.grid, s.stencils, unknowns, weights, workers);
+    const Dense k(system.matrix);
+    const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
+    Points small(k.cols(), 3), expected = Points::Zero(x.rows(), 3);
+    for (Eigen::Index r = 0; r < k.cols(); ++r)
+      small.row(r) = x.row(system.unknown_points[std::size_t(r)]);
+    small = k * small;
+    Array<float> diagonal(s.grid.size(), 1.0f);
+    for (Eigen::Index r = 0; r < k.cols(); ++r) {
+      const Index p = system.unknown_points[std::size_t(r)];
+      expected.row(p) = small.row(r);
+      if (k(r, r) > 0) diagonal[std::size_t(p)] = float(1 / k(r, r));
+    }
+    const FloatPoints xf = with_room(x);
+    FloatPoints product = FloatPoints::Constant(x.rows(), 3, 1e30f);
+    rows->visit_products(xf.data(), workers,
+                         [&](std::size_t first, std::size_t count, const float* part) {
+                           std::copy_n(part, 3 * count, product.data() + 3 * first);
+                         });
+    EXPECT_LT((product.cast<double>() - expected).norm(), 1e-6 * k.norm() * x.norm() + 1e-300);
+    const Array<float> inverse = rows->inverse_diagonal(workers);
+    for (std::size_t p = 0; p < diagonal.size(); ++p)
+      EXPECT_NEAR(inverse[p], diagonal[p], 1e-5 * diagonal[p]);
+  }
+}
+
+TEST(Rows, AreTheAssembledSystem) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    for (int choice = 0; choice < 3; ++choice)
+      expect_rows_of(s, some_points(s.mesh, choice), workers);
+  });
+}
+
+TEST(Rows, AreTheAssembledSystemBesideJoints) {
+  Workers workers(1);
+  for (const RegionContinuity joint :
+       {RegionContinuity::position, RegionContinuity::tangent, RegionContinuity::curvature})
+    for (const OwnedPolygonMesh& owned :
+         {shaken(grid(4, 3)), shaken(mixed_grid(4, 3)), shaken(torus(6, 5))}) {
+      FeatureOptions features;
+      features.region = {true, {0, 1, 2, 5}, joint};
+      const ControlMesh mesh = control(owned, features);
+      for (int level = 1; level <= 3; ++level) {
+        SCOPED_TRACE(int(joint) * 10 + level);
+        const ChartOptions options;
+        const Setting s{mesh, GridLevel(mesh, level), ChartMaker(mesh, options),
+                        make_stencils(mesh, options, workers)};
+        expect_rows_of(s, inside_region(mesh, some_points(mesh, 1)), workers);
+      }
+    }
+}
+
+// Rows finished where they are computed, against one application and then the vectors.
+TEST(Rows, RelaxAsApplicationsDo) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Unknowns unknowns = some_points(s.mesh, 1);
+    ThinPlateShared shared(s.mesh, s.stencils, unknowns, {}, workers);
+    ThinPlateLevel level(shared, s.grid);
+    const auto start = [&](unsigned seed) {
+      return with_room(masked(s.grid, unknowns, random_points(s.grid.size(), seed)));
+    };
+    for (const bool adds : {false, true}) {
+      FloatPoints d = start(1), x[2] = {start(2), start(2)}, r[2] = {start(3), start(3)},
+                  next[2] = {start(4), start(4)};
+      level.relax({d.data(), next[0].data(), x[0].data(), r[0].data(), 0.3f, 0.7f, adds}, workers);
+      level.LevelOperator::relax(
+          {d.data(), next[1].data(), x[1].data(), r[1].data(), 0.3f, 0.7f, adds}, workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      EXPECT_EQ((r[0] - r[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      EXPECT_EQ((next[0] - next[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      level.subtract_product(d.data(), next[0].data(), x[0].data(), workers);
+      level.LevelOperator::subtract_product(d.data(), next[1].data(), x[1].data(), workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+    }
+  });
+}
+
+TEST(Passes, AnyNumberOfThreadsGivesTheSameBits) {
+  OwnedPolygonMesh mesh = shaken(mixed_grid(30, 24));
+  const ControlMesh big = control(mesh, {.crease_edges = {{40, 41}, {41, 42}}});
+  const Unknowns unknowns = some_points(big, 1);
+  const GridLevel coarse(big, 1), fine(big, 2);
+  std::vector<std::vector<char>> results;
+  for (const int threads : {1, 2, 4, 8}) {
+    Workers workers(threads);
+    const Stencils stencils = make_stencils(big, {}, workers);
+    const ThinPlateRows<double> rows(big, stencils);
+    const ThinPlateRows<float> narrow(big, stencils);
+    ElementSlots<double> slots;
+    ElementSlots<float> narrow_slots;
+    const Points x = random_points(coarse.size()), z = random_points(fine.size());
+    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> zf = z.cast<float>();
+    std::vector<char> bytes;
+    const auto keep = [&](const void* data, std::size_t size) {
+      const char* c = static_cast<const char*>(data);
+      bytes.insert(bytes.end(), c, c + size);
+    };
+    Points kz = z, px = z, rz = x;
+    auto kzf = zf;
+    apply_thin_plate(fine, rows, unknowns, {}, workers, slots, z.data(), kz.data());
+    keep(kz.data(), sizeof(double) * std::size_t(kz.size()));
+    apply_thin_plate(fine, narrow, unknowns, {}, workers, narrow_slots, zf.data(), kzf.data());
+    keep(kzf.data(), sizeof(float) * std::size_t(kzf.size()));
+    prolong(coarse, fine, stencils, &unknowns, workers, slots, x.data(), px.data());
+    keep(px.data(), sizeof(double) * std::size_t(px.size()));
+    restrict_to(coarse, fine, stencils, unknowns, workers, slots, z.data(), rz.data());
+    keep(rz.data(), sizeof(double) * std::size_t(rz.size()));
+    const double energy = thin_plate_energy(fine, stencils, workers, z.data());
+    keep(&energy, sizeof energy);
+    const Array<float> diagonal = thin_plate_diagonal(fine, stencils, unknowns, {}, workers, slots);
+    keep(diagonal.data(), sizeof(float) * diagonal.size());
+    results.push_back(bytes);
+  }
+  for (std::size_t k = 1; k < results.size(); ++k) EXPECT_TRUE(results[k] == results[0]) << k;
+}
+
+}  // namespace
+}  // namespace fairing::test

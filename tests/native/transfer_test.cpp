@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prolongation and restriction by passes and by rows.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "grid/linear.h"
+#include "level_settings.h"
+#include "thin_plate/operator.h"
+#include "transfer/quadratic.h"
+#include "transfer/quadratic_matrix.h"
+
+namespace fairing::test {
+namespace {
+
+// P over all points, from the text in transfer/quadratic.h.
+Dense reference_prolongation(const Setting& coarse, const GridLevel& fine) {
+  const GridLevel& grid = coarse.grid;
+  const auto size = Eigen::Index(grid.size());
+  Dense p = Dense::Zero(Eigen::Index(fine.size()), size);
+  const RingWalker walker(cells(grid));
+  // Where the fine points are: over coarse points, half-way along coarse edges, and in the middle
+  // of quad cells.
+  std::vector<Index> over(grid.size(), -1);
+  std::map<std::pair<Index, Index>, Index> along;
+  std::vector<Index> middle;
+  const int n = grid.n();
+  for (Index v = 0; v < grid.mesh().vertex_count(); ++v) over[std::size_t(v)] = v;
+  for (Index f = 0; f < Index(grid.mesh().faces.size()); ++f) {
+    const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+    const auto note = [&](int i, int j, int di, int dj) {
+      const int i2 = i + di, j2 = j + dj;
+      if (i2 < 0 || j2 < 0 || i2 > n || j2 > n || (!quad && i2 + j2 > n)) return;
+      const Index a = grid.face_point(f, i, j), b = grid.face_point(f, i2, j2);
+      along[{std::min(a, b), std::max(a, b)}] = fine.face_point(f, i + i2, j + j2);
+    };
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= (quad ? n : n - j); ++i) {
+        over[std::size_t(grid.face_point(f, i, j))] = fine.face_point(f, 2 * i, 2 * j);
+        note(i, j, 1, 0);
+        note(i, j, 0, 1);
+        if (!quad) note(i, j, -1, 1);
+      }
+  }
+  for (Index f = 0; f < Index(grid.mesh().faces.size()); ++f) {
+    const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+    if (quad) {
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) middle.push_back(fine.face_point(f, 2 * i + 1, 2 * j + 1));
+    } else {
+      middle.insert(middle.end(), std::size_t(n) * std::size_t(n), -1);  // as cells() lists them
+    }
+  }
+  for (std::size_t c = 0; c < over.size(); ++c)
+    if (over[c] >= 0) p(over[c], Eigen::Index(c)) = 1;
+
+  visit_fits(grid, walker, coarse.charts, [&](const ReferenceFit& fit) {
+    const auto opposite = [&](std::size_t j) {
+      return fit.ring[(j + fit.ring.size() / 2) % fit.ring.size()].point;
+    };
+    for (std::size_t j = 0; j < fit.ring.size(); ++j) {
+      const RingNeighbour& r = fit.ring[j];
+      const Index to =
+          r.cell >= 0 ? middle.at(std::size_t(r.cell))
+                      : along.at({std::min(fit.centre, r.point), std::max(fit.centre, r.point)});
+      const double weight = r.cell >= 0 ? 0.25 : 0.5;
+      const auto add = [&](Index from, double w) { p(to, from) += weight * w; };
+      if (fit.chart.ring.empty()) {
+        if (r.cell >= 0) {
+          for (const Index corner : walker.all()[std::size_t(r.cell)]) add(corner, 0.25);
+        } else {
+          add(fit.centre, 0.5);
+          add(r.point, 0.5);
+        }
+      } else if (fit.in_face) {
+        add(r.point, 0.375);
+        add(fit.centre, 0.75);
+        add(opposite(j), -0.125);
+      } else {
+        const Coefficients at = basis(0.5 * fit.chart.ring[j]);
+        add(fit.centre, 1);
+        for (std::size_t m = 0; m < fit.ring.size(); ++m) {
+          const double w = at.dot(fit.rows.col(Eigen::Index(m)));
+          add(fit.ring[m].point, w);
+          add(fit.centre, -w);
+        }
+      }
+    }
+  });
+  return p;
+}
+
+TEST(Transfer, ProlongsByTheFitsOfCharts) {
+  for (const ChartOptions& options : {ChartOptions{}, ChartOptions{.exponent = 1}})
+    on_all(
+        2,
+        [](const Setting& s, Workers& workers) {
+          const GridLevel fine(s.mesh, s.grid.level() + 1);
+          const Dense p = reference_prolongation(s, fine);
+          ElementSlots<double> slots = poisoned<double>(fine);
+          const Points x = random_points(s.grid.size());
+          Points y = random_points(fine.size(), 2);
+          prolong<double>(s.grid, fine, s.stencils, nullptr, workers, slots, x.data(), y.data());
+          EXPECT_LT((y - p * x).norm(),
+                    2e-7 * p.norm() * x.norm());  // the rows are stored in single precision
+        },
+        options);
+}
+
+TEST(Transfer, RestrictionIsTheTranspose) {
+  on_all(2, [](const Setting& s, Workers& workers) {
+    const GridLevel fine(s.mesh, s.grid.level() + 1);
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      ElementSlots<double> slots = poisoned<double>(fine);
+      const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
+      const Points y = masked(fine, unknowns, random_points(fine.size(), 2));
+      Points px = random_points(fine.size(), 3), py = random_points(s.grid.size(), 4);
+      prolong(s.grid, fine, s.stencils, &unknowns, workers, slots, x.data(), px.data());
+      restrict_to(s.grid, fine, s.stencils, unknowns, workers, slots, y.data(), py.data());
+      EXPECT_EQ((px - masked(fine, unknowns, px)).norm(), 0);
+      EXPECT_EQ((py - masked(s.grid, unknowns, py)).norm(), 0);
+      for (int a = 0; a < 3; ++a)  // each coordinate is a vector of its own
+        EXPECT_NEAR(px.col(a).dot(y.col(a)), x.col(a).dot(py.col(a)),
+                    1e-13 * (1 + px.norm() * y.norm()))
+            << choice;
+    }
+  });
+}
+
+TEST(Transfer, KeepsConstants) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const GridLevel fine(s.mesh, s.grid.level() + 1);
+    ElementSlots<double> slots;
+    Points x(Eigen::Index(s.grid.size()), 3), y(Eigen::Index(fine.size()), 3);
+    x.rowwise() = Eigen::RowVector3d(1, -0.3, 1e6);
+    prolong<double>(s.grid, fine, s.stencils, nullptr, workers, slots, x.data(), y.data());
+    const auto vertices = s.mesh.vertex_count();
+    for (Eigen::Index p = 0; p < y.rows(); ++p) {
+      if (p < vertices && s.mesh.ring(Index(p)).empty()) continue;
+      EXPECT_EQ(y(p, 0), 1.0) << p;
+      EXPECT_NEAR(y(p, 1), -0.3, 2e-16) << p;
+      EXPECT_NEAR(y(p, 2), 1e6, 4e-10) << p;
+    }
+  });
+}
+
+double quadratic(double u, double v) {
+  return 0.3 + u - 2 * v + 0.7 * u * u - 1.3 * u * v + 0.4 * v * v;
+}
+
+TEST(Transfer, KeepsQuadraticsInThePlane) {
+  // Sheared squares (quads), and the same cut along their diagonals: charts of exponent 1 are the
+  // plane itself.
+  Workers workers(1);
+  for (const bool cut : {false, true}) {
+    OwnedPolygonMesh mesh = grid(4, 4);
+    for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3)
+      mesh.coordinates[i] += 0.4 * mesh.coordinates[i + 1];
+    if (cut) mesh = triangulated(mesh);
+    const ControlMesh plane = control(mesh);
+    const Stencils stencils = make_stencils(plane, {.exponent = 1}, workers);
+    const auto values = [&](const GridLevel& grid) {
+      Points x(Eigen::Index(grid.size()), 3);
+      refine_linearly(grid, plane.positions, x.data());
+      for (Eigen::Index p = 0; p < x.rows(); ++p) x(p, 2) = quadratic(x(p, 0), x(p, 1));
+      return x;
+    };
+    for (int level = 0; level < 4; ++level) {
+      const GridLevel coarse(plane, level), fine(plane, level + 1);
+      const Points x = values(coarse), expected = values(fine);
+      Points y(expected.rows(), 3);
+      ElementSlots<double> slots;
+      prolong<double>(coarse, fine, stencils, nullptr, workers, slots, x.data(), y.data());
+      int checked = 0;
+      for (Eigen::Index p = 0; p < y.rows(); ++p) {
+        // Only points whose parents carry fits: a cell away from the boundary.
+        const double v = expected(p, 1), u = expected(p, 0) - 0.4 * v,
+                     cell = 1.0 / coarse.n() - 1e-9;
+        if (std::min(u, v) < cell || std::max(u, v) > 4 - cell) continue;
+        EXPECT_NEAR(y(p, 2), expected(p, 2), 3e-6) << "level " << level << " point " << p;
+        ++checked;
+      }
+      EXPECT_GT(checked, 8);
+      const ThinPlateRows<double> rows(plane, stencils);
+      Points residual(x.rows(), 3);
+      const Unknowns unknowns = some_points(plane, 2);
+      ElementSlots<double> passes;
+      apply_thin_plate(coarse, rows, unknowns, {}, workers, passes, x.data(), residual.data());
+      for (Eigen::Index p = 0; p < x.rows(); ++p) {
+        // K annihilates polynomials of degree two (their Hessian is constant) two rings inside.
+        const double v = x(p, 1), u = x(p, 0) - 0.4 * v, cell = 2.0 / coarse.n() - 1e-9;
+        if (std::min(u, v) < cell || std::max(u, v) > 4 - cell) continue;
+        EXPECT_NEAR(residual(p, 2), 0, 1e-9) << "level " << level << " point " << p;
+      }
+    }
+  }
+}
+
+TEST(Rows, TransferAsPassesDo) {
+  on_all(2, [](const Setting& s, Workers& workers) {
+    const GridLevel fine(s.mesh, s.grid.level() + 1);
+    const double rounding = 2e-7 * (1 + reference_prolongation(s, fine).norm());
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      const std::unique_ptr<AssembledTransfer> rows =
+          AssembledTransfer::make(s.grid, fine, s.stencils, unknowns, workers);
+      ASSERT_NE(rows, nullptr);
+      ElementSlots<double> slots = poisoned<double>(fine);
+      const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
+      const Points y = masked(fine, unknowns, random_points(fine.size(), 2));
+      Points px(y.rows(), 3), ry(x.rows(), 3);
+      prolong(s.grid, fine, s.stencils, &unknowns, workers, slots, x.data(), px.data());
+      restrict_to(s.grid, fine, s.stencils, unknowns, workers, slots, y.data(), ry.data());
+      FloatPoints up = with_room(Points::Zero(y.rows(), 3)),
+                  down = with_room(Points::Zero(x.rows(), 3));
+      rows->prolong<3>(with_room(x).data(), workers, up.data());
+      rows->restrict_to<3>(with_room(y).data(), workers, down.data());
+      EXPECT_LT((of_room(up, fine.size()) - px).norm(), rounding * (1 + x.norm())) << choice;
+      EXPECT_LT((of_room(down, s.grid.size()) - ry).norm(), rounding * (1 + y.norm())) << choice;
+
+      // The same rows for one number a point.
+      Eigen::VectorXf one = with_room(x).col(1), result = Eigen::VectorXf::Zero(y.rows());
+      rows->prolong<1>(one.data(), workers, result.data());
+      EXPECT_LT((result.cast<double>() - px.col(1)).norm(), rounding * (1 + x.norm()));
+      one = with_room(y).col(2);
+      result = Eigen::VectorXf::Zero(x.rows());
+      rows->restrict_to<1>(one.data(), workers, result.data());
+      EXPECT_LT((result.cast<double>() - ry.col(2)).norm(), rounding * (1 + y.norm()));
+    }
+  });
+}
+
+// A block whose rows name more columns than 16-bit indices can tell apart is refused.
+TEST(Rows, RefuseTooManyColumnsInOnePlace) {
+  Workers workers(1);
+  for (const Index columns : {65000, 66000}) {
+    AssembledMatrix matrix(2, std::size_t(columns));
+    const auto writer = [&] {
+      return [columns](Index row, RowBuilder& builder) {
+        for (Index c = row; c < columns; c += 2) builder.add(c, 1.0);
+      };
+    };
+    EXPECT_EQ(matrix.build(workers, writer), columns == 65000);
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test

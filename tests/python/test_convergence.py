@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The solver solves: residual, iterations, and that no other surface has less energy."""
+
+import butterfly
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import output_faces
+
+# Iterations at the finest of L = 3, 4, 5 (2, 3, 4 of the larger meshes), as measured and a little
+# over.
+ITERATIONS = {
+    ("icosahedron", 0.5): 9,
+    ("icosahedron", 1.0): 9,
+    ("cube", 0.5): 16,
+    ("cube", 1.0): 16,
+    ("torus_triangles", 0.5): 19,
+    ("torus_quads", 0.5): 23,
+    ("creature", 0.5): 27,
+    ("three_handles", 0.5): 22,
+    ("wavy_patch", 0.5): 13,
+    ("random_hull", 0.5): 25,
+}
+TRIANGLES = ("icosahedron", "octahedron", "tetrahedron", "random_hull", "torus_triangles")
+
+
+def thin_plate(result) -> float:
+    return result.report["energy"]["result"]["thin_plate"]
+
+
+def uniform_energy(points, faces) -> float:
+    """Thin-plate energy of a mesh as it is, in the metric in which every edge has length one."""
+    return thin_plate(df.fair(points, faces, 0, metric_exponent=0.0))
+
+
+@pytest.mark.parametrize("name", sorted(meshes.ALL))
+@pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0])
+def test_converges(name, exponent):
+    report = df.fair(*meshes.ALL[name](), 3, metric_exponent=exponent).report
+    finest = report["levels"][-1]
+    assert finest["level"] == 3 and finest["converged"] and report["converged"]
+    assert finest["residual"] <= 1e-8
+    assert finest["iterations"] <= 40
+    assert report["iterations"] == [level["iterations"] for level in report["levels"]]
+    assert report["residuals"] == [level["residual"] for level in report["levels"]]
+    assert not report["warnings"]
+
+
+@pytest.mark.parametrize("name, exponent", sorted(ITERATIONS))
+def test_iterations_are_few_and_do_not_grow(name, exponent):
+    vertices, faces = meshes.ALL[name]()
+    options = {"metric_exponent": exponent, "measure": False, "threads": 1}
+    top = 4 if len(faces) > 50 else 5
+    counts = [
+        df.fair(vertices, faces, levels, **options).report["iterations"][-1]
+        for levels in range(top - 2, top + 1)
+    ]
+    assert max(counts) <= ITERATIONS[name, exponent], counts
+    assert counts[2] <= counts[1] + 3, counts
+
+
+@pytest.mark.parametrize("count", [8, 64, 360])
+def test_high_valence_converges(count):
+    vertices, faces = meshes.fan(count)
+    result = df.fair(vertices, faces, 2)
+    assert result.report["converged"] and result.report["levels"][-1]["iterations"] <= 40
+    assert np.abs(result.vertices).max() < 1.5
+
+
+@pytest.mark.parametrize("residual", [1e-2, 1e-4, 1e-6, 1e-10, 1e-12])
+def test_stops_where_it_is_told(residual):
+    finest = df.fair(*meshes.creature(), 3, relative_residual=residual).report["levels"][-1]
+    assert finest["residual"] <= residual and finest["converged"]
+
+
+def test_says_when_it_stops_early():
+    report = df.fair(*meshes.creature(), 3, max_iterations=2).report
+    assert not report["converged"] and not report["levels"][-1]["converged"]
+    assert [w["code"] for w in report["warnings"]] == ["NOT_CONVERGED"]
+
+
+@pytest.mark.parametrize("name", ["creature", "random_hull", "wavy_patch", "roof"])
+def test_a_looser_solution_is_near_the_tight_one(name):
+    """And never of lower energy."""
+    vertices, faces = meshes.ALL[name]()
+    tight = df.fair(vertices, faces, 3, relative_residual=1e-12)
+    for residual in (1e-2, 1e-4, 1e-6, 1e-8):
+        loose = df.fair(vertices, faces, 3, relative_residual=residual)
+        assert thin_plate(loose) >= thin_plate(tight) * (1 - 1e-12)
+        assert np.abs(loose.vertices - tight.vertices).max() <= 10 * residual
+
+
+@pytest.mark.parametrize("name", sorted(set(meshes.ALL) - {"grid", "single_triangle"}))
+@pytest.mark.parametrize("exponent", [0.5, 1.0])
+def test_result_beats_prediction_beats_polyhedron(name, exponent):
+    energy = df.fair(*meshes.ALL[name](), 3, metric_exponent=exponent).report["energy"]
+    result, prediction, polyhedron = (
+        energy[k]["thin_plate"] for k in ("result", "prediction", "polyhedron")
+    )
+    assert 0 < result < prediction < polyhedron
+
+
+@pytest.mark.parametrize("name", TRIANGLES)
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_energy_is_least(name, levels):
+    """Read as a control mesh of its own, the uniform result has the energy reported, and no slope
+    to roll down.
+
+    With every control edge of length one the refined mesh is its own control metric, four times as
+    large in all.
+    """
+    vertices, faces = meshes.ALL[name]()
+    result = df.fair(vertices, faces, levels, metric_exponent=0.0, relative_residual=1e-12)
+    here = uniform_energy(result.vertices, result.triangles)
+    assert 4**levels * here == pytest.approx(thin_plate(result), rel=1e-10)
+    random = np.random.default_rng(levels)
+    for size in (1e-3, 1e-1):
+        step = size * random.normal(size=result.vertices.shape)
+        step[: len(vertices)] = 0
+        ahead, behind = (
+            uniform_energy(result.vertices + s * step, result.triangles) for s in (1, -1)
+        )
+        assert min(ahead, behind) > here
+        assert abs(ahead - behind) <= 1e-7 * (ahead + behind - 2 * here) + 1e-11 * here
+
+
+@pytest.mark.parametrize("name", TRIANGLES)
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_energy_is_never_above_butterflys(name, levels):
+    vertices, faces = points, triangles = meshes.ALL[name]()
+    for _ in range(levels):
+        points, triangles = butterfly.refine(points, triangles)
+    result = df.fair(vertices, faces, levels, metric_exponent=0.0)
+    assert thin_plate(result) < 4**levels * uniform_energy(points, triangles)
+
+
+def test_butterfly_is_what_it_says():
+    """It converges as its order says, and so does not lose by a mistake of ours."""
+
+    def error(count):
+        points, faces = meshes.cut_quads(meshes.torus(count, count))
+        finer, _ = butterfly.refine(points, faces)
+        return np.abs(np.hypot(np.hypot(finer[:, 0], finer[:, 1]) - 2**0.5, finer[:, 2]) - 1).max()
+
+    assert error(24) < error(12) / 12 < 1e-3
+    points, faces = meshes.icosahedron()
+    for _ in range(3):
+        points, faces = butterfly.refine(points, faces)
+    radius = np.linalg.norm(points, axis=1)
+    assert radius.min() > 0.93 and radius.max() < 1.03
+
+
+def test_uniform_fairing_is_linear_in_the_vertices():
+    """With uniform charts the whole map is linear, and the energy a quadratic form: the
+    parallelogram law."""
+    one, faces = meshes.cut_quads(meshes.torus())
+    two = np.random.default_rng(0).normal(size=one.shape)
+    runs = [
+        df.fair(v, faces, 2, metric_exponent=0.0, relative_residual=1e-12)
+        for v in (one, 0.1 * two, one + 0.1 * two, one - 0.1 * two)
+    ]
+    a, b, total, difference = (r.vertices for r in runs)
+    assert np.abs(total - (a + b)).max() < 1e-9 and np.abs(difference - (a - b)).max() < 1e-9
+    ea, eb, et, ed = (thin_plate(r) for r in runs)
+    assert et + ed == pytest.approx(2 * (ea + eb), rel=1e-9)
+
+
+def test_the_papers_icosahedron():
+    """Row one of mathematics.md, section 6: exponent 1, level 4."""
+    result = df.fair(*meshes.icosahedron(), 4, metric_exponent=1.0)
+    radius = np.linalg.norm(result.vertices, axis=1)
+    curvature = result.report["energy"]["result"]["total_curvature"] / (8 * np.pi)
+    assert curvature == pytest.approx(1.154, abs=0.01)
+    assert radius.min() == pytest.approx(0.952, abs=0.002) and radius.max() == pytest.approx(
+        1.0, abs=1e-12
+    )
+
+
+@pytest.mark.parametrize("name", ["icosahedron", "random_hull"])
+def test_total_curvature_of_a_sphere_is_its_own(name):
+    """Eight pi, to ever more digits on finer meshes with all vertices on it."""
+    points, faces = meshes.ALL[name]()
+    errors = []
+    for _ in range(4):
+        measured = df.fair(points, faces, 0).report["energy"]["result"]["total_curvature"]
+        errors.append(abs(measured / (8 * np.pi) - 1))
+        points, faces = butterfly.refine(points, faces)
+        points = points / np.linalg.norm(points, axis=1)[:, None]
+    assert (
+        all(fine < 0.4 * coarse for coarse, fine in zip(errors, errors[1:])) and errors[-1] < 0.01
+    )
+
+
+@pytest.mark.parametrize("name", ["random_hull", "torus_triangles", "wavy_patch", "cube"])
+def test_the_papers_own_method_comes_down_to_the_same(name):
+    """Refine and smooth: more sweeps, less energy, never less than the solution's."""
+    vertices, faces = meshes.ALL[name]()
+    least = thin_plate(df.fair(vertices, faces, 2))
+    energies = [
+        thin_plate(df.fair(vertices, faces, 2, method="back_leg", sweeps=sweeps))
+        for sweeps in (1, 5, 50, 2000)
+    ]
+    assert energies == sorted(energies, reverse=True)
+    assert energies[0] > 1.001 * least and energies[2] < energies[1]
+    assert energies[-1] == pytest.approx(least, rel=1e-6) and energies[-1] >= least * (1 - 1e-9)
+
+
+def test_smoother_degree_does_not_change_the_solution():
+    vertices, faces = meshes.creature()
+    plain = df.fair(vertices, faces, 3, relative_residual=1e-11).vertices
+    for degree in (2, 6, 12):
+        other = df.fair(vertices, faces, 3, relative_residual=1e-11, smoother_degree=degree)
+        assert np.abs(other.vertices - plain).max() < 1e-8
+        assert other.report["levels"][-1]["smoother_degree"] == degree
+
+
+def test_report_has_what_is_promised():
+    report = df.fair(*meshes.creature(), 3).report
+    assert [level["level"] for level in report["levels"]] == [1, 2, 3]
+    assert all(level["unknowns"] < level["points"] for level in report["levels"])
+    assert {"check", "hierarchy", "curves", "solve", "measure", "output"} <= set(report["seconds"])
+    assert all(seconds >= 0 for seconds in report["seconds"].values())
+    assert set(report["energy"]) == {"result", "polyhedron", "prediction"}
+    assert report["threads"] >= 1 and report["constraint_rounds"] == 0
+
+
+def test_measuring_may_be_left_out():
+    with_it, without = (df.fair(*meshes.creature(), 2, measure=m) for m in (True, False))
+    assert np.array_equal(with_it.vertices, without.vertices)
+    assert np.isnan(without.report["energy"]["result"]["total_curvature"])
+    assert thin_plate(with_it) == thin_plate(without)
+
+
+def test_nothing_to_solve():
+    """Level 0, and a mesh on whose every point the data decide: no iterations, no residual."""
+    for vertices, faces in (meshes.icosahedron(), meshes.cube()):
+        report = df.fair(vertices, faces, 0).report
+        assert report["converged"] and report["residuals"] == [0.0] and report["iterations"] == [0]
+
+
+def test_residual_where_the_polyhedron_is_the_solution():
+    """A box whose every edge is a crease: flat sides, nothing to improve; the residual is no
+    2.7."""
+    vertices, faces = meshes.cube()
+    edges = np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)])
+    finest = df.fair(vertices, faces, 2, crease_edges=edges).report["levels"][-1]
+    assert finest["converged"] and finest["residual"] <= 1e-8
+
+
+def test_pole_of_360_in_forty_iterations():
+    assert df.fair(*meshes.closed_pole(360), 2).report["levels"][-1]["iterations"] <= 40
+
+
+def test_control_mesh_itself_is_the_polyhedron():
+    for name in sorted(meshes.ALL):
+        result = df.fair(*meshes.ALL[name](), 0)
+        energy = result.report["energy"]
+        assert energy["result"] == energy["polyhedron"] == energy["prediction"] or name in (
+            "dodecahedron",
+            "house",
+        )
+        assert len(output_faces(result)) >= len(meshes.ALL[name]()[1])

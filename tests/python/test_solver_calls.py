@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solver as an object: its arrays and properties, rebase, errors, cancelling, calls from several
+threads."""
+
+import threading
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from moving import icosphere, moved, sample, slid
+
+CURVED = ["total_curvature", "minimum_variation"]
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+def test_any_number_of_threads_gives_the_same_bits(energy):
+    vertices, faces = icosphere(2)
+    way = [vertices, *(slid(vertices, 0.01, k) for k in range(3)), vertices]
+    one, three = (
+        [solver.solve(positions).vertices for positions in way]
+        for solver in (df.Solver(vertices, faces, 3, energy, threads=t) for t in (1, 3))
+    )
+    for a, b in zip(one, three, strict=True):
+        assert np.array_equal(a, b)
+
+
+def test_arrays_are_kept_or_new():
+    vertices, faces = sample("dodecahedron")
+    solver = df.Solver(vertices, faces, 2)
+    first, second = solver.solve(), solver.solve(moved(vertices))
+    assert first.vertices is not second.vertices and first.vertices.flags.writeable
+    assert not np.shares_memory(first.vertices, second.vertices)
+    for own, other in [
+        *zip(first.faces, second.faces, strict=True),
+        (first.triangle_polygon, second.triangle_polygon),
+        (first.quad_polygon, second.quad_polygon),
+        (first.crease_edges, second.crease_edges),
+    ]:
+        assert own is other and not own.flags.writeable
+
+
+def test_measuring():
+    vertices, faces = sample("icosahedron")
+    silent = df.Solver(vertices, faces, 2)
+    for _ in range(2):
+        energy = silent.solve(moved(vertices)).report["energy"]
+        assert all(np.isnan(value) for surface in energy.values() for value in surface.values())
+    loud = df.Solver(vertices, faces, 2, measure=True)
+    assert loud.solve().report["energy"] == df.fair(vertices, faces, 2).report["energy"]
+    energy = loud.solve(moved(vertices)).report["energy"]
+    assert energy["result"]["thin_plate"] < energy["polyhedron"]["thin_plate"]
+
+
+def test_properties_and_bytes():
+    vertices, faces = icosphere(2)
+    solver = df.Solver(vertices, faces, 3, "thin_plate")
+    assert (solver.control_vertices, solver.levels, solver.energy) == (
+        len(vertices),
+        3,
+        "thin_plate",
+    )
+    assert repr(solver) == "Solver(162 control vertices, levels=3, energy='thin_plate')"
+    built = solver.bytes
+    solver.solve()
+    for k in range(2):
+        points = len(solver.solve(slid(vertices, 0.01, k)).vertices)
+    kept = solver.bytes
+    assert built > 24 * points and kept > built
+    for k in range(2, 5):
+        solver.solve(slid(vertices, 0.01, k))
+    assert solver.bytes == kept  # nothing grows
+
+
+@pytest.mark.parametrize(
+    "name", ["icosahedron", "torus_triangles", "wavy_patch", "single_triangle"]
+)
+def test_rebase_is_another_solver(name):
+    vertices, faces = sample(name)
+    solver = df.Solver(vertices, faces, 2)
+    solver.solve()
+    other = moved(vertices, 0.1)
+    solver.rebase(other)
+    result = solver.solve()
+    assert not result.report["warm"]
+    assert np.array_equal(result.vertices, df.fair(other, faces, 2).vertices)
+    back = solver.solve(vertices)
+    assert back.report["warm"]
+    assert (
+        np.abs(back.vertices - df.fair(other, faces, 2, shapes=[vertices]).shapes[0]).max() < 1e-6
+    )
+
+
+def test_rebase_keeps_the_faces_where_other_ones_would_be_chosen():
+    vertices, faces = sample("creature")
+    solver = df.Solver(vertices, faces, 2, crease_angle=1.0)
+    first = solver.solve()
+    other = moved(vertices, 0.1)
+    assert len(df.fair(other, faces, 2).faces[0]) != len(first.faces[0])  # more quads are warped
+    solver.rebase(other)
+    result = solver.solve()
+    assert result.faces[0] is first.faces[0] and result.crease_edges is first.crease_edges
+    assert np.array_equal(result.vertices[: len(vertices)], other) and result.report["converged"]
+
+
+@pytest.mark.parametrize("energy", CURVED)
+def test_rebase_of_steps(energy):
+    vertices, faces = icosphere(1)
+    solver = df.Solver(vertices, faces, 2, energy)
+    solver.solve()
+    other = slid(vertices, 0.1, 3)
+    solver.rebase(other)
+    assert np.array_equal(solver.solve().vertices, df.fair(other, faces, 2, energy).vertices)
+
+
+def test_rebase_refuses_bad_geometry_and_goes_on():
+    vertices, faces = sample("icosahedron")
+    solver = df.Solver(vertices, faces, 2)
+    before = solver.solve().vertices
+    flat = vertices.copy()
+    a, b, c = faces[0]
+    flat[c] = (flat[a] + flat[b]) / 2
+    with pytest.raises(df.FairingError) as caught:
+        solver.rebase(flat)
+    assert caught.value.code == "DEGENERATE_FACE" and 0 in caught.value.elements
+    result = solver.solve()
+    assert result.report["warm"] and np.abs(result.vertices - before).max() < 1e-8
+
+
+def test_bad_positions_are_named_and_change_nothing():
+    vertices, faces = sample("icosahedron")
+    solver = df.Solver(vertices, faces, 2)
+    first = solver.solve().vertices
+    bad = vertices.copy()
+    bad[3, 1] = np.nan
+    bad[7, 0] = np.inf
+    for call in (solver.solve, solver.rebase):
+        with pytest.raises(df.FairingError) as caught:
+            call(bad)
+        assert (caught.value.code, caught.value.elements) == ("NON_FINITE", [3, 7])
+        for wrong in (vertices[:-1], vertices[:, :2], "abc"):
+            with pytest.raises(df.FairingError) as caught:
+                call(wrong)
+            assert caught.value.code == "BAD_SHAPE"
+    result = solver.solve()
+    assert result.report["warm"] and np.abs(result.vertices - first).max() < 1e-8
+
+
+def test_construction_refuses_what_fair_refuses():
+    vertices, faces = sample("icosahedron")
+    for settings, code in [
+        ({"method": "back_leg"}, "BAD_OPTION"),
+        ({"levels": 99}, "BAD_OPTION"),
+        ({"energy": "least"}, "BAD_OPTION"),
+        ({"memory_limit": 1000}, "TOO_LARGE"),
+        ({"interpolation": "approximate", "weights": np.zeros(len(vertices))}, "UNDERDETERMINED"),
+    ]:
+        with pytest.raises(df.FairingError) as caught:
+            df.Solver(vertices, faces, **settings)
+        assert caught.value.code == code
+    with pytest.raises(df.FairingError) as caught:
+        df.Solver(vertices, [*faces, faces[0]])
+    assert caught.value.code == "DUPLICATE_FACE"
+    for name in ("shapes", "progress", "monitor", "colour"):
+        with pytest.raises(TypeError, match=name):
+            df.Solver(vertices, faces, **{name: None})
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
+def test_a_cancelled_call_is_followed_by_a_fresh_one(energy):
+    vertices, faces = sample("creature")
+    solver = df.Solver(vertices, faces, 3, energy)
+    expected = solver.solve().vertices
+    monitor = df.Monitor()
+    monitor.cancel()
+    with pytest.raises(df.FairingError) as caught:
+        solver.solve(moved(vertices), monitor=monitor)
+    assert caught.value.code == "CANCELLED"
+    result = solver.solve(vertices)
+    assert not result.report["warm"] and np.array_equal(result.vertices, expected)
+
+
+def test_progress_and_monitor_hear_of_a_solve():
+    vertices, faces = sample("creature")
+    solver = df.Solver(vertices, faces, 3)
+    for _ in range(2):
+        calls, monitor = [], df.Monitor()
+        solver.solve(
+            moved(vertices), progress=lambda *call, calls=calls: calls.append(call), monitor=monitor
+        )
+        assert calls[-1] == (1.0, "done")
+        assert [fraction for fraction, _ in calls] == sorted(fraction for fraction, _ in calls)
+        assert (monitor.fraction, monitor.phase) == (1.0, "done")
+
+
+def test_an_exception_of_progress_comes_out_and_the_solver_goes_on():
+    vertices, faces = sample("creature")
+    solver = df.Solver(vertices, faces, 2)
+
+    def fail(fraction, phase):
+        raise KeyError(phase)
+
+    with pytest.raises(KeyError):
+        solver.solve(progress=fail)
+    assert np.array_equal(solver.solve().vertices[: len(vertices)], vertices)
+
+
+def test_one_call_at_a_time():
+    vertices, faces = sample("icosahedron")
+    solver = df.Solver(vertices, faces, 2)
+    codes = []
+
+    def again(fraction, phase):
+        for call in (solver.solve, lambda: solver.rebase(vertices)):
+            thread = threading.Thread(target=attempt, args=(call,))
+            thread.start()
+            thread.join()
+
+    def attempt(call):
+        try:
+            call()
+        except df.FairingError as error:
+            codes.append(error.code)
+
+    solver.solve(progress=again)
+    assert codes and set(codes) == {"BUSY"}
+    assert solver.solve().report["warm"]
+
+
+def test_the_caller_s_arrays_may_change_and_go():
+    vertices, faces = sample("icosahedron")
+    own, ids = vertices.copy(), np.array(faces)
+    solver = df.Solver(own, ids, 2)
+    expected = solver.solve().vertices
+    own[:] = np.nan
+    ids[:] = 0
+    assert np.abs(solver.solve().vertices - expected).max() < 1e-8
+    solver.rebase(vertices)
+    assert np.array_equal(solver.solve().vertices, expected)
+
+
+def test_isolated_vertices_and_no_levels():
+    vertices, faces = sample("cube")
+    vertices = np.vstack([vertices, [9, 9, 9]])
+    for levels in (0, 1):
+        solver = df.Solver(vertices, faces, levels)
+        solver.solve()
+        shape = vertices + np.arange(9)[:, None] * [0.01, 0, 0.02]
+        result = solver.solve(shape)
+        assert np.array_equal(result.vertices[:9], shape)
+        assert result.report["warnings"][0]["code"] == "ISOLATED_VERTICES"
