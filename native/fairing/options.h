@@ -61,7 +61,7 @@ struct FairOptions {
   double epsilon = 0;
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
-  // this width (thin_plate/pads.h), as a share of the faces around the vertex; 0 to 1.
+  // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
   double pad_size = 0;
 
   // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.

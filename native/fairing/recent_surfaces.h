@@ -34,7 +34,7 @@ class RecentSurfaces {
 
   // The last surface, 3 numbers a point; to be overwritten by the next one before remember().
   Array<double>& surface() { return surface_; }
-  // The loads on its pads (thin_plate/pads.h), which change as it does but for translations; empty
+  // The loads on its pads (hold/pads.h), which change as it does but for translations; empty
   // without pads.
   std::vector<Vec3>& loads() { return loads_; }
   // surface() is that of these control positions.

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plate on pads: loads and surface in turn. B f = r says which loads take the point forces r
-// off the control vertices, with B = H^T Omega Phi and H the cardinal surfaces of K; it is close to
-// the hats' mass matrix M = Phi^T Omega Phi (measured: eigenvalues of M^-1 B from 0.2 to 1.3). So
-// the surface is solved for with the loads as they are, the forces that are left are read, loads
-// take the correction M^-1 r, and Anderson's acceleration [Walker and Ni 2011] makes of these
-// corrections what GMRES would.
-#include <Eigen/Dense>
+// The plate on pads: loads and surface in turn (hold/load_steps.h).
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
+#include "hold/load_steps.h"
 #include "parallel/reductions.h"
 #include "thin_plate/solver.h"
 
@@ -24,68 +18,12 @@ constexpr double first_ratio = 0.3;
 constexpr double coarse_force_tolerance = 2e-2;
 constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
 constexpr int most_corrections = 16;
-constexpr std::size_t depth = 6;
-constexpr double regularization = 1e-12;  // of the least squares' diagonal
 
 // A force on a control vertex that is one part in a hundred of the needle's leaves one part in a
 // hundred of its spot, which nobody sees; who asks for an exact surface gets exact loads.
 double force_tolerance(double relative_residual) {
   return std::clamp(10 * std::sqrt(relative_residual), 1e-6, 1e-2);
 }
-
-double dot(const Loads& a, const Loads& b) {
-  double sum = 0;
-  for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
-  return sum;
-}
-
-// Anderson's acceleration of f <- f + M^-1 r, in the norm of M.
-class LoadMixer {
- public:
-  explicit LoadMixer(const Pads& pads) : pads_(pads) {}
-
-  // The change of the loads from this correction, M^-1 forces, and the last few.
-  Loads change(const Loads& correction) {
-    Loads out = correction;
-    if (!last_.empty()) {
-      Pair pair{last_, last_change_, {}};
-      for (std::size_t v = 0; v < out.size(); ++v) pair.bent[v] = correction[v] - pair.bent[v];
-      pads_.multiply_mass(pair.bent, pair.product);
-      pairs_.push_back(std::move(pair));
-      if (pairs_.size() > depth) pairs_.pop_front();
-    }
-    if (!pairs_.empty()) {
-      const auto count = Eigen::Index(pairs_.size());
-      Eigen::MatrixXd gram(count, count);
-      Eigen::VectorXd right(count);
-      for (Eigen::Index a = 0; a < count; ++a) {
-        const Pair& pair = pairs_[std::size_t(a)];
-        right(a) = dot(pair.product, correction);
-        for (Eigen::Index b = 0; b < count; ++b)
-          gram(a, b) = dot(pair.product, pairs_[std::size_t(b)].bent);
-      }
-      gram.diagonal() *= 1 + regularization;
-      const Eigen::VectorXd share = gram.ldlt().solve(right);
-      if (share.allFinite())
-        for (Eigen::Index a = 0; a < count; ++a) {
-          const Pair& pair = pairs_[std::size_t(a)];
-          for (std::size_t v = 0; v < out.size(); ++v)
-            out[v] -= share(a) * (pair.bent[v] + pair.gone[v]);
-        }
-    }
-    last_ = correction;
-    last_change_ = out;
-    return out;
-  }
-
- private:
-  struct Pair {
-    Loads bent, gone, product;  // of the correction, of the loads; M times the former
-  };
-  const Pads& pads_;
-  std::deque<Pair> pairs_;
-  Loads last_, last_change_;
-};
 
 }  // namespace
 
@@ -95,15 +33,7 @@ void ThinPlateSolver::residual_on_pads(int level, const double* x, double* r) {
                    shared_.double_slots, x, r);
   for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
   pads_->add_loads(loads_, r);
-  take_forces(r);
-}
-
-void ThinPlateSolver::take_forces(double* r) {
-  for (std::size_t v = 0; v < forces_.size(); ++v) {
-    if (!pads_->under(v)) continue;
-    forces_[v] = -Eigen::Map<Vec3>(r + 3 * v);
-    std::fill(r + 3 * v, r + 3 * v + 3, 0.0);
-  }
+  take_forces<3>(*pads_, -1, r, forces_);
 }
 
 // Loads are densities and hardly change from level to level; what does is the hats' samples.
@@ -127,7 +57,7 @@ LevelReport ThinPlateSolver::solve_on_pads(int level, const PcgLimits& limits, d
   const bool keeps_forces = operators_[std::size_t(level - base_)]->single_precision_suffices();
   const double wanted =
       level < top() ? coarse_force_tolerance : force_tolerance(options_.relative_residual);
-  LoadMixer mixer(*pads_);
+  LoadSteps<3> steps(*pads_);
   Loads correction, product;
   LevelReport report;
   double before = 0, ratio = first_ratio, gain = 0;
@@ -150,10 +80,10 @@ LevelReport ThinPlateSolver::solve_on_pads(int level, const PcgLimits& limits, d
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     if (!solve.direct && !keeps_forces) residual_on_pads(level, x, r.data());
 
-    pads_->divide_by_mass(forces_, correction);
-    pads_->multiply_mass(loads_, product);
-    const double left = std::sqrt(std::max(0.0, dot(correction, forces_))),
-                 size = std::sqrt(std::max(0.0, dot(loads_, product)));
+    pads_->divide_by_mass<3>(forces_, correction);
+    pads_->multiply_mass<3>(loads_, product);
+    const double left = std::sqrt(std::max(0.0, dot<3>(correction, forces_))),
+                 size = std::sqrt(std::max(0.0, dot<3>(loads_, product)));
     report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
     double force_norm = 0;
     for (const Vec3& f : forces_) force_norm += f.squaredNorm();
@@ -169,7 +99,7 @@ LevelReport ThinPlateSolver::solve_on_pads(int level, const PcgLimits& limits, d
     whole = whole || settled || ratio * report.pad_force <= aim * wanted ||
             report.pad_corrections + 1 >= most_corrections;
     if (!settled) {
-      const Loads change = mixer.change(correction);
+      const Loads change = steps.change(correction);
       for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] += change[v];
       ++report.pad_corrections;
     }

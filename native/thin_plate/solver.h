@@ -11,7 +11,7 @@
 #include "parallel/monitor.h"
 #include "thin_plate/level.h"
 #include "thin_plate/options.h"
-#include "thin_plate/pads.h"
+#include "hold/pads.h"
 #include "transfer/level_transfer.h"
 
 namespace fairing {
@@ -108,7 +108,6 @@ class ThinPlateSolver {
   // On pads (solve_on_pads.cpp).
   LevelReport solve_on_pads(int level, const PcgLimits& limits, double* x);
   void residual_on_pads(int level, const double* x, double* r);
-  void take_forces(double* r);
   void start_loads(int level);
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,

@@ -18,7 +18,7 @@ ROOMS = (
     ("mesh",),
     ("grid",),
     ("stencil",),
-    ("curves",),
+    ("curves", "hold"),
     ("sparse",),
     ("transfer",),
     ("multigrid",),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pads: their hats and mass matrix, and what is left of the forces on a surface that stands on
 // them.
-#include "thin_plate/pads.h"
+#include "hold/pads.h"
 
 #include <gtest/gtest.h>
 
@@ -120,7 +120,7 @@ TEST(Pads, MassIsThatOfTheHats) {
       for (std::size_t c = 0; c < count; ++c) {
         if (!pads.under(c)) continue;
         unit[c] = Vec3(1, 0, 2);
-        pads.multiply_mass(unit, product);
+        pads.multiply_mass<3>(unit, product);
         for (std::size_t d = 0; d < count; ++d) {
           double mass = 0;
           for (std::size_t i = 0; i < grid.size(); ++i)
@@ -128,7 +128,7 @@ TEST(Pads, MassIsThatOfTheHats) {
           EXPECT_NEAR(product[d][0], mass, 1e-14);
           EXPECT_NEAR(product[d][2], 2 * mass, 1e-14);
         }
-        pads.divide_by_mass(product, back);
+        pads.divide_by_mass<3>(product, back);
         for (std::size_t d = 0; d < count; ++d) EXPECT_LT((back[d] - unit[d]).norm(), 1e-2);
         unit[c].setZero();
       }

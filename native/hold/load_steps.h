@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the loads on pads are found. B f = r says which loads take the point forces r off the control
+// vertices, with B = H^T Omega Phi and H the cardinal surfaces of K (1 at one control vertex, 0 at
+// the others); it is close to the hats' mass matrix M (measured: eigenvalues of M^-1 B from 0.2 to
+// 1.3). So a surface is solved for with the loads as they are, the forces that are left are read,
+// loads take the correction M^-1 r, and Anderson's acceleration [Walker and Ni 2011] makes of these
+// corrections what GMRES would.
+#pragma once
+
+#include <deque>
+
+#include "hold/pads.h"
+
+namespace fairing {
+
+template <int N>
+double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
+  double sum = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
+  return sum;
+}
+
+// Takes the forces off the rows of the control vertices on pads, where K x - Omega Phi f has left
+// them: forces_v <- sign r_v, and r_v <- 0.
+template <int N>
+void take_forces(const Pads& pads, double sign, double* r, LoadsOf<N>& forces) {
+  for (std::size_t v = 0; v < forces.size(); ++v) {
+    if (!pads.under(v)) continue;
+    for (std::size_t a = 0; a < N; ++a) {
+      forces[v][Eigen::Index(a)] = sign * r[N * v + a];
+      r[N * v + a] = 0;
+    }
+  }
+}
+
+// Anderson's acceleration of f <- f + M^-1 r, in the norm of M.
+template <int N>
+class LoadSteps {
+ public:
+  // `pads` must outlive it and keep its level.
+  explicit LoadSteps(const Pads& pads) : pads_(pads) {}
+
+  // The change of the loads from this correction, M^-1 r, and the last few.
+  LoadsOf<N> change(const LoadsOf<N>& correction);
+
+ private:
+  struct Pair {
+    LoadsOf<N> bent, gone, product;  // of the correction, of the loads; M times the former
+  };
+  const Pads& pads_;
+  std::deque<Pair> pairs_;
+  LoadsOf<N> last_, last_change_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hold/pads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Bounds of the eigenvalues of M over its diagonal, element by element [Wathen 1987]: triangles
+// have 1/2 … 2, quads 1/4 … 9/4; hats narrower than the faces lie within.
+constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
+constexpr int mass_steps = 12;  // each halves the error
+
+constexpr double least_share = 0.125;  // of the width asked for: narrower pads are points
+
+}  // namespace
+
+Pads::Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns,
+           double size, Workers& workers)
+    : mesh_(&mesh), workers_(&workers), size_(size), rows_(unknowns) {
+  const double exponent = charts.kind == ChartKind::tangent ? 1.0 : charts.exponent;
+  for (const FlatFace& flat : flatten(mesh, exponent)) area_.push_back(flat.area);
+  const auto vertices = std::size_t(mesh.vertex_count());
+  width_.assign(vertices, 0.0);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (unknowns.vertex[v] || !mesh.vertex_fit(Index(v)) ||
+        mesh.vertex_part(Index(v)) != RegionPart::inside)
+      continue;
+    width_[v] = size;
+    rows_.vertex[v] = 1;
+    rows_.any_vertex = true;
+    ++count_;
+  }
+  row_begin_.assign(vertices + 1, 0);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    Index neighbours = 0;
+    if (under(v))
+      for (const Spoke& spoke : mesh.ring(Index(v)))
+        neighbours += 1 + (spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad());
+    row_begin_[v + 1] = row_begin_[v] + neighbours;
+  }
+  column_.resize(std::size_t(row_begin_.back()));
+  value_.resize(column_.size());
+  diagonal_.resize(vertices);
+  total_.resize(vertices);
+}
+
+void Pads::narrow(std::size_t v, int halvings) {
+  if (!under(v)) return;
+  width_[v] = std::ldexp(width_[v], -halvings);
+  grid_ = nullptr;
+  if (width_[v] >= least_share * size_) return;
+  width_[v] = 0;
+  std::fill(value_.begin() + row_begin_[v], value_.begin() + row_begin_[v + 1], 0.0);
+  rows_.vertex[v] = 0;
+  rows_.any_vertex = --count_ > 0;
+}
+
+double Pads::hat(double lambda, std::size_t v) const {
+  return width_[v] > 0 ? std::max(0.0, 1 - (1 - lambda) / width_[v]) : 0.0;
+}
+
+Pads::RowHat Pads::row_hat(const Face& face, std::size_t corner, int j) const {
+  const auto v = std::size_t(face.vertex[corner]);
+  if (!under(v)) return {0, 0, 0, 0};
+  const double step = 1.0 / grid_->n(), inverse = 1 / width_[v];
+  const bool leftmost = corner == 0 || corner == 3;
+  if (face.quad())
+    return {hat(corner < 2 ? 1 - j * step : j * step, v), leftmost ? 1.0 : 0.0,
+            leftmost ? -step : step, inverse};
+  const double at[3] = {1 - j * step, 0, j * step}, slope[3] = {-step, step, 0};
+  return {1, at[corner], slope[corner], inverse};
+}
+
+double Pads::vertex_weight(std::size_t v, const double* weight) const {
+  if (weight) return weight[v];
+  double share = 0;
+  for (const Spoke& spoke : mesh_->ring(Index(v)))
+    if (spoke.face >= 0)
+      share += area_[std::size_t(spoke.face)] / mesh_->faces[std::size_t(spoke.face)].size;
+  return share / (double(grid_->n()) * grid_->n());
+}
+
+double Pads::metric_weight_of_edge_point(std::size_t e) const {
+  double share = 0;
+  for (const Index s : mesh_->edges[e].side)
+    if (s >= 0)
+      share += metric_weight_of_face_point(std::size_t(mesh_->sides[std::size_t(s)].face));
+  return share / 2;
+}
+
+double Pads::metric_weight_of_face_point(std::size_t f) const {
+  return (mesh_->faces[f].quad() ? 1 : 2) * area_[f] / (double(grid_->n()) * grid_->n());
+}
+
+void Pads::Element::add(double weight, const double* hats, int count) {
+  for (int a = 0; a < count; ++a) {
+    total[a] += weight * hats[a];
+    for (int b = 0; b < count; ++b) mass[a][b] += weight * hats[a] * hats[b];
+  }
+}
+
+std::vector<Pads::Element> Pads::elements_of_faces(const double* weight) const {
+  const int n = grid_->n();
+  std::vector<Element> elements(mesh_->faces.size());
+  workers_->for_parts(elements.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& face = mesh_->faces[f];
+      const double of_metric = metric_weight_of_face_point(f);
+      const double* own = weight ? weight + grid_->face_base(Index(f)) : nullptr;
+      for (int j = 1; j < n; ++j) {
+        stop_in_large_face(j);
+        RowHat row[4];
+        double hats[4];
+        for (int c = 0; c < face.size; ++c) row[c] = row_hat(face, std::size_t(c), j);
+        const int last = face.quad() ? n : n - j;
+        for (int i = 1; i < last; ++i) {
+          for (int c = 0; c < face.size; ++c) hats[c] = row[c](i);
+          elements[f].add(own ? *own++ : of_metric, hats, face.size);
+        }
+      }
+    }
+  });
+  return elements;
+}
+
+std::vector<Pads::Element> Pads::elements_of_edges(const double* weight) const {
+  const int n = grid_->n();
+  std::vector<Element> elements(mesh_->edges.size());
+  workers_->for_parts(
+      elements.size(), element_grain(n) * std::size_t(n), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+          const Edge& edge = mesh_->edges[e];
+          const auto a = std::size_t(edge.vertex[0]), b = std::size_t(edge.vertex[1]);
+          const double of_metric = metric_weight_of_edge_point(e);
+          const double* own = weight ? weight + grid_->edge_base(Index(e)) : nullptr;
+          for (int k = 1; k < n; ++k) {
+            const double lambda = double(k) / n, hats[2] = {hat(1 - lambda, a), hat(lambda, b)};
+            elements[e].add(own ? *own++ : of_metric, hats, 2);
+          }
+        }
+      });
+  return elements;
+}
+
+void Pads::set_level(const GridLevel& grid) {
+  if (grid_ == &grid && weight_.empty()) return;
+  grid_ = &grid;
+  weight_.clear();
+  fill_matrix();
+}
+
+void Pads::set_level(const GridLevel& grid, Array<double> weights) {
+  grid_ = &grid;
+  weight_ = std::move(weights);
+  fill_matrix();
+}
+
+void Pads::fill_matrix() {
+  const std::vector<Element> faces = elements_of_faces(weights()),
+                             edges = elements_of_edges(weights());
+  workers_->for_parts(width_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      diagonal_[v] = total_[v] = 0;
+      if (!under(v)) continue;
+      diagonal_[v] = total_[v] = vertex_weight(v, weights());
+      auto at = std::size_t(row_begin_[v]);
+      for (const Spoke& spoke : mesh_->ring(Index(v))) {
+        // The neighbour along the spoke shares the edge, and the faces on both of its sides.
+        const Edge& edge = mesh_->edges[std::size_t(spoke.edge)];
+        const Element& along = edges[std::size_t(spoke.edge)];
+        const int own = spoke.outward ? 0 : 1;
+        double shared = along.mass[0][1];
+        diagonal_[v] += along.mass[own][own];
+        total_[v] += along.total[own];
+        for (const Index s : edge.side) {
+          if (s < 0) continue;
+          const Side& side = mesh_->sides[std::size_t(s)];
+          const int next = (side.local + 1) % mesh_->faces[std::size_t(side.face)].size;
+          shared += faces[std::size_t(side.face)].mass[int(side.local)][next];
+        }
+        column_[at] = edge.vertex[1 - own];
+        value_[at++] = shared;
+        if (spoke.face < 0) continue;
+        const Face& face = mesh_->faces[std::size_t(spoke.face)];
+        const Element& inside = faces[std::size_t(spoke.face)];
+        const auto c = std::size_t(spoke.corner);
+        diagonal_[v] += inside.mass[c][c];
+        total_[v] += inside.total[c];
+        if (!face.quad()) continue;
+        column_[at] = face.vertex[(c + 2) % 4];
+        value_[at++] = inside.mass[c][(c + 2) % 4];
+      }
+    }
+  });
+}
+
+template <int N>
+void Pads::add_any(const LoadsOf<N>& loads, double* r) const {
+  const GridLevel& grid = *grid_;
+  const int n = grid.n();
+  const double* const weight = weights();
+  const auto add = [](double* to, double factor, const Eigen::Matrix<double, N, 1>& load) {
+    for (int a = 0; a < N; ++a) to[a] += factor * load[a];
+  };
+  for_each_index(*workers_, width_.size(), [&](std::size_t v) {
+    if (under(v)) add(r + N * v, vertex_weight(v, weight), loads[v]);
+  });
+  workers_->for_parts(n > 1 ? mesh_->edges.size() : 0, element_grain(n) * std::size_t(n),
+                      [&](std::size_t begin, std::size_t end) {
+                        for (std::size_t e = begin; e < end; ++e) {
+                          const auto a = std::size_t(mesh_->edges[e].vertex[0]),
+                                     b = std::size_t(mesh_->edges[e].vertex[1]);
+                          if (!under(a) && !under(b)) continue;
+                          const auto first = std::size_t(grid.edge_base(Index(e)));
+                          const double of_metric = metric_weight_of_edge_point(e);
+                          for (int k = 1; k < n; ++k) {
+                            const double lambda = double(k) / n;
+                            const std::size_t p = first + std::size_t(k) - 1;
+                            add(r + N * p, weight ? weight[p] : of_metric,
+                                hat(1 - lambda, a) * loads[a] + hat(lambda, b) * loads[b]);
+                          }
+                        }
+                      });
+  workers_->for_parts(
+      mesh_->faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+          const Face& face = mesh_->faces[f];
+          auto first = std::size_t(grid.face_base(Index(f)));
+          for (int j = 1; j < n; ++j) {
+            stop_in_large_face(j);
+            const int inside = std::max(0, (face.quad() ? n : n - j) - 1);
+            for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
+              RowHat row = row_hat(face, c, j);
+              if (row.factor == 0) continue;
+              const auto& load = loads[std::size_t(face.vertex[c])];
+              double* const to = r + N * first;
+              if (weight) {
+                for (int i = 0; i < inside; ++i)
+                  add(to + N * i, weight[first + std::size_t(i)] * row(i + 1), load);
+              } else {
+                row.factor *= metric_weight_of_face_point(f);
+                for (int i = 0; i < inside; ++i) add(to + N * i, row(i + 1), load);
+              }
+            }
+            first += std::size_t(inside);
+          }
+        }
+      });
+}
+
+void Pads::add_loads(const Loads& loads, double* r) const { add_any<3>(loads, r); }
+void Pads::add_loads(const NormalLoads& loads, double* r) const { add_any<1>(loads, r); }
+
+NormalLoads Pads::gather(const Array<double>& r) const {
+  const std::vector<Element> faces = elements_of_faces(r.data()),
+                             edges = elements_of_edges(r.data());
+  NormalLoads out(width_.size(), Eigen::Matrix<double, 1, 1>::Zero());
+  for_each_index(*workers_, width_.size(), [&](std::size_t v) {
+    if (!under(v)) return;
+    double sum = r[v];
+    for (const Spoke& spoke : mesh_->ring(Index(v))) {
+      sum += edges[std::size_t(spoke.edge)].total[spoke.outward ? 0 : 1];
+      if (spoke.face >= 0) sum += faces[std::size_t(spoke.face)].total[int(spoke.corner)];
+    }
+    out[v][0] = sum;
+  });
+  return out;
+}
+
+template <int N>
+void Pads::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
+  forces.resize(loads.size());
+  workers_->for_parts(loads.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      forces[v] = diagonal_[v] * loads[v];
+      for (auto k = std::size_t(row_begin_[v]); k < std::size_t(row_begin_[v + 1]); ++k)
+        forces[v] += value_[k] * loads[std::size_t(column_[k])];
+    }
+  });
+}
+
+// Chebyshev's semi-iteration on the diagonally scaled matrix.
+template <int N>
+void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads) const {
+  constexpr double middle = 0.5 * (largest_eigenvalue + least_eigenvalue),
+                   half = 0.5 * (largest_eigenvalue - least_eigenvalue), shape = middle / half;
+  LoadsOf<N> step(forces.size(), LoadsOf<N>::value_type::Zero()), product;
+  loads.assign(forces.size(), LoadsOf<N>::value_type::Zero());
+  double rho = 1 / shape;
+  for (int k = 0; k < mass_steps; ++k) {
+    multiply_mass(loads, product);
+    const double next = 1 / (2 * shape - rho), carry = k == 0 ? 0 : rho * next,
+                 gain = k == 0 ? 1 / middle : 2 * next / half;
+    for (std::size_t v = 0; v < forces.size(); ++v) {
+      if (!under(v)) continue;
+      step[v] = carry * step[v] + gain / diagonal_[v] * (forces[v] - product[v]);
+      loads[v] += step[v];
+    }
+    if (k > 0) rho = next;
+  }
+}
+
+template void Pads::multiply_mass(const Loads&, Loads&) const;
+template void Pads::multiply_mass(const NormalLoads&, NormalLoads&) const;
+template void Pads::divide_by_mass(const Loads&, Loads&) const;
+template void Pads::divide_by_mass(const NormalLoads&, NormalLoads&) const;
+
+}  // namespace fairing
