@@ -12,6 +12,7 @@ import numpy as np
 
 from . import core, errors, memory, size
 from .blender import Context, Object
+from .choices import energy_name
 from .errors import JobError
 from .inspection import display
 from .mesh.layers import read_data, write_data
@@ -21,7 +22,7 @@ from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.shape_keys import write_shape_keys
 from .mesh.write import attributes_left_out, write_mesh
 from .preferences import preferences
-from .settings import Settings, energy_name, is_evaluated, snapshot, wants_modifiers
+from .settings import Settings, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
 from .transfer.lattice import fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes

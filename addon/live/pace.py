@@ -4,7 +4,7 @@
 No Blender.
 """
 
-from time import monotonic
+from time import monotonic, perf_counter
 
 MAX_TRIANGLES = 250_000  # triangles; beyond them the level is lowered from the start
 SLOW = 0.25  # seconds; updates that take longer lower the level by one
@@ -61,3 +61,20 @@ class Deadline:
     def __call__(self, _fraction: float, _phase: str) -> bool:
         self.is_over = monotonic() > self._end
         return not self.is_over
+
+
+class Clock:
+    """Milliseconds of the parts of an update."""
+
+    def __init__(self) -> None:
+        self.parts: dict[str, float] = {}
+        self._last = perf_counter()
+
+    def lap(self, name: str) -> None:
+        now = perf_counter()
+        self.parts[name] = 1e3 * (now - self._last)
+        self._last = now
+
+    @property
+    def total(self) -> float:
+        return sum(self.parts.values())

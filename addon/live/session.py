@@ -6,7 +6,7 @@ Called by `handlers`, on Blender's main thread.
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager
-from time import monotonic, perf_counter
+from time import monotonic
 from typing import Any
 
 import bpy
@@ -24,7 +24,7 @@ from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..settings import is_evaluated, snapshot
 from .full_level import PAUSE, FullLevel, is_editing
-from .pace import Deadline, Pace
+from .pace import Clock, Deadline, Pace
 from .registry import Reference, is_in_a_scene
 
 # what is enough to look at, and mostly one step an update; the full level has the core's own
@@ -118,7 +118,7 @@ class Session:
         return True
 
     def _follow(self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph) -> bool:
-        clock = _Clock()
+        clock = Clock()
         if not self._has_settings_of(target):
             self._forget()
             self._settings, self._chosen = snapshot(target.discrete_fairing), _chosen_level(target)
@@ -307,23 +307,6 @@ class Session:
         if self._level < self._chosen:
             less.append(f"Level {self._level} instead of {self._chosen}, to keep up")
         return less
-
-
-class _Clock:
-    """Milliseconds of the parts of an update."""
-
-    def __init__(self) -> None:
-        self.parts: dict[str, float] = {}
-        self._last = perf_counter()
-
-    def lap(self, name: str) -> None:
-        now = perf_counter()
-        self.parts[name] = 1e3 * (now - self._last)
-        self._last = now
-
-    @property
-    def total(self) -> float:
-        return sum(self.parts.values())
 
 
 def _chosen_level(target: Object) -> int:

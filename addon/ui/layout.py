@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..settings import ENERGY_MEANINGS, Settings, is_evaluated
+from ..choices import ENERGY_MEANINGS
+from ..settings import Settings, is_evaluated
 
 
 class Sidebar:

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.cli import options
 from addon.cli.options import parser
 from addon.cli.places import BadPlaces, places
-from addon.settings import DEFAULT_ENERGY, ENERGIES, NAMES
+from addon.settings import NAMES
 
 
 def settings(*words):

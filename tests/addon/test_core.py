@@ -9,6 +9,7 @@ import pytest
 from scenes import CUBE, add, set_edge_attribute
 
 from addon import core
+from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.core import (
     are_equal,
     corner_vertices,
@@ -18,7 +19,7 @@ from addon.core import (
 )
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
-from addon.settings import DEFAULT_ENERGY, ENERGIES, NAMES
+from addon.settings import NAMES
 
 
 def settings(**changes):

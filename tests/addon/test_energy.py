@@ -7,10 +7,10 @@ import pytest
 from scenes import CUBE, activate, add, fair, positions
 
 from addon import core
+from addon.choices import DEFAULT_ENERGY, ENERGIES, energy_name
 from addon.job import Job
 from addon.memory import recall
 from addon.operators import fair as fair_operators
-from addon.settings import DEFAULT_ENERGY, ENERGIES, energy_name
 
 KEYS = [key for key, *_ in ENERGIES]
 STEP = {"decrement": 0.25}

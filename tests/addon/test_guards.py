@@ -22,6 +22,7 @@ MAY_USE_FILES = {
 # All their numbers can be tested, and used, without Blender.
 PURE_FOLDERS = ("transfer",)
 PURE_FILES = (
+    "choices.py",
     "core.py",
     "errors.py",
     "poll.py",
@@ -37,7 +38,7 @@ PURE_FILES = (
 # The rooms from the lowest to the highest: each imports from those before it, never from those
 # behind.
 ROOMS = (
-    {"blender", "core", "poll", "size"},
+    {"blender", "choices", "core", "poll", "size"},
     {"errors", "preferences", "queue", "settings", "transfer"},
     {"memory"},
     {"mesh"},

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scenes import CUBE, activate, add, add_suzanne, fair, positions
 
+from addon.choices import ENERGIES
 from addon.job import Job
 from addon.mesh.modifiers import inspection_modifier
-from addon.settings import ENERGIES
 
 
 def test_uv_groups_and_materials_arrive():

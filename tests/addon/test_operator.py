@@ -17,8 +17,8 @@ from scenes import (
     snapshot,
 )
 
+from addon.choices import ENERGIES
 from addon.memory import recall
-from addon.settings import ENERGIES
 
 
 @pytest.mark.parametrize("levels", [1, 2, 3])

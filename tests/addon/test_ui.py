@@ -7,7 +7,8 @@ from fake_layout import Layout, draw
 from scenes import CUBE, add, add_suzanne, face_values
 
 from addon import core, size
-from addon.settings import ENERGIES, ENERGY_MEANINGS, NAMES, copy_settings
+from addon.choices import ENERGIES, ENERGY_MEANINGS
+from addon.settings import NAMES, copy_settings
 from addon.ui import layout as settings_layout
 from addon.ui import main, notice
 from addon.ui.layout import Sidebar
