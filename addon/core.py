@@ -67,6 +67,8 @@ def fair_arguments(
 
     `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
     such as shape keys.
+
+    Nothing is measured: who shows a number asks for it.
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     approximate = settings.interpolation == "APPROXIMATE"
@@ -87,6 +89,7 @@ def fair_arguments(
         "repair_orientation": settings.repair_orientation,
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
         "threads": preferences.threads,
+        "measure": False,
     }
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}

@@ -106,8 +106,10 @@ def _fair_file(
     sources = read_file(way.source, arguments.merge)
     progress = Progress(sys.stderr, str(way.source), len(sources))
     jobs = [Job(current_context(), source, settings) for source in sources]
+    is_read = not arguments.quiet or arguments.json is not None
     try:
         for job in jobs:
+            job.arguments["measure"] = is_read  # the table and the report have energies
             if arguments.threads is not None:
                 job.arguments["threads"] = arguments.threads
             job.compute(**{} if arguments.quiet else {"progress": progress})

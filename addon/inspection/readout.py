@@ -4,7 +4,6 @@
 Kept with the object.
 """
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,6 @@ from .measures import largest_deviation, measure
 # (label, key, how to write it). Curvature is one over a length: no unit fits all scenes, so none is
 # shown
 ROWS = (
-    ("Bending energy", "thin_plate", "{:.4g}"),
     ("Total curvature", "total_curvature", "{:.4g}"),
     ("Largest curvature", "largest_curvature", "{:.3g}"),
     ("98 % lie below", "curvature_98", "{:.3g}"),
@@ -35,19 +33,17 @@ def take(context: Context, target: Object, source: Object | None = None) -> dict
     """Measures `target` and, if there is one, the mesh object `source` that it was made from;
     remembers and returns both.
 
-    {"after": numbers, "before": numbers or None}; see measures.measure, with `thin_plate` and
-    `deviation` where known, and what the core has reported: total curvature, steps and their last
-    decrement.
+    {"after": numbers, "before": numbers or None}; see measures.measure, with `deviation` where
+    known, and what the core has reported: steps and their last decrement.
     """
     after, positions = _measured(context, target)
     before = None
     report = memory.recall(target, "report") or {}
-    energy = report.get("energy", {})
-    _take_energies(after, energy.get("result", {}))
     after |= {"steps": core.step_count(report), "decrement": core.last_decrement(report)}
     if source is not None:
         before, control = _measured(context, source)
-        _take_energies(before, energy.get("polyhedron", {}))
+        # on its few vertices a coarse mesh always looks calmer than it is
+        before["total_curvature"] = None
         after["deviation"] = largest_deviation(control, positions)
     record = {"after": after, "before": before, "counts": mesh_changes.watch(context, target.data)}
     memory.keep(target, "readout", record)
@@ -73,22 +69,6 @@ def _measured(context: Context, target: Object) -> tuple[dict[str, Any], np.ndar
     with control_mesh(context, target) as mesh:
         arrays = read_mesh(mesh)
     return measure(arrays), arrays.positions
-
-
-def _take_energies(numbers: dict[str, Any], reported: Mapping[str, Any]) -> None:
-    """The core's own energies, where it has reported them: it measures the control mesh as finely
-    as the surface.
-
-    Measured on its few vertices a coarse mesh always looks calmer than it is.
-    """
-    for key in ("thin_plate", "total_curvature"):
-        value = _finite(reported.get(key))
-        if value is not None:
-            numbers[key] = value
-
-
-def _finite(value: Any) -> float | None:
-    return value if isinstance(value, (int, float)) and abs(value) < float("inf") else None
 
 
 def _text(value: Any, form: str) -> str:

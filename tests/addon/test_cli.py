@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 import pytest
 from cli_files import BOX_QUADS, read_obj, write_obj, write_ply, write_stl
+from cli_runs import contains, entries, imported, run
 
 from addon import core
 from addon.cli import main as command
@@ -25,32 +26,6 @@ def folder(tmp_path, monkeypatch):
     """Every test in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def run(*words):
-    return command.main([str(word) for word in words])
-
-
-def entries(*words):
-    """The exit code and the report's inputs."""
-    code = run(*words, "--json", "report.json")
-    report = json.loads(Path("report.json").read_text(encoding="utf-8"))
-    assert report["exit_code"] == code
-    return code, report["inputs"]
-
-
-def imported(path):
-    """All vertices of a file, as Blender reads them, and the face sizes."""
-    found = command.read_file(Path(path))
-    positions = [vertex.co[:] for item in found for vertex in item.data.vertices]
-    return np.array(positions), [
-        len(face.vertices) for item in found for face in item.data.polygons
-    ]
-
-
-def contains(positions, wanted, tolerance):
-    distance = np.linalg.norm(positions[:, None] - np.asarray(wanted)[None], axis=2)
-    return (distance.min(axis=0) <= tolerance).all()
 
 
 WRITERS = {"obj": write_obj, "ply": write_ply, "stl": write_stl}
@@ -152,6 +127,23 @@ def test_settings_reach_the_core():
     assert 0 < entry["objects"][0]["report"]["largest_deviation"] <= 0.1 * (1 + 1e-6)
 
 
+@pytest.mark.parametrize(
+    "words, measured", [((), True), (("--json", "r.json", "--quiet"), True), (("--quiet",), False)]
+)
+def test_energies_are_measured_where_somebody_reads_them(words, measured, monkeypatch):
+    asked = []
+
+    class Watched(command.Job):
+        def compute(self, **watchers):
+            asked.append(self.arguments["measure"])
+            super().compute(**watchers)
+
+    monkeypatch.setattr(command, "Job", Watched)
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj", "--levels", 1, *words) == 0
+    assert asked == [measured]
+
+
 def test_an_output_that_exists_is_replaced_unless_it_is_to_be_kept():
     write_obj("in.obj")
     Path("out.obj").write_text("old")
@@ -179,6 +171,7 @@ def test_the_table_has_a_line_for_each_file(capfd):
     write_obj("in.obj")
     run("in.obj", "out.obj", "--levels", 2)
     head, *_progress, line = capfd.readouterr().err.splitlines()
+    assert "nan" not in line
     assert head.split()[0] == "file" and line.split()[:3] == ["in.obj", "6", "96"] and "→" in line
 
 

@@ -70,6 +70,10 @@ def test_energies_are_those_of_the_core(energy):
     assert given in core.module()._native.Energy.__members__ and given.upper() == energy
 
 
+def test_nothing_is_measured_unasked():
+    assert arguments()["measure"] is False
+
+
 def test_tolerance_belongs_to_approximation():
     assert arguments(interpolation="EXACT", tolerance=0.25)["tolerance"] == 0.0
 

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command in this process, and what it has written."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from addon.cli import main as command
+
+
+def run(*words):
+    return command.main([str(word) for word in words])
+
+
+def entries(*words):
+    """The exit code and the report's inputs."""
+    code = run(*words, "--json", "report.json")
+    report = json.loads(Path("report.json").read_text(encoding="utf-8"))
+    assert report["exit_code"] == code
+    return code, report["inputs"]
+
+
+def imported(path):
+    """All vertices of a file, as Blender reads them, and the face sizes."""
+    found = command.read_file(Path(path))
+    positions = [vertex.co[:] for item in found for vertex in item.data.vertices]
+    return np.array(positions), [
+        len(face.vertices) for item in found for face in item.data.polygons
+    ]
+
+
+def contains(positions, wanted, tolerance):
+    distance = np.linalg.norm(positions[:, None] - np.asarray(wanted)[None], axis=2)
+    return (distance.min(axis=0) <= tolerance).all()
