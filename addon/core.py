@@ -85,7 +85,6 @@ def fair_arguments(
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
         "boundary": settings.boundary.lower(),
-        "epsilon": settings.vertex_release,
         "repair_orientation": settings.repair_orientation,
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
         "threads": preferences.threads,

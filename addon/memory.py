@@ -2,8 +2,8 @@
 """What a faired object remembers, and what was found on any mesh: hidden properties in the file.
 
 Records are JSON in text properties. Older files have them as custom properties in the user's
-sight, and one setting by another name. Both are taken over when such a file is opened or objects
-are appended from it.
+sight, and other settings. Both are taken over when such a file is opened or objects are appended
+from it.
 """
 
 import json
@@ -117,7 +117,7 @@ _OLD_RECORDS = {
     "fairing_check": "defects",
 }
 _OLD_RANGE, _OLD_COLOUR = "fairing_curvature_range", "fairing_active_colour"
-_OLD_RELEASE = "epsilon"
+_GONE = ("epsilon", "vertex_release")
 
 
 @persistent
@@ -128,7 +128,7 @@ def take_over_old_properties(*_: Any) -> None:
     """
     for owner in (*all_objects(), *all_scenes()):
         if owner.library is None:
-            _rename_release(owner.discrete_fairing)
+            _take_over_settings(owner.discrete_fairing)
     for target in all_objects():
         if target.library is None:
             for old, name in _OLD_RECORDS.items():
@@ -158,13 +158,15 @@ def _move_range(mesh: Mesh) -> None:
         return  # the next refresh of the colours makes it anew
 
 
-def _rename_release(group: Any) -> None:
+def _take_over_settings(group: Any) -> None:
     # from Blender 5.0 on what add-ons have declared is kept apart from custom properties
     system = getattr(group, "bl_system_properties_get", None)
     stored = group if system is None else system()
-    if stored is not None and _OLD_RELEASE in stored:
-        group.vertex_release = stored[_OLD_RELEASE]
-        del stored[_OLD_RELEASE]
+    if stored is None:
+        return
+    for name in _GONE:
+        if name in stored:
+            del stored[name]
 
 
 # linking and appending has a handler since Blender 4.3

@@ -135,16 +135,6 @@ class FairingSettings:
         max=1.0,
         subtype="FACTOR",
     )
-    vertex_release: FloatProperty(
-        name="Vertex Release",
-        description="Lets the vertices of the source move by up to this distance at the very end, to take the "
-        "last small cusps out of the reflections",
-        default=0.0,
-        min=0.0,
-        soft_max=0.1,
-        precision=4,
-        subtype="DISTANCE",
-    )
     repair_orientation: BoolProperty(
         name="Repair Normals",
         description="Flips faces that are oriented against their neighbours, instead of refusing the mesh",
@@ -179,6 +169,9 @@ class FairingSettings:
         soft_max=65536,
         subtype="NONE",
     )
+
+    # Presets of development builds set it: a setting that is gone, without effect.
+    vertex_release = property(lambda self: 0.0, lambda self, value: None)
 
 
 # of an operator, a property group, or a copy of their values

@@ -76,7 +76,6 @@ def draw_result(layout: bpy.types.UILayout, settings: Settings) -> None:
 
 def draw_advanced(layout: bpy.types.UILayout, settings: Settings) -> None:
     layout.prop(settings, "metric_exponent")
-    layout.prop(settings, "vertex_release")
     layout.prop(settings, "memory_limit")
 
 

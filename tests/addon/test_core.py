@@ -40,14 +40,14 @@ def test_defaults():
         "exact",
         "curve",
     )
-    assert given["metric_exponent"] == 0.5 and given["epsilon"] == 0.0 and given["tolerance"] == 0.0
+    assert given["metric_exponent"] == 0.5 and given["tolerance"] == 0.0
     assert given["crease_angle"] is None and given["corner_angle"] is None
     assert given["crease_edges"].shape == (0, 2) and given["corner_vertices"].shape == (0,)
 
 
 def test_values():
     given = arguments(
-        levels=5, interpolation="APPROXIMATE", tolerance=0.25, boundary="FREE", metric_exponent=1.0, vertex_release=0.125,
+        levels=5, interpolation="APPROXIMATE", tolerance=0.25, boundary="FREE", metric_exponent=1.0,
         use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair_orientation=True, memory_limit=3,
     )  # fmt: skip
     assert (
@@ -55,11 +55,7 @@ def test_values():
         and given["interpolation"] == "approximate"
         and given["tolerance"] == 0.25
     )
-    assert (
-        given["boundary"] == "free"
-        and given["metric_exponent"] == 1.0
-        and given["epsilon"] == 0.125
-    )
+    assert given["boundary"] == "free" and given["metric_exponent"] == 1.0
     assert given["crease_angle"] == 1.0 and given["corner_angle"] == 2.0
     assert given["repair_orientation"] and given["memory_limit"] == 3 * 2**20
 

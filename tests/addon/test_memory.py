@@ -29,7 +29,12 @@ def make_old(target):
     target.data["fairing_curvature_range"] = "[-2.5, 2.5]"
     target.data["fairing_active_colour"] = "Mine"
     for group in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
-        group["epsilon"] = 0.25
+        group["epsilon"] = group["vertex_release"] = 0.25
+
+
+def check_settings(group):
+    for gone in ("epsilon", "vertex_release"):
+        assert group.get(gone) is None
 
 
 def check_taken_over(target):
@@ -37,8 +42,7 @@ def check_taken_over(target):
         assert memory.recall(target, name) == record
     assert display.legend(target.data) == (-2.5, 2.5)
     assert target.data.discrete_fairing.active_colour == "Mine"
-    assert target.discrete_fairing.vertex_release == 0.25
-    assert target.discrete_fairing.get("epsilon") is None
+    check_settings(target.discrete_fairing)
     assert not custom_properties(target) and not custom_properties(target.data)
 
 
@@ -53,7 +57,7 @@ def old_file(tmp_path):
 def test_an_older_file_is_taken_over(old_file):
     bpy.ops.wm.open_mainfile(filepath=old_file)
     check_taken_over(bpy.data.objects["Box"])
-    assert bpy.context.scene.discrete_fairing.vertex_release == 0.25
+    check_settings(bpy.context.scene.discrete_fairing)
 
 
 def test_objects_appended_from_an_older_file_are_taken_over(old_file):

@@ -47,6 +47,22 @@ def test_menu_applies_them(name):
     fair(**{**{key: getattr(settings, key) for key in NAMES}, "levels": 1})
 
 
+OLD = """import bpy
+op = bpy.context.active_operator
+
+op.vertex_release = 0.125
+op.shade_smooth = True
+"""
+
+
+def test_a_preset_from_before_still_opens(tmp_path):
+    (tmp_path / "Old.py").write_text(OLD)
+    settings = bpy.context.scene.discrete_fairing
+    bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Old.py"))
+    assert settings.shade_smooth, "to its last line"
+    assert settings.get("vertex_release") is None
+
+
 def test_own_preset(tmp_path, monkeypatch):
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path))
     settings = bpy.context.scene.discrete_fairing

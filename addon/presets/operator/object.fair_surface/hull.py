@@ -15,5 +15,4 @@ op.use_crease_angle = False
 op.use_corner_angle = True
 op.corner_angle = 0.785398
 op.metric_exponent = 0.5
-op.vertex_release = 0.0
 op.shade_smooth = True

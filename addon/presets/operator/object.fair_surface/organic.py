@@ -13,5 +13,4 @@ op.use_sharp_edges = False
 op.use_crease_angle = False
 op.use_corner_angle = False
 op.metric_exponent = 0.5
-op.vertex_release = 0.0
 op.shade_smooth = True
