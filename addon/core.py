@@ -80,6 +80,8 @@ def fair_arguments(
         "metric_exponent": settings.metric_exponent,
         "interpolation": settings.interpolation.lower(),
         "tolerance": settings.tolerance if approximate else 0.0,
+        "pad_size": settings.pad_size,
+        "tension": settings.tension,
         "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
         "corner_vertices": corner_vertices(arrays, threshold),
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
@@ -94,7 +96,16 @@ def fair_arguments(
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):
         arguments["shapes"] = shapes
-    return arguments
+    return _known_to_the_core(arguments)
+
+
+def _known_to_the_core(arguments: dict[str, Any]) -> dict[str, Any]:
+    """The arguments, without pads and tension where the core at hand has none yet."""
+    if "tension" in module().options.SETTINGS:
+        return arguments
+    arguments = {key: value for key, value in arguments.items() if key != "tension"}
+    plain = arguments["energy"] == "thin_plate" and arguments["interpolation"] == "exact"
+    return arguments if plain else arguments | {"pad_size": 0.0}
 
 
 def crease_edges(

@@ -123,5 +123,16 @@ def unfinished_text(object_name: str, energy: str) -> str:
     )
 
 
+def pads_text(pads: Mapping[str, Any]) -> str:
+    """Where pads gave way, in one sentence, from the report's `pads`; empty if none did."""
+    narrower, gone = pads.get("narrower", 0), pads.get("gone", 0)
+    if not (narrower or gone):
+        return ""
+    one_or_more = "1 vertex" if (narrower or gone) == 1 else f"{narrower or gone:,} vertices"
+    parts = f"narrower at {one_or_more}" if narrower else f"gone at {one_or_more}"
+    both = f" and gone at {gone:,}" if narrower and gone else ""
+    return f"Pads are {parts}{both}, where the mesh is crumpled."
+
+
 def _sentence(text: str) -> str:
     return text if text.endswith((".", "!", "?")) else text + "."

@@ -20,7 +20,7 @@ from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import new_object, replace_mesh
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.shape_keys import write_shape_keys
-from .mesh.write import attributes_left_out, write_mesh
+from .mesh.write import attributes_left_out, write_mesh, write_pad_sizes
 from .preferences import preferences
 from .settings import Settings, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
@@ -83,6 +83,9 @@ class Job:
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        given_way = errors.pads_text(self.result.report["pads"])
+        if given_way:
+            self.notes.append(given_way)
         if self.settings.keep_symmetry:
             self._symmetrize()
 
@@ -121,6 +124,7 @@ class Job:
         else:
             target = replace_mesh(self.target, mesh)
         write_data(target, self.data, self.carrier, attributes_left_out(settings))
+        write_pad_sizes(target.data, result, self.carrier)
         if self.keys:
             write_shape_keys(target, self.keys, result.shapes, self.source)
         if wants_modifiers(settings) and self.target is None:

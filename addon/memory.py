@@ -167,6 +167,10 @@ def _take_over_settings(group: Any) -> None:
     for name in _GONE:
         if name in stored:
             del stored[name]
+    if "tolerance" not in stored:  # nobody has set it: a scene with the default, or no surface
+        return
+    if isinstance(group, FAIRING_PG_surface) and "pad_size" not in stored:
+        group.pad_size = 0.0  # all that there was: Recompute is to make the same surface
 
 
 # linking and appending has a handler since Blender 4.3

@@ -55,6 +55,23 @@ class FairingSettings:
         precision=4,
         subtype="DISTANCE",
     )
+    pad_size: FloatProperty(
+        name="Pad Size",
+        description="What holds the vertices. 0: held on needles, which leave marks in the reflections; "
+        "above: held on pads, which do not. The larger, the calmer; the surface passes through the vertices all the same",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    tension: FloatProperty(
+        name="Tension",
+        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
     boundary: EnumProperty(
         name="Boundary", description="What happens to open borders", items=BOUNDARIES
     )

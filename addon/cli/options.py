@@ -25,7 +25,16 @@ NOT_HERE = frozenset(
 )
 
 _GROUPS = {
-    "shape": ("levels", "energy", "interpolation", "tolerance", "boundary", "shade_smooth"),
+    "shape": (
+        "levels",
+        "energy",
+        "interpolation",
+        "tolerance",
+        "pad_size",
+        "tension",
+        "boundary",
+        "shade_smooth",
+    ),
     "creases": (
         "use_sharp_edges",
         "crease_angle",

@@ -14,6 +14,8 @@ from ..transfer.carrier import Carrier
 from ..transfer.lattice import fine_edges, mark_pairs
 from .layers import SurfaceData, fill_layer, make_layer, write_data
 
+PAD_SIZES = "fair_pad_size"
+
 
 def write_mesh(
     name: str,
@@ -59,12 +61,24 @@ def rebuild_mesh(
         target.shape_key_clear()
     mesh.clear_geometry()
     fill_mesh(mesh, result, fine_edges(result.faces, result.crease_edges, level))
-    write_data(target, data, Carrier(result, arrays, level), attributes_left_out(settings))
+    carrier = Carrier(result, arrays, level)
+    write_data(target, data, carrier, attributes_left_out(settings))
+    write_pad_sizes(mesh, result, carrier)
 
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    return ("sharp_face",) if settings.shade_smooth else ()
+    return (PAD_SIZES, "sharp_face") if settings.shade_smooth else (PAD_SIZES,)
+
+
+def write_pad_sizes(mesh: Mesh, result: Any, carrier: Carrier) -> None:
+    """Gives `mesh` the widths of the pads that hold its control vertices, where any of them gave
+    way.
+    """
+    pads = result.report["pads"]
+    if pads["narrower"] or pads["gone"]:
+        widths = carrier.point(np.asarray(pads["widths"], np.float32))
+        fill_layer(make_layer(mesh, PAD_SIZES, "FLOAT", "POINT"), widths.ravel())
 
 
 def has_faces_of(mesh: Mesh, result: Any) -> bool:

@@ -39,7 +39,18 @@ def draw_shape(layout: bpy.types.UILayout, settings: Settings, triangle_text: st
     layout.prop(settings, "interpolation")
     if settings.interpolation == "APPROXIMATE":
         layout.prop(settings, "tolerance")
+    _draw_pads(layout, settings)
+    layout.prop(settings, "tension")
     layout.prop(settings, "boundary")
+
+
+def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:
+    start_only = settings.energy == "MINIMUM_VARIATION"
+    row = layout.row()
+    row.active = not start_only
+    row.prop(settings, "pad_size")
+    if start_only:
+        _reason(layout, "It helps the start only")
 
 
 def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:

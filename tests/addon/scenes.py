@@ -72,6 +72,12 @@ def snapshot(source):
     return attributes, place, [m and m.name for m in mesh.materials], source.name, mesh.name
 
 
+def add_attribute(source, numbers, name="Loose"):
+    """Gives each vertex one of the `numbers`, as a float attribute."""
+    attribute = source.data.attributes.new(name, "FLOAT", "POINT")
+    attribute.data.foreach_set("value", np.float32(numbers))
+
+
 def set_edge_attribute(mesh, name, data_type, pairs, value, domain="EDGE"):
     """Gives the edges between the vertex `pairs` a value of the attribute `name`."""
     attribute = mesh.attributes.new(name, data_type, domain)

@@ -56,6 +56,14 @@ def test_a_tolerance_needs_no_second_option():
         settings("--interpolation", "exact", "--tolerance", "0.1")
 
 
+def test_pads_and_tension():
+    given = settings("--pad-size", "0.25", "--tension", "1")
+    assert (given.pad_size, given.tension) == (0.25, 1.0)
+    for words in (("--pad-size", "1.5"), ("--tension", "-1"), ("--vertex-release", "0.1")):
+        with pytest.raises(SystemExit):
+            settings(*words)
+
+
 def test_energies():
     assert settings().energy == DEFAULT_ENERGY
     for key, *_ in ENERGIES:

@@ -30,11 +30,13 @@ def make_old(target):
     target.data["fairing_active_colour"] = "Mine"
     for group in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
         group["epsilon"] = group["vertex_release"] = 0.25
+        group["interpolation"], group["tolerance"] = 1, 0.125
 
 
 def check_settings(group):
     for gone in ("epsilon", "vertex_release"):
         assert group.get(gone) is None
+    assert (group.interpolation, group.tolerance) == ("APPROXIMATE", 0.125)
 
 
 def check_taken_over(target):
@@ -43,6 +45,7 @@ def check_taken_over(target):
     assert display.legend(target.data) == (-2.5, 2.5)
     assert target.data.discrete_fairing.active_colour == "Mine"
     check_settings(target.discrete_fairing)
+    assert target.discrete_fairing.pad_size == 0.0, "as it was made"
     assert not custom_properties(target) and not custom_properties(target.data)
 
 
@@ -58,6 +61,7 @@ def test_an_older_file_is_taken_over(old_file):
     bpy.ops.wm.open_mainfile(filepath=old_file)
     check_taken_over(bpy.data.objects["Box"])
     check_settings(bpy.context.scene.discrete_fairing)
+    assert bpy.context.scene.discrete_fairing.pad_size == 0.5, "for new surfaces"
 
 
 def test_objects_appended_from_an_older_file_are_taken_over(old_file):

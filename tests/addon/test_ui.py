@@ -23,6 +23,14 @@ def test_every_setting_is_shown_somewhere():
     assert set(NAMES) <= set(log)
 
 
+def test_pads_of_minimum_variation_are_said_to_be_its_start():
+    add("Box", *CUBE)
+    said = "It helps the start only"
+    assert said not in draw(main.VIEW3D_PT_fairing)
+    bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
+    assert said in draw(main.VIEW3D_PT_fairing) and len(said) <= notice.WIDTH
+
+
 def test_triangle_count_stands_under_the_levels():
     add("Box", *CUBE)
     assert draw(main.VIEW3D_PT_fairing)[:2] == ["levels", "768 triangles"]

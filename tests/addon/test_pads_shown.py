@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pads under the vertices of the source: that they hold them, and where they gave way."""
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import follow, live, move
+from scenes import CUBE, activate, add, add_attribute, fair, positions
+
+from addon.errors import pads_text
+from addon.memory import recall
+
+
+def add_crumpled():
+    """A ball whose vertices are off it at random."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
+    ball = bpy.context.object
+    points = positions(ball.data)
+    random = np.random.default_rng(4)
+    points = points * (1 + random.uniform(-1, 1, len(points))[:, None])
+    points += 0.3 * random.uniform(-1, 1, points.shape)
+    ball.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    return ball
+
+
+def values(mesh, name):
+    found = np.empty(len(mesh.vertices), np.float32)
+    mesh.attributes[name].data.foreach_get("value", found)
+    return found
+
+
+def test_pads_change_the_surface_and_hold_the_vertices():
+    source = add("Box", *CUBE)
+    needles = fair(levels=2, pad_size=0.0)
+    source.hide_set(False)
+    activate(source)
+    pads = fair(levels=2)
+    assert pads.discrete_fairing.pad_size == 0.5
+    assert not np.array_equal(positions(pads.data), positions(needles.data))
+    for surface in (pads, needles):
+        assert np.array_equal(positions(surface.data)[:8], positions(source.data))
+
+
+def test_where_pads_gave_way_is_said_and_kept(capfd):
+    source = add_crumpled()
+    result = fair(levels=2, pad_size=1.0, keep_symmetry=False)
+    pads = recall(result, "report")["pads"]
+    assert pads["narrower"] + pads["gone"] > 0
+    assert pads_text(pads) in capfd.readouterr().out
+    widths = values(result.data, "fair_pad_size")
+    assert np.array_equal(widths[: len(source.data.vertices)], np.float32(pads["widths"]))
+    assert 0 <= widths.min() < widths.max() <= 1
+
+
+def test_recompute_replaces_where_pads_gave_way():
+    source = add_crumpled()
+    result = fair(levels=2, pad_size=1.0)
+    assert "fair_pad_size" in result.data.attributes
+    result.discrete_fairing.pad_size = 0.0
+    bpy.ops.object.fairing_recompute()
+    assert "fair_pad_size" not in result.data.attributes
+    add_attribute(source, [0.75] * len(source.data.vertices), "fair_pad_size")
+    bpy.ops.object.fairing_recompute()
+    assert "fair_pad_size" not in result.data.attributes, "of the source, not of this surface"
+
+
+def test_a_live_surface_says_where_pads_gave_way():
+    source = add_crumpled()
+    result = fair(levels=2, pad_size=1.0)
+    result.discrete_fairing_live.levels = 1
+    live(result)
+    move(source, by=0.01)
+    follow()
+    assert len(result.data.polygons) == 4 * len(source.data.polygons)
+    assert "fair_pad_size" in result.data.attributes
+
+
+def test_shape_keys_and_pads_that_gave_way():
+    source = add_crumpled()
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 1.0
+    result = fair(levels=1, pad_size=1.0)
+    assert "fair_pad_size" in result.data.attributes and len(result.data.shape_keys.key_blocks) == 2
+
+
+def test_smooth_meshes_have_no_attribute(capfd):
+    add("Box", *CUBE)
+    assert "fair_pad_size" not in fair(levels=1).data.attributes
+    assert "Pads" not in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "narrower, gone, text",
+    [
+        (12, 3, "Pads are narrower at 12 vertices and gone at 3, where the mesh is crumpled."),
+        (1, 1, "Pads are narrower at 1 vertex and gone at 1, where the mesh is crumpled."),
+        (1200, 0, "Pads are narrower at 1,200 vertices, where the mesh is crumpled."),
+        (0, 1, "Pads are gone at 1 vertex, where the mesh is crumpled."),
+        (0, 0, ""),
+    ],
+)
+def test_how_it_is_said(narrower, gone, text):
+    assert pads_text({"narrower": narrower, "gone": gone, "widths": []}) == text
