@@ -42,6 +42,16 @@ INTERPOLATIONS = (
     ),
 )
 
+TOLERANCE_UNITS = (
+    (
+        "RELATIVE",
+        "Share of Edges",
+        "As a share of the mean edge length of the control mesh, whatever its size",
+        0,
+    ),
+    ("SCENE", "Length", "As a length, before the object's scale", 1),
+)
+
 BOUNDARIES = (
     (
         "CURVE",

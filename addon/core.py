@@ -62,16 +62,19 @@ def fair_arguments(
     preferences: Any,
     region: np.ndarray | None = None,
     shapes: np.ndarray | None = None,
+    shares: np.ndarray | None = None,
+    edge_length: float = 0.0,
 ) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
 
     `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
-    such as shape keys.
+    such as shape keys. `shares`: (n,) of the tolerance at each vertex, None for all of it.
+    `edge_length`: what a relative tolerance is a share of.
 
     Nothing is measured: who shows a number asks for it.
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
-    approximate = settings.interpolation == "APPROXIMATE"
+    allowed = tolerance(settings, edge_length)
     arguments = {
         "vertices": arrays.positions,
         "faces": (arrays.corners, arrays.offsets),
@@ -79,7 +82,7 @@ def fair_arguments(
         "energy": settings.energy.lower(),
         "metric_exponent": settings.metric_exponent,
         "interpolation": settings.interpolation.lower(),
-        "tolerance": settings.tolerance if approximate else 0.0,
+        "tolerance": allowed if shares is None else allowed * shares,
         "pad_size": settings.pad_size,
         "tension": settings.tension,
         "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
@@ -106,6 +109,21 @@ def _known_to_the_core(arguments: dict[str, Any]) -> dict[str, Any]:
     arguments = {key: value for key, value in arguments.items() if key != "tension"}
     plain = arguments["energy"] == "thin_plate" and arguments["interpolation"] == "exact"
     return arguments if plain else arguments | {"pad_size": 0.0}
+
+
+def mean_edge_length(arrays: ControlArrays) -> float:
+    """Of the edges that belong to faces; 0 if there are none."""
+    ends = arrays.positions[arrays.edges[_occurs(arrays.corner_edges, len(arrays.edges))]]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return float(lengths.mean()) if len(lengths) else 0.0
+
+
+def tolerance(settings: Any, edge_length: float) -> float:
+    """The farthest that a vertex may be missed, a length; 0 where the surface passes through all."""
+    if settings.interpolation != "APPROXIMATE":
+        return 0.0
+    relative = settings.tolerance_unit == "RELATIVE"
+    return settings.relative_tolerance * edge_length if relative else settings.tolerance
 
 
 def crease_edges(

@@ -18,7 +18,7 @@ from .inspection import display
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import new_object, replace_mesh
-from .mesh.read import control_mesh, read_mesh, selected_faces
+from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from .mesh.shape_keys import write_shape_keys
 from .mesh.write import attributes_left_out, write_mesh, write_pad_sizes
 from .preferences import preferences
@@ -55,10 +55,12 @@ class Job:
         ):
             self.arrays = read_mesh(mesh)
             self.data = read_data(source, mesh, evaluated)
+            shares = tolerance_shares(source, mesh, self.settings)
             if not self.settings.use_selection:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
+        self.edge_length = core.mean_edge_length(self.arrays)
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
         if too_large:
@@ -70,6 +72,8 @@ class Job:
             preferences(),
             region,
             self.keys.shapes if self.keys else None,
+            shares,
+            self.edge_length,
         )
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":

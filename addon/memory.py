@@ -169,6 +169,8 @@ def _take_over_settings(group: Any) -> None:
             del stored[name]
     if "tolerance" not in stored:  # nobody has set it: a scene with the default, or no surface
         return
+    if "tolerance_unit" not in stored:
+        group.tolerance_unit = "SCENE"
     if isinstance(group, FAIRING_PG_surface) and "pad_size" not in stored:
         group.pad_size = 0.0  # all that there was: Recompute is to make the same surface
 

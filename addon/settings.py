@@ -5,14 +5,16 @@ A new setting goes here, into core.fair_arguments and into ui/layout.py; the com
 itself.
 """
 
+from collections.abc import Callable
 from math import radians
 from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .blender import attach, detach
+from . import vertex_values
+from .blender import Context, Object, attach, detach
 from .choices import (
     BOUNDARIES,
     DEFAULT_ENERGY,
@@ -20,7 +22,40 @@ from .choices import (
     INTERPOLATIONS,
     JOINTS,
     MESH_SOURCES,
+    TOLERANCE_UNITS,
 )
+
+
+def _chooses(unit: str) -> Callable[[Any, Context], None]:
+    """Of the two tolerances the one that is given counts: nobody need say it a second time."""
+
+    def choose(settings: Any, _context: Context) -> None:
+        if settings.tolerance_unit != unit:
+            settings.tolerance_unit = unit
+
+    return choose
+
+
+def _vertex_values(settings: Any, context: Context, _typed: str) -> list[tuple[str, str]]:
+    """What a field for the name of a vertex group offers: (name, kind)."""
+    offered = dict(
+        pair for source in _sources(settings, context) for pair in vertex_values.names(source)
+    )
+    return sorted(offered.items())
+
+
+def _sources(settings: Any, context: Context) -> list[Object]:
+    """Whose names are meant: the source of the surface that remembers `settings`, or that of the
+    one just made, else the mesh objects at hand.
+    """
+    active = context.active_object
+    owner = getattr(settings, "source", None)
+    if owner is None and active is not None and active.type == "MESH":
+        owner = active.discrete_fairing.source
+    if owner is not None:
+        return [owner]
+    chosen = {o.name: o for o in (*context.selected_objects, active) if o is not None}
+    return [o for o in chosen.values() if o.type == "MESH"]
 
 
 class FairingSettings:
@@ -54,6 +89,33 @@ class FairingSettings:
         soft_max=1.0,
         precision=4,
         subtype="DISTANCE",
+        update=_chooses("SCENE"),
+    )
+    relative_tolerance: FloatProperty(
+        name="Relative Tolerance",
+        description="How far the surface may pass from a vertex of the source, as a share of the mean edge length of "
+        "the control mesh. A small tolerance removes most bumps",
+        default=0.02,
+        min=0.0,
+        soft_max=0.25,
+        max=10.0,
+        precision=3,
+        subtype="FACTOR",
+        update=_chooses("RELATIVE"),
+    )
+    # behind both: where all are copied, what it says holds
+    tolerance_unit: EnumProperty(
+        name="Tolerance Unit",
+        description="How the tolerance is said. Setting either of the two in a script chooses it",
+        items=TOLERANCE_UNITS,
+    )
+    tolerance_group: StringProperty(
+        name="Tolerance Group",
+        description="A vertex group, or a float attribute on points, of the source: its weight at a vertex, 0 to 1, "
+        "multiplies the tolerance there. At 0, and outside of the group, the surface passes through the vertex. "
+        "Empty: the same tolerance everywhere",
+        search=_vertex_values,
+        search_options={"SUGGESTION"},  # modifiers may make what is not there yet
     )
     pad_size: FloatProperty(
         name="Pad Size",
@@ -195,6 +257,11 @@ class FairingSettings:
 Settings: TypeAlias = FairingSettings | SimpleNamespace
 
 NAMES = tuple(FairingSettings.__annotations__)
+
+
+def is_near(settings: Settings) -> bool:
+    """Whether the surface may miss vertices: only then do tolerances mean anything."""
+    return settings.interpolation == "APPROXIMATE"
 
 
 def is_evaluated(settings: Settings) -> bool:

@@ -30,6 +30,8 @@ _GROUPS = {
         "energy",
         "interpolation",
         "tolerance",
+        "relative_tolerance",
+        "tolerance_group",
         "pad_size",
         "tension",
         "boundary",
@@ -41,6 +43,11 @@ _GROUPS = {
         "corner_angle",
     ),
 }
+
+# options that mean nothing without --interpolation approximate, and say so by themselves
+_NEAR = ("tolerance", "relative_tolerance", "tolerance_group")
+# said by which of these is given
+_TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
@@ -62,7 +69,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """An option for every setting that the command line has."""
     groups = {name: parser.add_argument_group(name) for name in (*_GROUPS, "advanced")}
     for name in NAMES:
-        if name in NOT_HERE or _switched_by_value(name):
+        if name in NOT_HERE or _said_by_value(name):
             continue
         group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
         _add(groups[group], name, _property(name))
@@ -78,10 +85,16 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
     for name in given:
         if "use_" + name in NAMES:
             settings["use_" + name] = True
-    if "tolerance" in given:
-        if given.get("interpolation") == "EXACT":
-            raise ValueError("--tolerance needs --interpolation approximate")
-        settings["interpolation"] = "APPROXIMATE"
+    for name in _NEAR:
+        if name in given:
+            if given.get("interpolation") == "EXACT":
+                raise ValueError(f"{option(name)} needs --interpolation approximate")
+            settings["interpolation"] = "APPROXIMATE"
+    units = [unit for name, unit in _TOLERANCE_UNITS.items() if name in given]
+    if len(units) > 1:
+        raise ValueError(f"give one of {' and '.join(map(option, _TOLERANCE_UNITS))}")
+    if units:
+        settings["tolerance_unit"] = units[0]
     return SimpleNamespace(**settings)
 
 
@@ -95,9 +108,13 @@ def option(name: str) -> str:
     return "--" + name.removeprefix("use_").replace("_", "-")
 
 
-def _switched_by_value(name: str) -> bool:
-    """Whether giving `--x` says all that the switch `use_x` could say."""
-    return name.startswith("use_") and name.removeprefix("use_") in NAMES
+def _said_by_value(name: str) -> bool:
+    """Whether giving another option says all: `--x` what the switch `use_x` could say, a tolerance
+    its unit.
+    """
+    return name == "tolerance_unit" or (
+        name.startswith("use_") and name.removeprefix("use_") in NAMES
+    )
 
 
 def _property(name: str) -> Any:
@@ -147,7 +164,7 @@ def _choice(_name: str, prop: Any) -> dict[str, Any]:
 
 
 def _text(_name: str, prop: Any) -> dict[str, Any]:
-    return {"metavar": "TEXT", "help": _help(prop, prop.default or "empty")}
+    return {"metavar": "NAME", "help": _help(prop, prop.default or "none")}
 
 
 _KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice, "STRING": _text}

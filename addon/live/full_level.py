@@ -52,7 +52,9 @@ class FullLevel:
         `arguments`: of the live solver, for `region` or all faces.
         """
         self.job = Job(context, source, target.discrete_fairing, target, region)
-        self._fresh = FreshSolver(source.name, {**arguments, "vertices": self.job.arrays.positions})
+        its = {name: self.job.arguments[name] for name in ("vertices", "tolerance")}
+        self.arguments = {**arguments, **its}  # of the fresh solver
+        self._fresh = FreshSolver(source.name, self.arguments)
         self._queue = Queue([self.job, self._fresh], core.module().Monitor)
 
     def start(self) -> None:

@@ -14,12 +14,18 @@ import numpy as np
 
 from .. import core, errors, size
 from ..blender import Context, Mesh, Object, current_context
-from ..core import ControlArrays, are_equal, fair_arguments, without_vertices
+from ..core import (
+    ControlArrays,
+    are_equal,
+    fair_arguments,
+    mean_edge_length,
+    without_vertices,
+)
 from ..errors import JobError
 from ..inspection import display
 from ..mesh.layers import read_data
 from ..mesh.object import session_key
-from ..mesh.read import control_mesh, read_mesh, selected_faces
+from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..settings import is_evaluated, snapshot
@@ -67,6 +73,10 @@ class Session:
         self._arrays: Any = None
         self._settings: Any = None
         self._region: np.ndarray | None = None
+        self._shares: np.ndarray | None = None
+        self._edge_length = (
+            0.0  # of the mesh that the solver was made for: a drag does not change it
+        )
         self._chosen = 0
         self._pace = Pace()
 
@@ -124,6 +134,7 @@ class Session:
             self._settings, self._chosen = snapshot(target.discrete_fairing), _chosen_level(target)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
+            self._shares = tolerance_shares(source, mesh, self._settings)
         clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
@@ -177,7 +188,16 @@ class Session:
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
-        arguments = fair_arguments(arrays, self._settings, preferences(), self._region)
+        if not (self._edge_length and _same_faces(arrays, self._arrays)):
+            self._edge_length = mean_edge_length(arrays)
+        arguments = fair_arguments(
+            arrays,
+            self._settings,
+            preferences(),
+            self._region,
+            shares=self._shares,
+            edge_length=self._edge_length,
+        )
         arguments |= {
             "levels": self._level,
             "relative_residual": _RESIDUAL,
@@ -291,7 +311,9 @@ class Session:
         self.level, self.triangles = job.settings.levels, job.triangles
         # the same faces: the next edit need only move them
         self._mesh = session_key(target.data) if job.settings.levels == self._level else None
-        self.solver = full.solver or self.solver
+        if full.solver is not None:
+            self.solver, self._arguments = full.solver, full.arguments
+            self._edge_length = job.edge_length
 
     @property
     def full_text(self) -> str:

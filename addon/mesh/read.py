@@ -8,9 +8,11 @@ from typing import cast
 import bpy
 import numpy as np
 
+from .. import vertex_values
 from ..blender import Context, Mesh, Object
 from ..core import ControlArrays
 from ..errors import JobError
+from ..settings import Settings, is_near
 from .layers import STORAGE, find_layer, layer_values
 
 
@@ -141,3 +143,13 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
             "or switch off Selected Faces Only."
         )
     return found
+
+
+def tolerance_shares(source: Object, mesh: Mesh, settings: Settings) -> np.ndarray | None:
+    """(n,) from 0 to 1: the part of the tolerance that each vertex of `mesh` has; None: all of it.
+
+    JobError if `source` has nothing by the name that the settings say.
+    """
+    if not (is_near(settings) and settings.tolerance_group):
+        return None
+    return vertex_values.read(source, mesh, settings.tolerance_group)

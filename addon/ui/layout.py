@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..choices import ENERGY_MEANINGS
-from ..settings import Settings, is_evaluated
+from ..settings import Settings, is_evaluated, is_near
 
 
 class Sidebar:
@@ -27,9 +27,16 @@ class Folded(Sidebar):
     bl_options = {"DEFAULT_CLOSED"}
 
 
-def draw_shape(layout: bpy.types.UILayout, settings: Settings, triangle_text: str = "") -> None:
-    """The few that everyone needs; `triangle_text` stands under the levels: beside them a narrow
-    sidebar cuts it.
+def draw_shape(
+    layout: bpy.types.UILayout,
+    settings: Settings,
+    triangle_text: str = "",
+    tolerance_text: str = "",
+    missing_group: str = "",
+) -> None:
+    """The few that everyone needs. What is known of the source stands below what it is about,
+    since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
+    relative tolerance comes to, and why the tolerance group is not there.
     """
     layout.prop(settings, "levels")
     if triangle_text:
@@ -37,11 +44,31 @@ def draw_shape(layout: bpy.types.UILayout, settings: Settings, triangle_text: st
     layout.prop(settings, "energy")
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     layout.prop(settings, "interpolation")
-    if settings.interpolation == "APPROXIMATE":
-        layout.prop(settings, "tolerance")
+    if is_near(settings):
+        _draw_tolerance(layout, settings, tolerance_text, missing_group)
     _draw_pads(layout, settings)
     layout.prop(settings, "tension")
     layout.prop(settings, "boundary")
+
+
+def _draw_tolerance(
+    layout: bpy.types.UILayout, settings: Settings, length: str, missing_group: str
+) -> None:
+    relative = settings.tolerance_unit == "RELATIVE"
+    layout.prop(settings, "tolerance_unit")
+    layout.prop(
+        settings,
+        "relative_tolerance" if relative else "tolerance",
+        text="Tolerance",
+        slider=relative,
+    )
+    if relative and length:
+        _remark(layout, length)
+    row = layout.row()
+    row.alert = bool(missing_group)
+    row.prop(settings, "tolerance_group", text="Group", icon="GROUP_VERTEX")
+    if missing_group:
+        _remark(layout, missing_group, icon="ERROR")
 
 
 def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:

@@ -7,12 +7,13 @@ from typing import Any
 import bpy
 from bl_ui.utils import PresetPanel
 
-from .. import core, size
-from ..blender import Context, registration
+from .. import core, size, vertex_values
+from ..blender import Context, Object, registration
+from ..core import mean_edge_length, tolerance
 from ..memory import FAIRING_PG_surface
-from ..mesh.read import source_objects
+from ..mesh.read import read_mesh, source_objects
 from ..queue import Queue, running, status_text
-from ..settings import Settings, copy_settings
+from ..settings import Settings, copy_settings, is_evaluated, is_near
 from .layout import (
     Folded,
     Sidebar,
@@ -27,6 +28,7 @@ from .notice import draw_notice
 
 # where Blender looks for the presets of the operator, which are those of the panel
 PRESET_FOLDER = "operator/object.fair_surface"
+_MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
 
 class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
@@ -56,7 +58,13 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         triangles = sum(
             size.triangle_count(size.face_sizes(o.data), settings.levels) for o in sources
         )
-        draw_shape(layout, settings, size.count_text(triangles) if triangles else "")
+        draw_shape(
+            layout,
+            settings,
+            size.count_text(triangles) if triangles else "",
+            tolerance_text(context, settings, sources),
+            missing_group(settings, sources),
+        )
         if triangles >= size.LARGE:
             draw_notice(
                 layout, size.why_too_large(triangles) or "A large result: this takes a while"
@@ -87,6 +95,35 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
 def settings_at_hand(context: Context) -> Settings:
     """Those of the faired surface that is active, else those for the next one."""
     return remembered(context) or context.scene.discrete_fairing
+
+
+def tolerance_text(context: Context, settings: Settings, sources: list[Object]) -> str:
+    """The length that a relative tolerance comes to; empty where it would not be the one that
+    counts, or takes long to find out.
+    """
+    if not is_near(settings) or is_evaluated(settings) or len(sources) != 1:
+        return ""
+    mesh = sources[0].data
+    if len(mesh.edges) > _MEASURED_WHILE_DRAWING or sources[0].mode == "EDIT":
+        return ""
+    length = tolerance(settings, mean_edge_length(read_mesh(mesh)))
+    units = context.scene.unit_settings
+    if units.system == "NONE":  # of which Blender's own function makes a crash
+        return f"= {length:.4g}"
+    return "= " + bpy.utils.units.to_string(
+        units.system, "LENGTH", length * units.scale_length, precision=4
+    )
+
+
+def missing_group(settings: Settings, sources: list[Object]) -> str:
+    """Which source lacks the tolerance group, in a few words; empty if none, or if modifiers may
+    make it.
+    """
+    name = settings.tolerance_group
+    if not name or is_evaluated(settings):
+        return ""
+    lacking = [o.name for o in sources if not vertex_values.exists(o, o.data, name)]
+    return f"Not in {lacking[0]}" if lacking else ""
 
 
 class _FoldedSettings(Folded):

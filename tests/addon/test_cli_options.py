@@ -26,7 +26,8 @@ def test_only_settings_are_left_out():
 
 def test_every_other_setting_can_be_said():
     words = parser("").format_help()
-    for name in set(NAMES) - options.NOT_HERE:
+    assert "--tolerance-unit" not in words, "said by which tolerance is given"
+    for name in set(NAMES) - options.NOT_HERE - {"tolerance_unit"}:
         assert options.option(name) + " " in words or options.option(name) + "," in words, name
     for name in options.NOT_HERE:
         assert options.option(name) + " " not in words, name
@@ -49,11 +50,35 @@ def test_a_value_switches_its_rule_on():
     assert settings("--corner-angle", "180").corner_angle == pytest.approx(3.14159265)
 
 
-def test_a_tolerance_needs_no_second_option():
-    assert settings("--tolerance", "0.1").interpolation == "APPROXIMATE"
-    assert settings("--interpolation", "approximate").tolerance == 0.01
-    with pytest.raises(ValueError, match="--interpolation approximate"):
-        settings("--interpolation", "exact", "--tolerance", "0.1")
+@pytest.mark.parametrize(
+    "option, value, unit",
+    [
+        ("--tolerance", "0.1", "SCENE"),
+        ("--relative-tolerance", "0.1", "RELATIVE"),
+        ("--tolerance-group", "Loose", "RELATIVE"),
+    ],
+)
+def test_a_tolerance_needs_no_second_option(option, value, unit):
+    given = settings(option, value)
+    assert (given.interpolation, given.tolerance_unit) == ("APPROXIMATE", unit)
+    with pytest.raises(ValueError, match=f"{option} needs --interpolation approximate"):
+        settings("--interpolation", "exact", option, value)
+
+
+def test_tolerances_of_nobody():
+    given = settings("--interpolation", "approximate")
+    assert (given.tolerance_unit, given.relative_tolerance) == ("RELATIVE", 0.02)
+    assert settings().interpolation == "EXACT"
+
+
+def test_one_tolerance_is_enough():
+    with pytest.raises(ValueError, match="one of --tolerance and --relative-tolerance"):
+        settings("--tolerance", "0.1", "--relative-tolerance", "0.1")
+
+
+def test_a_group_goes_with_either_tolerance():
+    given = settings("--tolerance", "0.1", "--tolerance-group", "Loose")
+    assert (given.tolerance_unit, given.tolerance_group) == ("SCENE", "Loose")
 
 
 def test_pads_and_tension():

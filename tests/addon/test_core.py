@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings arrive at the core under its own names; creases and corners from plain arrays."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import bpy
@@ -9,12 +10,13 @@ import pytest
 from scenes import CUBE, add, set_edge_attribute
 
 from addon import core
-from addon.choices import DEFAULT_ENERGY, ENERGIES
+from addon.choices import DEFAULT_ENERGY, ENERGIES, TOLERANCE_UNITS
 from addon.core import (
     are_equal,
     corner_vertices,
     crease_edges,
     fair_arguments,
+    mean_edge_length,
     without_vertices,
 )
 from addon.mesh.read import ControlArrays, read_mesh
@@ -48,7 +50,7 @@ def test_defaults():
 
 def test_values():
     given = arguments(
-        levels=5, interpolation="APPROXIMATE", tolerance=0.25, boundary="FREE", metric_exponent=1.0,
+        levels=5, interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE", boundary="FREE", metric_exponent=1.0,
         use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair_orientation=True, memory_limit=3,
     )  # fmt: skip
     assert (
@@ -65,6 +67,38 @@ def test_values():
 def test_energies_are_those_of_the_core(energy):
     given = arguments(energy=energy)["energy"]
     assert given in core.module()._native.Energy.__members__ and given.upper() == energy
+
+
+@pytest.mark.parametrize("unit", [key for key, *_ in TOLERANCE_UNITS])
+def test_tolerance_belongs_to_approximation(unit):
+    given = arguments(interpolation="EXACT", tolerance=0.25, tolerance_unit=unit)
+    assert given["tolerance"] == 0.0
+
+
+def test_a_relative_tolerance_is_a_share_of_the_mean_edge():
+    arrays = triangle()
+    assert mean_edge_length(arrays) == pytest.approx((2 + 2**0.5) / 3), "the loose edge is left out"
+    near = settings(interpolation="APPROXIMATE", relative_tolerance=0.25, tolerance_unit="RELATIVE")
+    assert fair_arguments(arrays, near, Defaults, edge_length=2.0)["tolerance"] == 0.5
+    length = settings(interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE")
+    assert fair_arguments(arrays, length, Defaults, edge_length=2.0)["tolerance"] == 0.25
+
+
+def test_a_mesh_without_faces_has_no_edges_to_measure():
+    nothing = np.empty(0, np.int32)
+    arrays = replace(triangle(), corners=nothing, corner_edges=nothing, offsets=np.zeros(1, int))
+    assert mean_edge_length(arrays) == 0.0
+
+
+def test_shares_of_the_tolerance():
+    near = settings(interpolation="APPROXIMATE", tolerance=0.5, tolerance_unit="SCENE")
+    shares = np.array([0.0, 0.25, 1.0, 0.0])
+    given = fair_arguments(triangle(), near, Defaults, shares=shares)
+    assert given["tolerance"].tolist() == [0.0, 0.125, 0.5, 0.0]
+
+
+def test_nothing_is_measured_unasked():
+    assert arguments()["measure"] is False
 
 
 def has_tension():
@@ -85,14 +119,6 @@ def test_pads_and_tension_reach_the_core(energy, interpolation):
 def test_the_core_takes_every_combination(energy, interpolation):
     given = arguments(energy=energy, interpolation=interpolation, tension=0.25, levels=1)
     assert len(core.module().fair(**given).vertices) == 26
-
-
-def test_nothing_is_measured_unasked():
-    assert arguments()["measure"] is False
-
-
-def test_tolerance_belongs_to_approximation():
-    assert arguments(interpolation="EXACT", tolerance=0.25)["tolerance"] == 0.0
 
 
 @pytest.mark.parametrize(

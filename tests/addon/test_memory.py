@@ -37,6 +37,7 @@ def check_settings(group):
     for gone in ("epsilon", "vertex_release"):
         assert group.get(gone) is None
     assert (group.interpolation, group.tolerance) == ("APPROXIMATE", 0.125)
+    assert group.tolerance_unit == "SCENE"
 
 
 def check_taken_over(target):
@@ -77,6 +78,19 @@ def test_objects_linked_from_an_older_file_stay_as_they_are(old_file):
         wanted.objects = ["Box"]
     assert memory.recall(wanted.objects[0], "report") is None
     assert custom_properties(wanted.objects[0]) == set(RECORDS)
+
+
+def test_newer_settings_stay(tmp_path):
+    add("Box", *CUBE)
+    result = fair(levels=1, interpolation="APPROXIMATE", relative_tolerance=0.25)
+    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
+    name = result.name
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "new.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "new.blend"))
+    kept = bpy.data.objects[name].discrete_fairing
+    assert (kept.tolerance_unit, kept.relative_tolerance) == ("RELATIVE", 0.25)
+    assert kept.pad_size == 0.5
+    assert bpy.context.scene.discrete_fairing.tolerance_unit == "RELATIVE"
 
 
 def test_what_is_newer_stays():

@@ -16,11 +16,49 @@ from addon.ui.layout import Sidebar
 
 def test_every_setting_is_shown_somewhere():
     add("Box", *CUBE)
-    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
-    bpy.context.scene.discrete_fairing.use_selection = True
+    settings = bpy.context.scene.discrete_fairing
+    settings.interpolation = "APPROXIMATE"
+    settings.use_selection = True
     panels = [cls for cls in main.CLASSES if issubclass(cls, Sidebar)]
-    log = [entry for cls in panels for entry in draw(cls)]
+    log = []
+    for settings.tolerance_unit in ("RELATIVE", "SCENE"):
+        log += [entry for cls in panels for entry in draw(cls)]
     assert set(NAMES) <= set(log)
+
+
+def near(**changes):
+    """The panel's lines with Near chosen."""
+    settings = bpy.context.scene.discrete_fairing
+    settings.interpolation = "APPROXIMATE"
+    for name, value in changes.items():
+        setattr(settings, name, value)
+    return draw(main.VIEW3D_PT_fairing)
+
+
+def test_the_tolerance_that_counts_is_shown():
+    add("Box", *CUBE)
+    assert not {"tolerance", "relative_tolerance"} & set(draw(main.VIEW3D_PT_fairing))
+    assert "relative_tolerance" in near() and "tolerance" not in near()
+    assert "tolerance" in (log := near(tolerance_unit="SCENE")) and "relative_tolerance" not in log
+
+
+def test_a_relative_tolerance_says_its_length():
+    add("Box", *CUBE)  # edges of 2
+    assert "= 25 cm" in near(relative_tolerance=0.125)
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    assert "= 0.25 mm" in near(relative_tolerance=0.125)
+    bpy.context.scene.unit_settings.system = "NONE"
+    assert "= 0.25" in near(relative_tolerance=0.125)
+    for unknown in ({"mesh_source": "EVALUATED"}, {"tolerance_unit": "SCENE"}):
+        assert not [line for line in near(**unknown) if line.startswith("= ")]
+
+
+def test_a_group_that_is_not_there_is_said():
+    box = add("Box", *CUBE)
+    assert "Not in Box" in near(tolerance_group="Loose")
+    box.vertex_groups.new(name="Loose")
+    assert "Not in Box" not in near()
+    assert "Not in Box" not in near(tolerance_group="Made by a modifier", mesh_source="EVALUATED")
 
 
 def test_pads_of_minimum_variation_are_said_to_be_its_start():

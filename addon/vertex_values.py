@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One number a vertex, by its name: a vertex group, or else a float attribute on points."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .blender import Mesh, Object
+from .errors import JobError
+
+
+def names(source: Object) -> Iterator[tuple[str, str]]:
+    """(name, kind) of all that the mesh object `source` has; of two with one name the one that is
+    read comes last.
+    """
+    for attribute in source.data.attributes:
+        if _is_float(attribute) and not attribute.name.startswith("."):
+            yield attribute.name, "Attribute"
+    for group in source.vertex_groups:
+        yield group.name, "Vertex Group"
+
+
+def exists(source: Object, mesh: Mesh, name: str) -> bool:
+    """Whether `read` finds something."""
+    return name in source.vertex_groups or _is_float(mesh.attributes.get(name))
+
+
+def read(source: Object, mesh: Mesh, name: str) -> np.ndarray:
+    """(n,) float64, from 0 to 1: what is called `name` on `mesh`, which is that of the object
+    `source` or what its modifiers make of it. 0 outside of a group.
+
+    JobError if nothing is called so.
+    """
+    if not exists(source, mesh, name):
+        raise JobError(
+            f"{source.name}: there is no vertex group and no float attribute on points named '{name}'. "
+            "Choose another one as Tolerance Group, or clear the field."
+        )
+    if name in source.vertex_groups:
+        return _group(mesh, source.vertex_groups[name].index)
+    values = np.empty(len(mesh.vertices), np.float32)
+    mesh.attributes[name].data.foreach_get("value", values)
+    return np.clip(values.astype(np.float64), 0.0, 1.0)
+
+
+def _is_float(attribute: object) -> bool:
+    return (getattr(attribute, "data_type", ""), getattr(attribute, "domain", "")) == (
+        "FLOAT",
+        "POINT",
+    )
+
+
+def _group(mesh: Mesh, index: int) -> np.ndarray:
+    weights = np.zeros(len(mesh.vertices))
+    for vertex in mesh.vertices:
+        for member in vertex.groups:
+            if member.group == index:
+                weights[vertex.index] = member.weight
+    return weights

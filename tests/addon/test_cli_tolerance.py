@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tolerances on the command line: a length, a share of the edges, a number for each vertex."""
+
+from pathlib import Path
+
+import pytest
+from cli_files import lopsided, write_obj, write_ply
+from cli_runs import contains, entries, imported, run
+
+from addon import core, vertex_values
+from addon.cli import main as command
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """Every test in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_length_and_a_share_of_the_edges():
+    write_obj("in.obj")  # edges of 2
+    near = ("--levels", 1, "--energy", "thin_plate")
+    _, (length,) = entries("in.obj", "length.obj", *near, "--tolerance", 0.1)
+    _, (share,) = entries("in.obj", "share.obj", *near, "--relative-tolerance", 0.05)
+    assert (length["settings"]["tolerance_unit"], share["settings"]["tolerance_unit"]) == (
+        "SCENE",
+        "RELATIVE",
+    )
+    assert Path("length.obj").read_text() == Path("share.obj").read_text()
+
+
+def write_ply_with(name, property_name, values):
+    """The box with a float property of its vertices."""
+    write_ply(name)
+    lines = Path(name).read_text().splitlines()
+    lines.insert(lines.index("property float z") + 1, f"property float {property_name}")
+    first = lines.index("end_header") + 1
+    for number, value in enumerate(values, first):
+        lines[number] += f" {value}"
+    Path(name).write_text("\n".join(lines) + "\n")
+
+
+def test_a_property_of_a_ply_file_is_a_tolerance_group():
+    write_ply_with("in.ply", "loose", [0.25] * 4 + [1.0] * 4)
+    (box,) = command.read_file(Path("in.ply"))
+    assert vertex_values.read(box, box.data, "loose").tolist() == [0.25] * 4 + [1.0] * 4
+
+
+@pytest.mark.skipif(
+    "tension" not in core.module().options.SETTINGS, reason="the core at hand has one tolerance"
+)
+def test_a_group_on_the_command_line():
+    write_ply_with("in.ply", "loose", [0] * 4 + [1.0] * 4)
+    points = lopsided()
+    group = ("--tolerance", 0.05, "--tolerance-group", "loose")
+    assert run("in.ply", "out.ply", "--levels", 1, *group) == 0
+    positions, _ = imported("out.ply")
+    assert contains(positions, points[:4], 1e-6) and not contains(positions, points[4:], 1e-3)
+
+
+def test_a_group_that_no_file_has_is_refused():
+    write_obj("in.obj")
+    code, (entry,) = entries("in.obj", "out.obj", "--tolerance-group", "loose")
+    assert code == command.SOME_FAILED and entry["error"]["code"] == "REFUSED"
+    assert "named 'loose'" in entry["error"]["message"]

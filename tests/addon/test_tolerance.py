@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tolerances: a length or a share of the edges, and a group for single vertices."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import follow, live, move, session, tick_until
+from scenes import CUBE, activate, add, add_attribute, fair, positions
+
+from addon import core, vertex_values
+from addon.errors import JobError
+from addon.job import Job
+from addon.memory import recall
+from addon.mesh.read import control_mesh, tolerance_shares
+from addon.settings import FairingSettings, _vertex_values
+
+takes_arrays = pytest.mark.skipif(
+    "tension" not in core.module().options.SETTINGS, reason="the core at hand has one tolerance"
+)
+
+
+def moved(source, result):
+    """How far each vertex was missed."""
+    count = len(source.data.vertices)
+    return np.linalg.norm(positions(result.data)[:count] - positions(source.data), axis=1)
+
+
+def add_group(source, weights, name="Loose"):
+    """A vertex group of {vertex: weight}."""
+    group = source.vertex_groups.new(name=name)
+    for vertex, weight in weights.items():
+        group.add([vertex], weight, "REPLACE")
+
+
+def test_whichever_tolerance_is_set_counts():
+    settings = bpy.context.scene.discrete_fairing
+    assert settings.tolerance_unit == "RELATIVE"
+    settings.tolerance = 0.5
+    assert settings.tolerance_unit == "SCENE"
+    settings.relative_tolerance = 0.5
+    assert settings.tolerance_unit == "RELATIVE"
+
+
+@pytest.mark.parametrize(
+    "given, most",
+    [
+        ({"tolerance": 0.05}, 0.05),
+        ({"relative_tolerance": 0.05}, 0.1),
+        ({"tolerance": 0.05, "relative_tolerance": 0.25, "tolerance_unit": "SCENE"}, 0.05),
+        ({}, 0.04),
+    ],
+)
+def test_near_keeps_the_tolerance_that_was_given(given, most):
+    source = add("Box", *CUBE)  # edges of 2
+    result = fair(levels=1, interpolation="APPROXIMATE", **given)
+    assert 0.9 * most < moved(source, result).max() <= most * (1 + 1e-5)
+
+
+def test_a_relative_tolerance_goes_with_the_size():
+    source = add("Box", *CUBE)
+    result = fair(levels=1, interpolation="APPROXIMATE", relative_tolerance=0.05)
+    small = positions(result.data)
+    source.data.vertices.foreach_set("co", 100 * positions(source.data).ravel())
+    bpy.ops.object.fairing_recompute()
+    assert np.allclose(positions(result.data), 100 * small, atol=1e-3)
+
+
+def test_it_is_a_share_of_the_edges_that_are_faired():
+    source = add("Box", *CUBE)
+    source.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
+    result = fair(
+        levels=1, interpolation="APPROXIMATE", relative_tolerance=0.05, mesh_source="EVALUATED"
+    )
+    most = 0.05  # of edges that are half as long
+    assert 0.9 * most < recall(result, "report")["largest_deviation"] <= most * (1 + 1e-5)
+
+
+def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(no_pause):
+    """Else each update would build a solver."""
+    source = add("Box", *CUBE)
+    target = fair(levels=2, interpolation="APPROXIMATE")
+    target.discrete_fairing_live.levels = 1
+    live(target)
+    move(source)
+    follow()
+    solver = session(target).solver
+    move(source)
+    follow()
+    assert session(target).solver is solver
+    tick_until(lambda: not session(target).is_waiting)
+    fresh = session(target).solver
+    assert fresh is not solver
+    move(source)
+    follow()
+    assert session(target).solver is fresh
+
+
+# --- a group
+
+
+def loose_by_group(source):
+    add_group(source, {0: 1.0, 1: 0.5})
+
+
+def loose_by_attribute(source):
+    add_attribute(source, [1.0, 0.5, *[0.0] * 6])
+
+
+@takes_arrays
+@pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
+@pytest.mark.parametrize("settings", [{}, {"mesh_source": "EVALUATED"}])
+def test_a_group_says_where_the_surface_may_miss(make, settings):
+    source = add("Box", *CUBE)
+    make(source)
+    result = fair(
+        levels=1,
+        interpolation="APPROXIMATE",
+        tolerance=0.1,
+        tolerance_group="Loose",
+        keep_symmetry=False,
+        **settings,
+    )
+    distance = moved(source, result)
+    assert 0.05 < distance[0] <= 0.1 * (1 + 1e-5) and 0 < distance[1] <= 0.05 * (1 + 1e-5)
+    assert np.array_equal(positions(result.data)[2:8], positions(source.data)[2:])
+
+
+@pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
+@pytest.mark.parametrize("mesh_source", ["ORIGINAL", "EVALUATED"])
+@pytest.mark.parametrize("given, most", [({"tolerance": 0.25}, 0.25), ({}, 0.04)])
+def test_a_group_reaches_the_core(make, mesh_source, given, most):
+    source = add("Box", *CUBE)
+    make(source)
+    settings = bpy.context.scene.discrete_fairing
+    changes = {"interpolation": "APPROXIMATE", "tolerance_group": "Loose"}
+    for name, value in (changes | given | {"mesh_source": mesh_source}).items():
+        setattr(settings, name, value)
+    allowed = Job(bpy.context, source, settings).arguments["tolerance"]
+    assert allowed == pytest.approx([most, most / 2, *[0.0] * 6])
+
+
+@pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
+def test_a_group_is_read_in_edit_mode(make):
+    source = add("Box", *CUBE)
+    make(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    settings = SimpleNamespace(interpolation="APPROXIMATE", tolerance_group="Loose")
+    with control_mesh(bpy.context, source) as mesh:
+        assert tolerance_shares(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
+
+
+@takes_arrays
+def test_recompute_reads_the_group_again():
+    source = add("Box", *CUBE)
+    loose_by_group(source)
+    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    source.vertex_groups["Loose"].add([0, 1], 0.0, "REPLACE")
+    source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
+    bpy.ops.object.fairing_recompute()
+    assert set(np.flatnonzero(moved(source, result))) == {7}
+
+
+@takes_arrays
+def test_shape_keys_are_held_by_the_group_too():
+    source = add("Box", *CUBE)
+    loose_by_group(source)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[7].co.z += 1.0
+    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    control, up = (o.data.shape_keys.key_blocks["Up"].data for o in (source, result))
+    assert up[7].co == control[7].co and up[0].co != control[0].co
+
+
+@takes_arrays
+def test_live_follows_the_group():
+    source = add("Box", *CUBE)
+    loose_by_group(source)
+    target = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    live(target)
+    source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
+    source.data.update()
+    follow()
+    assert moved(source, target)[7] > 0 and not session(target).trouble
+
+
+def test_live_waits_for_a_group_that_is_gone():
+    source = add("Box", *CUBE)
+    target = fair(levels=1, interpolation="APPROXIMATE")
+    live(target)
+    target.discrete_fairing.tolerance_group = "Loose"
+    target.update_tag()
+    follow()
+    assert "named 'Loose'" in session(target).trouble
+    target.discrete_fairing.tolerance_group = ""
+    target.update_tag()
+    follow()
+    assert not session(target).trouble
+    assert source.vertex_groups.get("Loose") is None
+
+
+def test_a_name_that_is_nothing_is_refused():
+    add("Box", *CUBE)
+    with pytest.raises(RuntimeError, match="Box: there is no vertex group.*named 'Loose'"):
+        fair(interpolation="APPROXIMATE", tolerance_group="Loose")
+    assert len(bpy.data.objects) == 1
+
+
+def test_a_group_means_nothing_where_all_vertices_are_held():
+    source = add("Box", *CUBE)
+    result = fair(levels=1, tolerance_group="Loose")
+    assert np.array_equal(positions(result.data)[:8], positions(source.data))
+
+
+def test_values_are_from_nothing_to_all():
+    source = add("Box", *CUBE)
+    add_attribute(source, [-1.0, 0.25, 2.0, *[0.5] * 5])
+    found = vertex_values.read(source, source.data, "Loose")
+    assert found.tolist() == [0.0, 0.25, 1.0, *[0.5] * 5]
+    add_group(source, {3: 0.75})
+    found = vertex_values.read(source, source.data, "Loose")
+    assert found.tolist() == [0, 0, 0, 0.75, 0, 0, 0, 0], "the group, of two with one name"
+
+
+@pytest.mark.parametrize(
+    "data_type, domain", [("INT", "POINT"), ("FLOAT", "FACE"), ("FLOAT_VECTOR", "POINT")]
+)
+def test_other_attributes_are_none(data_type, domain):
+    source = add("Box", *CUBE)
+    source.data.attributes.new("Loose", data_type, domain)
+    with pytest.raises(JobError, match="Loose"):
+        vertex_values.read(source, source.data, "Loose")
+    assert "Loose" not in dict(vertex_values.names(source))
+
+
+def test_the_field_offers_groups_and_attributes():
+    source = add("Box", *CUBE)
+    add_group(source, {}, "Ears")
+    add_attribute(source, [0.0] * 8, "Age")
+    add_attribute(source, [0.0] * 8, ".hidden")
+    scene = bpy.context.scene.discrete_fairing
+    offered = [("Age", "Attribute"), ("Ears", "Vertex Group")]
+    assert _vertex_values(scene, bpy.context, "") == offered
+    result = fair(levels=1)
+    assert _vertex_values(result.discrete_fairing, bpy.context, "") == offered
+    redo = SimpleNamespace(**dict.fromkeys(FairingSettings.__annotations__))
+    assert _vertex_values(redo, bpy.context, "") == offered, "of the source, not of the result"
+
+
+def test_the_field_offers_nothing_without_a_mesh():
+    activate(add("Box", *CUBE))
+    bpy.data.objects.remove(bpy.context.object)
+    assert _vertex_values(bpy.context.scene.discrete_fairing, bpy.context, "") == []
