@@ -19,7 +19,7 @@ from ..ui.main import PRESET_FOLDER
 
 _FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
 # belongs to the work at hand, not to the kind of thing that is made
-_NOT_KEPT = {"use_selection", "memory_limit"}
+NOT_KEPT = {"use_selection", "tolerance_group", "memory_limit"}
 
 
 def _settings_as_operator(context: Context) -> Any:
@@ -51,7 +51,7 @@ class OBJECT_OT_fairing_preset_add(AddPresetBase, bpy.types.Operator):
     preset_menu = "VIEW3D_PT_fairing_presets"
     preset_subdir = PRESET_FOLDER
     preset_defines = ["op = bpy.context.active_operator"]
-    preset_values = [f"op.{name}" for name in NAMES if name not in _NOT_KEPT]
+    preset_values = [f"op.{name}" for name in NAMES if name not in NOT_KEPT]
 
     def execute(self, context: Context) -> Answer:
         with _settings_as_operator(context):

@@ -10,11 +10,12 @@ from bl_operators.presets import AddPresetOperator
 from scenes import CUBE, add, fair
 
 import addon
+from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES
 from addon.ui.main import PRESET_FOLDER
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
-SHIPPED = ("organic", "hull", "mechanical_with_creases")
+SHIPPED = ("default", "organic", "hull", "mechanical_with_creases", "scan")
 
 
 def values(name):
@@ -37,7 +38,9 @@ def test_blender_finds_them_for_the_operator():
 @pytest.mark.parametrize("name", SHIPPED)
 def test_menu_applies_them(name):
     given = values(name)
-    assert set(given) <= set(NAMES) and "energy" in given
+    assert list(given) == [name for name in NAMES if name not in NOT_KEPT], (
+        "all of them, and what a tolerance is said in behind the tolerances"
+    )
     bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / f"{name}.py"))
     settings = bpy.context.scene.discrete_fairing
     for key, value in given.items():
@@ -47,9 +50,18 @@ def test_menu_applies_them(name):
     fair(**{**{key: getattr(settings, key) for key in NAMES}, "levels": 1})
 
 
+def test_the_default_is_that_of_a_new_file():
+    new = bpy.context.scene.discrete_fairing
+    for key, value in values("default").items():
+        expected = pytest.approx(value) if isinstance(value, float) else value
+        assert getattr(new, key) == expected, key
+
+
 OLD = """import bpy
 op = bpy.context.active_operator
 
+op.interpolation = "APPROXIMATE"
+op.tolerance = 0.005
 op.vertex_release = 0.125
 op.shade_smooth = True
 """
@@ -60,6 +72,7 @@ def test_a_preset_from_before_still_opens(tmp_path):
     settings = bpy.context.scene.discrete_fairing
     bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Old.py"))
     assert settings.shade_smooth, "to its last line"
+    assert (settings.tolerance, settings.tolerance_unit) == (pytest.approx(0.005), "SCENE")
     assert settings.get("vertex_release") is None
 
 

@@ -1,18 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Boats, wings, panels: vertices are stations that a batten may miss by a little; marked edges are chines, borders keep their corners.
+# Boats, wings, panels: calm reflections through every vertex; marked edges are chines, borders keep their corners.
 import bpy
 
 op = bpy.context.active_operator
 
+op.levels = 3
 op.energy = "TOTAL_CURVATURE"
-op.interpolation = "APPROXIMATE"
-op.tolerance = 0.005
+op.interpolation = "EXACT"
+op.tolerance = 0.01
+op.relative_tolerance = 0.02
+op.tolerance_unit = "RELATIVE"
+op.pad_size = 1.0
+op.tension = 0.0
 op.boundary = "CURVE"
+op.mesh_source = "ORIGINAL"
+op.joint = "TANGENT"
+op.keep_symmetry = True
 op.use_crease_attribute = True
 op.crease_threshold = 0.5
 op.use_sharp_edges = True
 op.use_crease_angle = False
+op.crease_angle = 0.698132
 op.use_corner_angle = True
 op.corner_angle = 0.785398
 op.metric_exponent = 0.5
+op.repair_orientation = False
+op.use_shape_keys = True
+op.copy_modifiers = False
+op.hide_source = True
 op.shade_smooth = True

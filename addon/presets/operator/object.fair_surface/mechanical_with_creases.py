@@ -4,9 +4,18 @@ import bpy
 
 op = bpy.context.active_operator
 
+op.levels = 3
 op.energy = "TOTAL_CURVATURE"
 op.interpolation = "EXACT"
+op.tolerance = 0.01
+op.relative_tolerance = 0.02
+op.tolerance_unit = "RELATIVE"
+op.pad_size = 0.5
+op.tension = 0.0
 op.boundary = "CURVE"
+op.mesh_source = "ORIGINAL"
+op.joint = "TANGENT"
+op.keep_symmetry = True
 op.use_crease_attribute = True
 op.crease_threshold = 0.5
 op.use_sharp_edges = True
@@ -15,4 +24,8 @@ op.crease_angle = 0.523599
 op.use_corner_angle = True
 op.corner_angle = 0.785398
 op.metric_exponent = 0.5
+op.repair_orientation = False
+op.use_shape_keys = True
+op.copy_modifiers = False
+op.hide_source = True
 op.shade_smooth = True

@@ -1,16 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Characters, animals, soft things: smooth everywhere, sharp only where an edge is creased.
+# Characters, animals, soft things: near the vertices, smooth everywhere, sharp only where an edge is creased.
 import bpy
 
 op = bpy.context.active_operator
 
-op.energy = "TOTAL_CURVATURE"
-op.interpolation = "EXACT"
+op.levels = 3
+op.energy = "THIN_PLATE"
+op.interpolation = "APPROXIMATE"
+op.tolerance = 0.01
+op.relative_tolerance = 0.02
+op.tolerance_unit = "RELATIVE"
+op.pad_size = 0.5
+op.tension = 0.0
 op.boundary = "CURVE"
+op.mesh_source = "ORIGINAL"
+op.joint = "TANGENT"
+op.keep_symmetry = True
 op.use_crease_attribute = True
 op.crease_threshold = 0.5
 op.use_sharp_edges = False
 op.use_crease_angle = False
+op.crease_angle = 0.698132
 op.use_corner_angle = False
+op.corner_angle = 1.047198
 op.metric_exponent = 0.5
+op.repair_orientation = False
+op.use_shape_keys = True
+op.copy_modifiers = False
+op.hide_source = True
 op.shade_smooth = True
