@@ -82,6 +82,21 @@ FIGURES = {
         ),
         SMOOTH,
     ),
+    "pads": Figure(
+        meshes.pebble,
+        View(2.7, look="zebra", height=0.65, stripes=8),
+        _values("pad_size", 0, 0.5, 1, label="Pad Size {}"),
+        SMOOTH | {"levels": 5},
+    ),
+    "tension": Figure(
+        meshes.finned,
+        View(5.2, turn=35, elevation=20, height=1.5),
+        (
+            Variant("Control mesh", as_it_is=True),
+            *_values("tension", 0, 0.3, 1, label="Tension {}", energy="TOTAL_CURVATURE"),
+        ),
+        SMOOTH,
+    ),
     "boundary": Figure(
         meshes.tent,
         View(3.2, turn=20, elevation=30, height=0.85),
