@@ -58,6 +58,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
     step["iterations"] = s.iterations;
     step["residual"] = s.residual;
     step["direct"] = s.direct;
+    step["pad_corrections"] = s.pad_corrections;
     steps.append(step);
   }
   d["steps"] = steps;

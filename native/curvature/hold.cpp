@@ -138,7 +138,8 @@ void release_by_epsilon(SurfaceIterate& iterate, double epsilon, TotalCurvatureS
     system.linearize_below(iterate.level, iterate.current.points);
     system.set_damping(iterate.level, {});
     StepReport unreported;
-    system.solve(iterate.level, iterate.current.linearization.force, true, iterate.step,
+    NormalLoads no_loads;
+    system.solve(iterate.level, iterate.current.linearization, true, iterate.step, no_loads,
                  unreported);
     for (std::size_t v = 0; v < targets.size(); ++v) {
       if (!is_released(v)) continue;

@@ -49,6 +49,20 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
   } else {
     apply_rows(x, y);
   }
+  add_diagonal(x, y);
+}
+
+template void CurvatureLevel::apply_any(const double*, double*, ElementSlots<double, 1>&);
+template void CurvatureLevel::apply_any(const float*, float*, ElementSlots<float, 1>&);
+
+void CurvatureLevel::apply_on(const Unknowns& rows, const double* x, double* y) {
+  apply_square(rows_, rows, shared_.workers, shared_.double_slots, x, y);
+  add_diagonal(x, y);
+}
+
+// What control vertices' weights and damping add.
+template <class T>
+void CurvatureLevel::add_diagonal(const T* x, T* y) const {
   for (std::size_t v = 0; v < vertex_weight_.size(); ++v) y[v] += T(vertex_weight_[v]) * x[v];
   if (!damping_.empty())
     for_each_index(shared_.workers, damping_.size(),

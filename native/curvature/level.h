@@ -32,6 +32,9 @@ struct CurvatureShared {
   VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
   std::vector<Vec3> targets{};
   double total_curvature_share = 0;  // minimum variation: of W beside L
+  // The unknowns and the control vertices on pads: total curvature's force is wanted there too.
+  // Null: on the unknowns alone.
+  const Unknowns* pad_rows = nullptr;
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
   std::pair<Array<double>, Array<double>> double_moments{};
@@ -48,7 +51,8 @@ struct CurvatureShared {
 
 // What linearizing about a surface gives beside K. Numbers are zero where a point carries no fit.
 struct Linearization {
-  // Minus half the energy's gradient along the normals, on the unknowns: K h = force is the step.
+  // Minus half the energy's gradient along the normals, on the unknowns and on the control vertices
+  // on pads: K h = force is the step where there are none.
   Array<double> force;
   Array<double> normal;    // 3 a point, of unit length
   Array<float> shape;      // 4 a point: M's orthonormal components, and the root of its area
@@ -82,6 +86,8 @@ class CurvatureLevel final : public LevelOperator {
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override { apply_any(x, y, shared_.double_slots); }
   void apply(const float* x, float* y) override { apply_any(x, y, shared_.float_slots); }
+  // y <- K x on `rows`, for an x that is zero off the unknowns. Total curvature only.
+  void apply_on(const Unknowns& rows, const double* x, double* y);
   bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
@@ -94,6 +100,11 @@ class CurvatureLevel final : public LevelOperator {
   void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
+  const Unknowns& force_rows() const {
+    return shared_.pad_rows && !varies() ? *shared_.pad_rows : shared_.unknowns;
+  }
+  template <class T>
+  void add_diagonal(const T* x, T* y) const;
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
 
   CurvatureShared& shared_;

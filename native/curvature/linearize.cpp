@@ -219,7 +219,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     energy.of(run) += of_run;
   };
   accumulate_runs(
-      grid_, shared_.workers, shared_.double_slots, &shared_.unknowns, to.force.data(),
+      grid_, shared_.workers, shared_.double_slots, &force_rows(), to.force.data(),
       [&] { return Gather{point_scratch(), RingWalk(grid_, x, lift), RingLanes(grid_, x, lift)}; },
       body);
 

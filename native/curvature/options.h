@@ -36,6 +36,9 @@ struct StepReport {
   int iterations = 0;   // of the linear solve
   double residual = 0;  // of the linear solve, relative to its start
   bool direct = false;  // solved by a factorization, without iterations
+  // Of the loads on pads: how often they were corrected, and the work of a full step against them.
+  int pad_corrections = 0;
+  double load_work = 0;
 };
 
 struct CurvatureLevelReport {

@@ -28,11 +28,12 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
                                      const std::vector<CurvatureGrid>& levels, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
                                      const GaussNewtonOptions& options, ControlHold hold,
-                                     double epsilon, Mirrors mirrors, Workers& workers,
-                                     Monitor& monitor)
+                                     double epsilon, const Pads* pads, Mirrors mirrors,
+                                     Workers& workers, Monitor& monitor)
     : options_(options),
       epsilon_(epsilon),
       hold_(std::move(hold)),
+      pads_(pads),
       system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
               monitor),
       iterate_{system_},
@@ -48,8 +49,9 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   CurvatureLevelReport report;
   report.level = level;
   if (level < system_.base()) return report;
+  if (system_.stand_on(pads_)) iterate_.current.loads.clear();
   choose_start(iterate_, level, plate, plate_below_, report);
-  const StepStart start{iterate_.current.points, report};
+  const StepStart start{iterate_.current.points, iterate_.current.loads, report};
   minimize(start, report);
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
   if (is_finest()) finish(start, plate, report);
@@ -67,6 +69,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, CurvatureLevelReport& r
   LinearizedSurface plain = iterate_.current;
   const CurvatureLevelReport plain_report = std::exchange(report, start.report);
   iterate_.current.points = start.points;
+  iterate_.current.loads = start.loads;
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
   steps_.run_damped(damping, report);
   if (is_finest()) steps_.polish_damped(report);

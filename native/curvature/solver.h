@@ -12,12 +12,14 @@ namespace fairing {
 class GaussNewtonSolver {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns. `epsilon` in working units: how
-  // far interpolated control vertices are let go at the end; 0: not at all. `mirrors`: the
-  // symmetries that the surface is to keep. The references must outlive the solver.
+  // far interpolated control vertices are let go at the end; 0: not at all. `pads`: what control
+  // vertices stand on while total curvature is minimized, or null; their widths may change before
+  // each level. `mirrors`: the symmetries that the surface is to keep. The references must outlive
+  // the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, ControlHold hold, double epsilon,
-                    Mirrors mirrors, Workers& workers, Monitor& monitor);
+                    const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);
 
   // The surface of a level, from `plate`, the thin plate's (3 numbers a point, in working
   // coordinates). Levels have to come in order; on each but the first the level below helps to
@@ -47,6 +49,7 @@ class GaussNewtonSolver {
   GaussNewtonOptions options_;
   double epsilon_;
   ControlHold hold_;
+  const Pads* pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh

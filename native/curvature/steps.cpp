@@ -89,12 +89,13 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
   void find_step(StepReport& step) override {
+    loads_ = it_.current.loads;
     const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
     step.energy = it_.current.energy;
     const double gain =
-        it_.system.solve(it_.level, it_.current.linearization.force, fresh, it_.step, step);
+        it_.system.solve(it_.level, it_.current.linearization, fresh, it_.step, loads_, step);
     step.decrement = std::sqrt(gain / it_.current.energy);
     if (step.decrement < accelerated_decrement)
       anderson_.accelerate(it_.op(), it_.workers(), it_.step);
@@ -108,9 +109,10 @@ class TotalCurvatureMethod final : public StepMethod {
     if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
                                   count.rejected, count.accepted, step.decrement))
       anderson_.reset();
-    return energy;
+    return energy - 2 * step.length * step.load_work;
   }
 
+  // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
   bool is_acceptable(const StepReport& step, double energy) const override {
     if (!std::isfinite(energy)) return false;
     return !is_checked(step) ||
@@ -121,6 +123,7 @@ class TotalCurvatureMethod final : public StepMethod {
               CurvatureLevelReport& report) override {
     anderson_.accept(step.length);
     std::swap(it_.current, it_.trial);
+    it_.current.loads = loads_;
     const double left = share_left(step.decrement) * step.movement;
     if (hold_.adapts() && !it_.system.shared().weights.empty()) adapt_hold();
     report.converged =
@@ -172,6 +175,7 @@ class TotalCurvatureMethod final : public StepMethod {
   int patience_;
   Anderson anderson_;
   Array<float> predicted_;
+  NormalLoads loads_;  // that go with the step
   double last_decrement_ = 0;
   bool has_ratio_ = false;  // whether the step before had one
 };

@@ -89,23 +89,33 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
   }
 }
 
-double GaussNewtonSystem::solve(int level, const Array<double>& force, bool fresh, Array<double>& h,
-                                StepReport& report) {
-  const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
-  h.assign(points, 0.0);
-  if (fresh) hierarchy_.refresh(index, true);
-  std::copy(force.begin(), force.end(), hierarchy_.state().residual.begin());
+PcgLimits GaussNewtonSystem::limits() const {
   PcgLimits limits;
   limits.tolerance = inner_accuracy;
   limits.from_start = true;
   limits.max_iterations = max_iterations_;
-  const Residual residual = [&](const double* x, double* r) {
-    op(level).apply(x, r);
-    for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
-  };
-  const LevelSolve solved =
-      hierarchy_.solve(index, limits, residual, h.data(), [](const PcgResult&) {});
-  report.iterations = solved.iterations;
+  return limits;
+}
+
+double GaussNewtonSystem::solve(int level, const Linearization& about, bool fresh, Array<double>& h,
+                                NormalLoads& loads, StepReport& report) {
+  const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
+  h.assign(points, 0.0);
+  if (fresh) hierarchy_.refresh(index, true);
+  LevelSolve solved;
+  Array<double> with_loads;
+  const Array<double>& force = is_on_pads() ? with_loads : about.force;
+  if (is_on_pads()) {
+    solved = solve_on_pads(level, about, h, loads, with_loads, report);
+  } else {
+    std::copy(force.begin(), force.end(), hierarchy_.state().residual.begin());
+    const Residual residual = [&](const double* x, double* r) {
+      op(level).apply(x, r);
+      for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
+    };
+    solved = hierarchy_.solve(index, limits(), residual, h.data(), [](const PcgResult&) {});
+    report.iterations = solved.iterations;
+  }
   report.residual = solved.residual;
   report.direct = solved.direct;
   symmetrizer_.displacements(grid(level), h);

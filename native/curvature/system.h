@@ -10,6 +10,7 @@
 #include "curvature/level.h"
 #include "curvature/options.h"
 #include "grid/symmetrize.h"
+#include "hold/pads.h"
 #include "multigrid/hierarchy.h"
 #include "parallel/monitor.h"
 #include "transfer/level_transfer.h"
@@ -74,16 +75,30 @@ class GaussNewtonSystem {
   // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
   void set_damping(int level, const Array<float>& mu);
 
-  // Solves K h = force to a hundredth of the residual; h is symmetrized. `fresh`: coarse levels
-  // have been linearized, or damped, since the last solve. The linear solve's part of `report` is
-  // set. Returns h . K h = force . h, by which a full step would lower a quadratic energy.
-  double solve(int level, const Array<double>& force, bool fresh, Array<double>& h,
-               StepReport& report);
+  // Control vertices stand on pads of these widths from here on, while total curvature is
+  // minimized; null: they are held by point forces. Returns whether anything has changed. The
+  // surface has to be linearized afterwards.
+  bool stand_on(const Pads* pads);
+
+  // Solves K h = force to a hundredth of the residual; h is symmetrized. On pads the force has the
+  // loads' part Omega phi f beside it, and loads take corrections until their vertices need few
+  // other forces (solve_on_pads.cpp); empty loads start as those that fit best. `fresh`: coarse
+  // levels have been linearized, or damped, since the last solve. The linear solve's part of
+  // `report` is set. Returns h . K h = force . h, by which a full step would lower a quadratic
+  // energy.
+  double solve(int level, const Linearization& about, bool fresh, Array<double>& h,
+               NormalLoads& loads, StepReport& report);
 
   // Before each step: progress, on the finest level. Throws ErrorCode::cancelled.
   void report_progress(int level, std::size_t steps);
 
  private:
+  PcgLimits limits() const;
+  bool is_on_pads() const { return pads_ && shared_.energy == CurvatureEnergy::total_curvature; }
+  LevelSolve solve_on_pads(int level, const Linearization& about, Array<double>& h,
+                           NormalLoads& loads, Array<double>& force, StepReport& report);
+  NormalLoads fitting_loads(const Linearization& about) const;
+
   const Stencils& stencils_;
   int base_, max_iterations_;
   Monitor& monitor_;
@@ -93,12 +108,14 @@ class GaussNewtonSystem {
   std::vector<std::unique_ptr<LevelTransfer>> transfers_;
   Hierarchy hierarchy_;
   Symmetrizer symmetrizer_;
+  std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
 };
 
 struct LinearizedSurface {
   Array<double> points;         // 3 numbers a point, in working coordinates
   Linearization linearization;  // of the energy about `points`
   double energy = 0;            // the control vertices' weights included
+  NormalLoads loads;            // on pads; empty: none are known
 };
 
 struct SurfaceIterate {

@@ -138,7 +138,7 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
           ? ControlHold(control.working, unknowns_)
           : ControlHold(mesh_, control.working, unknowns_, options_.weights,
                         options_.tolerance / frame_.scale),
-      options_.epsilon / frame_.scale, mirrors_of(control), *workers_, monitor_);
+      options_.epsilon / frame_.scale, system().pads(), mirrors_of(control), *workers_, monitor_);
 }
 
 void FairingContext::solve(const ControlPositions& control, bool measured, Stopwatch& watch,

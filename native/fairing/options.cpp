@@ -52,8 +52,6 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
             "use interpolation=\"exact\"");
     exclude(o.epsilon > 0, "epsilon", "leave epsilon at 0: pads leave no cusps to take off");
     exclude(o.method == Method::back_leg, "method=\"back_leg\"", "use multigrid");
-    exclude(o.energy != Energy::thin_plate, "other energy than the thin plate's",
-            "use energy=\"thin_plate\"");
   }
   if (o.smoother_degree < 0 || o.smoother_degree > 1000)
     refuse("smoother_degree must be from 0 to 1000.");
