@@ -32,10 +32,11 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
 
 bool GaussNewtonSystem::stand_on(const Pads* pads) {
   if (!pads) return false;
-  const bool same = pads_ && pads_->widths() == pads->widths();
-  if (!same) pads_ = std::make_unique<Pads>(*pads);
+  if (pads_ && given_widths_ == pads->widths()) return false;
+  pads_ = std::make_unique<Pads>(*pads);
+  given_widths_ = pads->widths();
   shared_.pad_rows = &pads_->rows();
-  return !same;
+  return true;
 }
 
 // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.

@@ -6,6 +6,8 @@
 
 #include "curvature/hold.h"
 #include "curvature/start.h"
+#include "curvature/total_curvature.h"
+#include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -17,6 +19,33 @@ constexpr int long_patience = 14;
 // After control vertices have moved: a change of the energy, relative, at which what only
 // preconditions may stay as it is.
 constexpr double nearby = 0.02;
+
+// A star that has folded on pads counts as one of so many times the energy.
+constexpr double price_of_folds = 8;
+// Rounds in which pads beside folds are taken away on the finest level: those in the folds' stars,
+// and one ring more each time.
+constexpr int most_rounds = 3;
+
+// Of each control vertex: the folds in its star.
+std::vector<std::size_t> folds_of_stars(const ControlMesh& mesh, const Folds& folds) {
+  std::vector<std::size_t> stars(std::size_t(mesh.vertex_count()), 0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    for (const Spoke& spoke : mesh.ring(v)) {
+      stars[std::size_t(v)] += folds.on_edge[std::size_t(spoke.edge)];
+      if (spoke.face >= 0) stars[std::size_t(v)] += folds.in_face[std::size_t(spoke.face)];
+    }
+  return stars;
+}
+
+// Marks the neighbours of marked control vertices.
+void dilate_vertices(const ControlMesh& mesh, std::vector<std::uint8_t>& marks) {
+  const std::vector<std::uint8_t> before = marks;
+  for (const Edge& edge : mesh.edges) {
+    const auto a = std::size_t(edge.vertex[0]), b = std::size_t(edge.vertex[1]);
+    marks[a] |= before[b];
+    marks[b] |= before[a];
+  }
+}
 
 bool has_settled(const CurvatureLevelReport& report) {
   return report.converged && report.energy <= report.plate_energy;
@@ -52,7 +81,10 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (system_.stand_on(pads_)) iterate_.current.loads.clear();
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.loads, report};
-  minimize(start, report);
+  if (system_.pads() && level == std::clamp(widths_level, system_.base(), system_.finest()))
+    choose_widths(start, report);
+  else
+    minimize(start, is_finest(), report);
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
   if (is_finest()) finish(start, plate, report);
   return report;
@@ -61,9 +93,10 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
 // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
 // They stand if they settle and have never failed so far; else damped steps from the same start
 // show whether they have found a worse surface.
-void GaussNewtonSolver::minimize(const StepStart& start, CurvatureLevelReport& report) {
-  const bool doubtful = is_finest() && stepping_ == Stepping::damped;
-  const StepEnd end = is_finest() ? accurate_end() : StepEnd{plain_decrement, 0};
+void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
+                                 CurvatureLevelReport& report) {
+  const bool doubtful = is_accurate && stepping_ == Stepping::damped;
+  const StepEnd end = is_accurate ? accurate_end() : StepEnd{plain_decrement, 0};
   steps_.run_plain(end, doubtful ? short_patience : long_patience, report);
   if (has_settled(report) && stepping_ == Stepping::plain) return;
   LinearizedSurface plain = iterate_.current;
@@ -72,7 +105,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, CurvatureLevelReport& r
   iterate_.current.loads = start.loads;
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
   steps_.run_damped(damping, report);
-  if (is_finest()) steps_.polish_damped(report);
+  if (is_accurate) steps_.polish_damped(report);
   const bool plain_is_as_good =
       has_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
   stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
@@ -81,9 +114,69 @@ void GaussNewtonSolver::minimize(const StepStart& start, CurvatureLevelReport& r
   report = plain_report;
 }
 
+// The surface on point forces says what each star costs at the least, and is where those on pads
+// start: they have its shape, but for the marks.
+void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelReport& report) {
+  const auto stars = [&] {
+    return total_curvature_of_stars(iterate_.grid(), iterate_.workers(), surface().data());
+  };
+  {
+    const GaussNewtonSystem::OffPads off_pads(system_);
+    iterate_.is_linearized = false;
+    minimize(start, false, report);
+  }
+  const std::vector<double> of_needles = stars();
+  const std::vector<std::size_t> folds_of_needles =
+      folds_of_stars(system_.mesh(), unfolding_.find());
+  double mean = 0;
+  for (const double energy : of_needles) mean += energy / double(of_needles.size());
+  const Array<double> needles = surface();
+  const double energy_of_needles = report.energy;
+  for (int round = 0;; ++round) {
+    surface() = needles;
+    iterate_.is_linearized = false;
+    StepStart again{needles, iterate_.current.loads, start.report};
+    again.report.plate_energy = std::max(start.report.plate_energy, energy_of_needles);
+    report = again.report;
+    minimize(again, is_finest(), report);
+    std::vector<double> energy = stars();
+    const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
+    for (std::size_t v = 0; v < energy.size(); ++v)
+      if (folds[v] > folds_of_needles[v])
+        energy[v] = std::max(energy[v], price_of_folds * (of_needles[v] + mean));
+    const std::vector<int> halvings =
+        halvings_of_pads(system_.grid(0), *system_.pads(), energy, of_needles, round);
+    if (halvings.empty()) return;
+    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
+  }
+}
+
+void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport& report) {
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
+    std::vector<std::uint8_t> near(folds.size());
+    for (std::size_t v = 0; v < near.size(); ++v) near[v] = folds[v] > 0;
+    for (int ring = 0; ring < round; ++ring) dilate_vertices(system_.mesh(), near);
+    std::vector<int> halvings(folds.size(), 0);
+    bool any = false;
+    for (std::size_t v = 0; v < near.size(); ++v)
+      if (near[v] && system_.pads()->under(v)) {
+        halvings[v] = to_nothing;
+        any = true;
+      }
+    if (!any) return;
+    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
+    const StepStart again{surface(), iterate_.current.loads, start.report};
+    iterate_.is_linearized = false;
+    report = start.report;
+    minimize(again, true, report);
+  }
+}
+
 // What the finest level's surface has beyond those of coarser ones.
 void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plate,
                                CurvatureLevelReport& report) {
+  if (system_.pads()) leave_folds(start, report);
   unfolding_.run(start, report);
   if (hold_.any()) fix_held(iterate_, hold_, steps_, report);
   if (epsilon_ > 0) release_by_epsilon(iterate_, epsilon_, steps_, report);

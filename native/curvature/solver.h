@@ -34,13 +34,20 @@ class GaussNewtonSolver {
   void leave_plate(const Array<double>& plate);
   bool solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report);
 
+  // What control vertices stand on, after the levels so far; null: on none.
+  const Pads* pads() { return system_.pads(); }
+
   // The latest level's surface: 3 numbers a point.
   Array<double>& surface() { return iterate_.current.points; }
 
  private:
   enum class Stepping { undecided, plain, damped };
 
-  void minimize(const StepStart& start, CurvatureLevelReport& report);
+  void minimize(const StepStart& start, bool is_accurate, CurvatureLevelReport& report);
+  // minimize() on the level where the widths of pads are chosen.
+  void choose_widths(const StepStart& start, CurvatureLevelReport& report);
+  // On the finest level: pads beside folds are gone, and the surface follows.
+  void leave_folds(const StepStart& start, CurvatureLevelReport& report);
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
   void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
   StepEnd accurate_end() const { return {0, options_.step_tolerance}; }

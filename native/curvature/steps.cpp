@@ -61,6 +61,10 @@ constexpr double least_ratio = 0.1;
 // From this ratio on decrements do not tell what is left; the step itself is taken for it.
 constexpr double irregular_ratio = 0.5;
 
+// A movement, in sizes of the mesh, after which nothing is left of the surface: the energy of what
+// has burst says nothing, not even where it is zero.
+constexpr double farthest = 1e3;
+
 // Plain steps after damped ones: such as have not reached plain_decrement by then never will.
 constexpr int polishing_patience = 3;
 
@@ -131,8 +135,10 @@ class TotalCurvatureMethod final : public StepMethod {
     report.accurate = left <= step_tolerance_;
     report.converged &=
         it_.system.shared().weights.empty() || !hold_.adapts() || hold_.holds(it_.current.points);
+    const bool burst = !(step.movement <= farthest);
+    report.converged &= !burst;
     const bool hopeless =
-        !damping_ && count.total() >= patience_ && step.decrement > plain_decrement;
+        burst || (!damping_ && count.total() >= patience_ && step.decrement > plain_decrement);
     return report.converged || hopeless;
   }
 

@@ -75,10 +75,15 @@ class GaussNewtonSystem {
   // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
   void set_damping(int level, const Array<float>& mu);
 
-  // Control vertices stand on pads of these widths from here on, while total curvature is
-  // minimized; null: they are held by point forces. Returns whether anything has changed. The
-  // surface has to be linearized afterwards.
+  // Control vertices stand on a copy of these pads from here on, while total curvature is
+  // minimized; null: they are held by point forces. Returns whether the widths are others than
+  // those given before. The surface has to be linearized afterwards.
   bool stand_on(const Pads* pads);
+  // Null without pads.
+  Pads* pads() { return pads_.get(); }
+  // While it exists, control vertices are held by point forces all the same. The surface has to be
+  // linearized after its beginning and after its end.
+  class OffPads;
 
   // Solves K h = force to a hundredth of the residual; h is symmetrized. On pads the force has the
   // loads' part Omega phi f beside it, and loads take corrections until their vertices need few
@@ -109,6 +114,23 @@ class GaussNewtonSystem {
   Hierarchy hierarchy_;
   Symmetrizer symmetrizer_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
+  std::vector<double> given_widths_;
+};
+
+class GaussNewtonSystem::OffPads {
+ public:
+  explicit OffPads(GaussNewtonSystem& system) : system_(system), pads_(std::move(system.pads_)) {
+    system_.shared_.pad_rows = nullptr;
+  }
+  ~OffPads() {
+    system_.pads_ = std::move(pads_);
+    system_.shared_.pad_rows = &system_.pads_->rows();
+  }
+  OffPads(const OffPads&) = delete;
+
+ private:
+  GaussNewtonSystem& system_;
+  std::unique_ptr<Pads> pads_;
 };
 
 struct LinearizedSurface {

@@ -168,6 +168,12 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
     system_->solve_nested(control.working, x, report.levels, on_prediction, on_level);
   report.constraint_rounds = constraint.rounds();
   report.constraint_gap = constraint.gap();
+  report_pads(report);
+}
+
+void FairingContext::report_pads(Report& report) {
+  const Pads* const pads = gauss_newton_ ? gauss_newton_->pads() : system().pads();
+  if (pads) report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.pad_size);
 }
 
 void FairingContext::move_surface(Array<double>& x) {
@@ -211,8 +217,6 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   }
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), frame_, *workers_, x, world);
-  if (const Pads* pads = system().pads())
-    report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.pad_size);
   report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
 }
 

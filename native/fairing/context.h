@@ -60,6 +60,8 @@ class FairingContext {
   GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
   // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
   void move_surface(Array<double>& x);
+  // How wide the pads of the latest surface are.
+  void report_pads(Report& report);
 
   // From here on the systems are about these curves; they adapt to nothing.
   void use_curves_of(const ControlPositions& control) {

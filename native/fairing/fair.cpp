@@ -172,7 +172,10 @@ Report FairSolver::solve(std::span<const double> coordinates, double* out) {
     const bool constrained =
         options.interpolation == Interpolation::approximate && options.tolerance > 0;
     report.warm = !recent_.empty() && !constrained && solve_from_last(watch, report);
-    if (!report.warm) solve_from_nothing(watch, report);
+    if (report.warm)
+      context_.report_pads(report);
+    else
+      solve_from_nothing(watch, report);
     write(watch, report, out);
     report.peak_bytes = ledger_.peak();
     watch.leave();

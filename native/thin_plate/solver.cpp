@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/linear.h"
+#include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -25,9 +26,6 @@ constexpr double rounding = 2e-15, least_over_noise = 1e8;
 // Edges in four pieces below: from such levels on the largest eigenvalue hardly changes. The
 // hierarchy counts from the level base_.
 constexpr std::size_t settled_from_level_0 = 3, settled_from_level_1 = 2;
-
-// Where the widths of pads are chosen: the coarsest level that shows how a pad bends its faces.
-constexpr int widths_level = 2;
 
 // Shares of the run in the progress: before the finest level's iterations and after them; the
 // latter where Gauss-Newton steps follow, which take longer; and what a level takes of the next

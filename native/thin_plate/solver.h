@@ -112,8 +112,6 @@ class ThinPlateSolver {
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                             Array<double>& x);
-  bool narrow_pads(const std::vector<double>& energy, const std::vector<double>& of_needles,
-                   int round);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
   void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
                       std::vector<LevelReport>& reports);

@@ -213,7 +213,6 @@ def test_widths_stay_while_vertices_move():
         {"interpolation": "approximate", "tolerance": 0.1},
         {"epsilon": 0.01},
         {"method": "back_leg"},
-        {"energy": "minimum_variation"},
     ),
 )
 def test_what_has_no_pads_is_refused(options):

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How wide each pad is. A wide pad asks a crumpled mesh for more than it can give: between folds
+// and on thin fins the loads throw the surface about, and its curvature is many times what point
+// forces leave. There the pad gives way. A coarse level shows enough.
+#pragma once
+
+#include "grid/grid_level.h"
+#include "hold/pads.h"
+
+namespace fairing {
+
+// Where widths are chosen: the coarsest level that shows how a pad bends its faces.
+constexpr int widths_level = 2;
+
+constexpr int to_nothing = 8;  // halvings, after which a pad is gone
+
+// How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
+// curvatures of the star of each control vertex, of the surface on pads and of that on point
+// forces; `round` counts earlier answers. `control` is level 0. All stars are judged before any pad
+// changes, so that the order of vertices does not matter.
+std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
+                                  const std::vector<double>& energy,
+                                  const std::vector<double>& of_needles, int round);
+
+// Halves them. Loads keep the whole force about the same.
+template <int N>
+void narrow_pads(const std::vector<int>& halvings, Pads& pads, LoadsOf<N>& loads) {
+  for (std::size_t v = 0; v < halvings.size(); ++v) {
+    if (halvings[v] == 0) continue;
+    const double before = pads.widths()[v];
+    pads.narrow(v, halvings[v]);
+    if (!loads.empty()) loads[v] *= pads.under(v) ? before / pads.widths()[v] : 0.0;
+  }
+}
+
+}  // namespace fairing

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Total curvature with its control vertices on pads, and minimum variation that starts from it."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+
+def energy(result):
+    return result.report["energy"]["result"]["total_curvature"] / (8 * np.pi)
+
+
+def fair(mesh, **options):
+    return df.fair(*mesh, energy="total_curvature", measure=True, **options)
+
+
+@pytest.mark.parametrize("size", (0.5, 1.0))
+@pytest.mark.parametrize("name", ("octahedron", "cube", "icosahedron", "dodecahedron"))
+def test_points_on_a_sphere_still_give_that_sphere(name, size):
+    vertices, faces = getattr(meshes, name)()
+    needles, pads = (fair((vertices, faces), levels=3, pad_size=s) for s in (0, size))
+    assert np.array_equal(pads.vertices[: len(vertices)], vertices)
+    assert pads.report["curvature"][-1]["accurate"]
+    assert energy(pads) <= 1.001 * energy(needles)
+    radius = np.linalg.norm(vertices[0])
+    assert abs(np.linalg.norm(pads.vertices, axis=1) - radius).max() < 2e-2 * radius
+
+
+@pytest.mark.parametrize("name", ("creature", "torus", "three_handles", "mixed_house"))
+def test_smooth_meshes_settle_with_hardly_more_energy(name):
+    mesh = getattr(meshes, name)()
+    needles, pads = (fair(mesh, levels=3, pad_size=s) for s in (0, 0.5))
+    assert pads.report["curvature"][-1]["converged"]
+    assert energy(pads) <= 1.1 * energy(needles)
+    assert np.array_equal(pads.vertices[: len(mesh[0])], mesh[0])
+
+
+@pytest.mark.parametrize("seed", (1, 3, 4))
+def test_crumpled_meshes_settle_too(seed):
+    mesh = meshes.rough_ball(seed, 1)
+    needles, pads = (fair(mesh, levels=2, pad_size=s) for s in (0, 0.5))
+    assert pads.report["curvature"][-1]["converged"]
+    assert energy(pads) <= 1.1 * energy(needles)
+    assert np.isfinite(pads.vertices).all()
+
+
+def test_the_steps_start_from_the_plate_on_pads():
+    mesh = meshes.cube()
+    plate = df.fair(*mesh, levels=2, pad_size=1, measure=True)
+    steps = fair(mesh, levels=2, pad_size=1).report["curvature"][-1]
+    assert steps["plate_energy"] / (8 * np.pi) == pytest.approx(energy(plate), rel=0.02)
+
+
+def test_corrections_of_the_loads_are_counted():
+    for size in (0, 0.5):
+        report = fair(meshes.creature(), levels=2, pad_size=size).report
+        assert (sum(s["pad_corrections"] for s in report["curvature"][-1]["steps"]) > 0) == (
+            size > 0
+        )
+
+
+def test_bits_do_not_depend_on_threads():
+    mesh = meshes.creature()
+    one, two = (fair(mesh, levels=3, pad_size=0.5, threads=t) for t in (1, 2))
+    assert np.array_equal(one.vertices, two.vertices)
+
+
+def test_minimum_variation_starts_from_there_and_varies_less():
+    mesh = meshes.creature()
+    result = df.fair(*mesh, levels=2, energy="minimum_variation", pad_size=0.5)
+    finest = result.report["curvature"][-1]
+    assert finest["variation"] < finest["start_variation"]
+    assert np.array_equal(result.vertices[: len(mesh[0])], mesh[0])
+
+
+def test_a_drag_goes_on_from_the_surface_and_its_loads():
+    vertices, faces = meshes.creature()
+    moved = vertices.copy()
+    moved[3] *= 1.02
+
+    def difference(size):
+        """Between a drag, on the charts of before, and a surface of its own."""
+        options = {"levels": 2, "energy": "total_curvature", "pad_size": size}
+        solver = df.Solver(vertices, faces, **options)
+        solver.solve()
+        warm = solver.solve(moved)
+        assert warm.report["warm"]
+        return abs(warm.vertices - df.fair(moved, faces, **options).vertices).max()
+
+    assert difference(0.5) < 2 * difference(0)
+
+
+def test_curves_and_regions_stand_on_pads_too():
+    vertices, faces = meshes.wavy_patch()
+    result = df.fair(vertices, faces, levels=2, energy="total_curvature", pad_size=0.5)
+    assert result.report["curvature"][-1]["converged"]
+    part = df.fair(
+        vertices, faces, levels=2, energy="total_curvature", pad_size=0.5, region=range(6)
+    )
+    assert np.isfinite(part.vertices).all()
+    assert np.array_equal(part.vertices[: len(vertices)], vertices)
