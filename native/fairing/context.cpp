@@ -129,6 +129,8 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
   GaussNewtonOptions options;
   if (options_.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;
+  const double length = mean_edge(mesh_, flatten(mesh_, 1));
+  options.tension = membrane_strength(options_.tension) / (length * length);
   options.step_tolerance = options_.step_tolerance;
   options.max_steps = options_.max_steps;
   options.max_iterations = options_.max_iterations;

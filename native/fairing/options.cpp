@@ -52,8 +52,10 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
         "epsilon.");
   in_range("pad_size", o.pad_size, 0, 1);
   in_range("tension", o.tension, 0, 1);
-  if (o.tension > 0 && o.energy != Energy::thin_plate)
-    refuse("tension is for the thin plate only; set tension to 0 for other energies.");
+  if (o.tension > 0 && o.energy == Energy::minimum_variation)
+    refuse(
+        "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "
+        "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
   if (o.pad_size > 0) {
     const auto exclude = [](bool asked, const char* what, const char* instead) {
       if (asked)
