@@ -86,6 +86,7 @@ void bind_options(py::module_& m) {
   setting("weights", &O::weights);
   setting("epsilon", &O::epsilon);
   setting("pad_size", &O::pad_size);
+  setting("tension", &O::tension);
   setting("method", &O::method);
   setting("relative_residual", &O::relative_residual);
   setting("max_iterations", &O::max_iterations);

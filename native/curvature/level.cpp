@@ -13,11 +13,13 @@ CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
 
 void CurvatureLevel::apply_rows(const double* x, double* y) {
   apply_square(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, x, y);
+  if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
 }
 
 void CurvatureLevel::apply_rows(const float* x, float* y) {
   if (!suits_square_) {
     apply_square(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, x, y);
+    if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
     return;
   }
   if (std::exchange(square_is_old_, false)) {
@@ -25,7 +27,7 @@ void CurvatureLevel::apply_rows(const float* x, float* y) {
       square_.reset();  // some have been held, or let go
     if (!square_) square_ = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
     square_vertices_ = shared_.unknowns.vertex;
-    square_->update(rows_, shared_.workers);
+    square_->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
   }
   square_->apply(x, shared_.workers, y);
 }
@@ -46,6 +48,7 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
     connection_->apply(shared_.total_curvature_share, shared_.workers, moment.data(),
                        turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
+    if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
   } else {
     apply_rows(x, y);
   }
@@ -57,6 +60,7 @@ template void CurvatureLevel::apply_any(const float*, float*, ElementSlots<float
 
 void CurvatureLevel::apply_on(const Unknowns& rows, const double* x, double* y) {
   apply_square(rows_, rows, shared_.workers, shared_.double_slots, x, y);
+  if (is_tense()) area_->add_product(rows, shared_.workers, x, y);
   add_diagonal(x, y);
 }
 
@@ -110,6 +114,7 @@ void CurvatureLevel::update_diagonal() {
   diagonal_.resize(points);
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
                   varies() ? weight.data() : nullptr, diagonal_.data());
+  if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
   for (std::size_t v = 0; v < vertex_weight_.size(); ++v) diagonal_[v] += float(vertex_weight_[v]);
   set_damping({});
 }
@@ -156,6 +161,13 @@ AssembledSystem CurvatureLevel::assemble() const {
     system.matrix = transposed * turned;
   } else {
     system.matrix = transposed * jacobian;
+  }
+  if (is_tense()) {
+    entries.clear();
+    area_->add_entries(number, entries);
+    SparseMatrix area(size, size);
+    area.setFromTriplets(entries.begin(), entries.end());
+    system.matrix += area;
   }
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto p = std::size_t(system.unknown_points[std::size_t(i)]);

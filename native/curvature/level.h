@@ -7,13 +7,14 @@
 //
 // where M_i is the second fundamental form (point_curvature.h), w_i its point's area, J its change
 // with h, c_ij the cotangent weight of the edge ij, T_ij the rotation from one chart to the other,
-// and L the connection Laplacian.
+// and L the connection Laplacian. Under tension the surface's area joins either (area.h).
 #pragma once
 
 #include <memory>
 #include <type_traits>
 #include <utility>
 
+#include "curvature/area.h"
 #include "curvature/connection.h"
 #include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
@@ -31,6 +32,7 @@ struct CurvatureShared {
   Workers& workers;
   VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
   std::vector<Vec3> targets{};
+  double tension = 0;                // tension times area is added to the energy
   double total_curvature_share = 0;  // minimum variation: of W beside L
   // The unknowns and the control vertices on pads: total curvature's force is wanted there too.
   // Null: on the unknowns alone.
@@ -64,10 +66,13 @@ class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
-  // K about the surface x (3 numbers a point). Returns the energy, the weights' part included.
+  // K about the surface x (3 numbers a point). Returns the energy, the parts of tension and weights
+  // included.
   double linearize(const double* x, Linearization* out = nullptr);
 
-  // The latest energy without the weights' part.
+  // The latest energy without the weights' part: what surfaces are compared by.
+  double fairness() const { return bending_ + tension_; }
+  // Without tension's part as well.
   double bending() const { return bending_; }
 
   // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what apply() and
@@ -105,17 +110,19 @@ class CurvatureLevel final : public LevelOperator {
   }
   template <class T>
   void add_diagonal(const T* x, T* y) const;
+  bool is_tense() const { return area_ && shared_.tension > 0; }
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
 
   CurvatureShared& shared_;
   const GridLevel& grid_;
-  double bending_ = 0;
+  double bending_ = 0, tension_ = 0;
   RingJacobian rows_;                          // sqrt(w) J
   std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
   std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
   bool suits_square_, square_is_old_ = true;
   std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
   std::unique_ptr<Connection> connection_;  // minimum variation only
+  std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;
 };
 

@@ -225,6 +225,13 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
 
   bending_ = energy.total();
   if (varies()) bending_ = connect(x, tensors, to.normal.data(), to.force.data());
+  if (shared_.tension > 0) {
+    if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
+    tension_ = area_->linearize(shared_.tension, x, wants_points ? to.normal.data() : nullptr,
+                                force_rows(), shared_.workers, to.force.data());
+  } else {
+    tension_ = 0;
+  }
   const double total =
       add_vertex_weights(x, wants_points ? to.normal.data() : nullptr, to.force.data());
   update_diagonal();
@@ -234,7 +241,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
 // The weights that hold control vertices: their part of K and of the force (without normals: not
 // wanted). Returns the whole energy.
 double CurvatureLevel::add_vertex_weights(const double* x, const double* normal, double* force) {
-  double total = bending_;
+  double total = fairness();
   vertex_weight_.assign(shared_.weights.size(), 0.0);
   for (std::size_t v = 0; v < shared_.weights.size(); ++v) {
     const double weight = shared_.weights[v];

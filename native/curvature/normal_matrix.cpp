@@ -97,7 +97,7 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
   target_begin_.push_back(target_.size());
 }
 
-void NormalMatrix::update(const RingJacobian& rows, Workers& workers) {
+void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension) {
   const float* origin = rows.data();
   const std::size_t points = grid_.size();
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
@@ -122,6 +122,28 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers) {
              other += 3)
           if (const LocalColumn to = *target++; to != none)
             row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
+      }
+    }
+  });
+  if (tension) add_tension(*tension, workers);
+}
+
+// A point's row of the Laplacian is over its own ring, whose targets are among the row's.
+void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
+  for_each_run(grid_, workers, [&](const Run& run) {
+    const RowRun<const float> own = weights.of(run);
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const std::size_t p = run.first + i;
+      const LocalColumn* target = target_.data() + target_begin_[p];
+      std::size_t k = ring_slot_begin_[p];
+      const std::size_t last = ring_slot_begin_[p + 1];
+      for (; k < last && ring_slot_[k].ring != p; ++k)
+        target += ring_[ring_slot_[k].ring + 1].begin - ring_[ring_slot_[k].ring].begin;
+      if (k == last) continue;  // no unknown
+      float* row = number_.data() + column_begin_[p];
+      for (int s = 1; s < own.slots; ++s) {
+        row[target[0]] += own.at(0, s, i);
+        if (target[s] != none) row[target[s]] -= own.at(0, s, i);
       }
     }
   });

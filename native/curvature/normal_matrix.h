@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// R^T R as one sparse matrix in single precision, for levels whose faces have few points: there
-// most points lie on control edges and at control vertices, and passes over runs cost several times
-// what an index a number does.
+// R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels whose faces
+// have few points: there most points lie on control edges and at control vertices, and passes over
+// runs cost several times what an index a number does.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ class NormalMatrix {
   // ErrorCode::cancelled.
   NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns);
 
-  // The numbers of rows with that pattern.
-  void update(const RingJacobian& rows, Workers& workers);
+  // The numbers of rows with that pattern; `tension`: the weights of AreaTerm.
+  void update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension = nullptr);
 
-  // y <- R^T R x; zero where a point is no unknown.
+  // y <- the matrix times x; zero where a point is no unknown.
   void apply(const float* x, Workers& workers, float* y) const;
 
  private:
@@ -45,6 +45,7 @@ class NormalMatrix {
   };
   void find_ring_slots(const std::vector<Index>& unknown);
   void find_columns(const std::vector<Index>& unknown);
+  void add_tension(const RingJacobian& weights, Workers& workers);
 
   const GridLevel& grid_;
   Array<Ring> ring_;       // one a point, and one more

@@ -18,6 +18,8 @@ enum class CurvatureEnergy { total_curvature, minimum_variation };
 struct GaussNewtonOptions {
   // What the finest level's surface minimizes. Coarser levels minimize total curvature always.
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
+  // So many times the surface's area is minimized with total curvature; 0 for minimum variation.
+  double tension = 0;
   // Steps end where less is left to move, in working units (the mesh's size is about one).
   double step_tolerance = 1e-6;
   int max_steps = 20;        // on each level, for each way of stepping that is tried there
@@ -28,7 +30,7 @@ struct GaussNewtonOptions {
 // One Gauss-Newton step.
 struct StepReport {
   bool variation = false;  // of minimum variation; else of total curvature
-  double energy = 0;       // before the step
+  double energy = 0;       // before the step, tension's part included
   // sqrt(h . K h / energy): the share of the energy's root that a full step would take off.
   double decrement = 0;
   double length = 1;    // the share of the step that was taken; 0: rejected
@@ -41,6 +43,7 @@ struct StepReport {
   double load_work = 0;
 };
 
+// Energies are of curvature alone where the solver returns; steps judge by tension's part too.
 struct CurvatureLevelReport {
   int level = 0;
   double plate_energy = 0;  // total curvature of the thin plate's surface

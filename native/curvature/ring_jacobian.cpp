@@ -5,28 +5,28 @@
 
 namespace fairing {
 
-RingJacobian::RingJacobian(const GridLevel& grid) : grid_(&grid) {
+RingJacobian::RingJacobian(const GridLevel& grid, int rows) : grid_(&grid), rows_(rows) {
   const ControlMesh& mesh = grid.mesh();
-  const std::size_t n = std::size_t(grid.n());
+  const std::size_t n = std::size_t(grid.n()), each = std::size_t(rows);
   std::size_t offset = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
     vertex_offset_.push_back(offset);
     std::size_t slots = 1;
     visit_ring(grid, v, [&](Index, std::size_t) { ++slots; });
-    offset += 3 * slots;
+    offset += each * slots;
   }
   vertex_offset_.push_back(offset);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     stop_if_cancelled(e);
     edge_offset_.push_back(offset);
-    offset += 3 * std::size_t(1 + EdgeRingLanes(mesh, Index(e)).size) * (n - 1);
+    offset += each * std::size_t(1 + EdgeRingLanes(mesh, Index(e)).size) * (n - 1);
   }
   edge_offset_.push_back(offset);
   for (const Face& face : mesh.faces) {
     face_offset_.push_back(offset);
-    offset +=
-        3 * (1 + face_ring(face.quad()).size()) * std::size_t(interior_size(face.quad(), grid.n()));
+    offset += each * (1 + face_ring(face.quad()).size()) *
+              std::size_t(interior_size(face.quad(), grid.n()));
   }
   face_offset_.push_back(offset);
   data_.resize(offset);
@@ -38,7 +38,7 @@ RowRun<float> RingJacobian::face(Index f, int j) {
   const int slots = 1 + int(face_ring(quad).size());
   const std::size_t before = interior_row(quad, std::size_t(grid_->n()), std::size_t(j));
   return {row_count(quad, grid_->n(), j), slots,
-          data_.data() + face_offset_[std::size_t(f)] + std::size_t(3 * slots) * before};
+          data_.data() + face_offset_[std::size_t(f)] + std::size_t(rows_ * slots) * before};
 }
 
 namespace {

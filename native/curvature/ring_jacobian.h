@@ -28,7 +28,8 @@ struct RowRun {
 
 class RingJacobian {
  public:
-  explicit RingJacobian(const GridLevel& grid);
+  // `rows` a point: with one in place of three, the passes below are not for it.
+  explicit RingJacobian(const GridLevel& grid, int rows = 3);
 
   const GridLevel& grid() const { return *grid_; }
 
@@ -49,20 +50,22 @@ class RingJacobian {
 
  private:
   RowRun<float> vertex(Index v) {
-    return {1, int(vertex_offset_[std::size_t(v) + 1] - vertex_offset_[std::size_t(v)]) / 3,
+    return {1, int(vertex_offset_[std::size_t(v) + 1] - vertex_offset_[std::size_t(v)]) / rows_,
             data_.data() + vertex_offset_[std::size_t(v)]};
   }
   RowRun<float> edge(Index e) {
     const std::size_t count = std::size_t(grid_->n() - 1);
     if (count == 0) return {};
     return {count,
-            int((edge_offset_[std::size_t(e) + 1] - edge_offset_[std::size_t(e)]) / (3 * count)),
+            int((edge_offset_[std::size_t(e) + 1] - edge_offset_[std::size_t(e)]) /
+                (std::size_t(rows_) * count)),
             data_.data() + edge_offset_[std::size_t(e)]};
   }
   // Row j = 1 … of a face.
   RowRun<float> face(Index f, int j);
 
   const GridLevel* grid_;
+  int rows_;
   // Each has one more than elements.
   std::vector<std::size_t> vertex_offset_, edge_offset_, face_offset_;
   Array<float> data_;

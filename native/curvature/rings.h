@@ -56,6 +56,15 @@ inline void ring_at(const RunRings& rings, std::size_t i, RingInSpace& ring) {
   }
 }
 
+// What the rings of a run have in common.
+struct RingShape {
+  std::vector<std::uint8_t> far;  // of the neighbours: whether they lie across a quad
+  int first = 0;                  // where the ring begins: an open one on the boundary
+  bool closed = true;
+
+  void set(const GridLevel& grid, const Run& run);
+};
+
 // Each ring of a run alone: calls visit(i, ring, closed) for its points i. x: 3 numbers a point;
 // `lift`: one, or null. Both must outlive the walk. One thread's.
 class RingWalk {
@@ -69,24 +78,22 @@ class RingWalk {
 
   template <class Visit>
   void operator()(const Run& run, Visit&& visit) {
-    start(run);
+    shape_.set(grid_, run);
     const double* const* x = points_(run);
     const float* const* lift = lift_ ? lifts_(run) : nullptr;
-    const int size = int(far_.size());
+    const int size = int(shape_.far.size());
     for (std::size_t i = 0; i < run.count; ++i) {
       ring_.start(x[0] + 3 * i, lift ? lift[0][i] : 0);
       for (int m = 0; m < size; ++m) {
-        const int j = (first_ + m) % size;
-        ring_.add(x[j + 1] + 3 * i, far_[std::size_t(j)], j + 1);
+        const int j = (shape_.first + m) % size;
+        ring_.add(x[j + 1] + 3 * i, shape_.far[std::size_t(j)], j + 1);
         if (lift) ring_.add_lift(lift[j + 1][i]);
       }
-      visit(i, static_cast<const RingInSpace&>(ring_), closed_);
+      visit(i, static_cast<const RingInSpace&>(ring_), shape_.closed);
     }
   }
 
  private:
-  void start(const Run& run);
-
   const GridLevel& grid_;
   const float* lift_;
   std::vector<double> point_buffer_;
@@ -94,9 +101,7 @@ class RingWalk {
   RunGather<double, 3> points_;
   RunGather<float> lifts_;
   RingInSpace ring_;
-  std::vector<std::uint8_t> far_;  // of the run's neighbours
-  int first_ = 0;                  // where the ring begins: an open one on the boundary
-  bool closed_ = true;
+  RingShape shape_;
 };
 
 // All rings of a run together, for runs inside faces and inside edges between two faces. Valid

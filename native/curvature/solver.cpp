@@ -86,7 +86,10 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   else
     minimize(start, is_finest(), report);
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
-  if (is_finest()) finish(start, plate, report);
+  if (is_finest())
+    finish(start, plate, report);
+  else
+    leave_out_tension(start, plate, report);
   return report;
 }
 
@@ -184,14 +187,28 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
   if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
   solved_folds_ = report.folds = unfolding_.find().count();
   solved_energy_ = report.energy;
+  leave_out_tension(start, plate, report);
   is_sound_ = report.converged;
+}
+
+double GaussNewtonSolver::tension_of(const Array<double>& x) {
+  if (!(options_.tension > 0)) return 0;
+  return options_.tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
+}
+
+// Of what is reported.
+void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<double>& plate,
+                                          CurvatureLevelReport& report) {
+  report.plate_energy -= tension_of(plate);
+  report.start_energy -= tension_of(start.points);
+  report.energy -= tension_of(surface());
 }
 
 // Steps may end in a fold; then the thin plate's surface is the better one.
 void GaussNewtonSolver::fall_back(const Array<double>& plate, CurvatureLevelReport& report) {
   start_at_plate(iterate_, iterate_.level, plate);
   iterate_.linearize();
-  report.energy = iterate_.op().bending();
+  report.energy = iterate_.op().fairness();
   report.converged = report.accurate = false;
 }
 
@@ -216,11 +233,12 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
   iterate_.is_linearized = true;
   report.level = iterate_.level;
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
-  report.start_energy = report.energy = iterate_.op().bending();
+  report.start_energy = report.energy = iterate_.op().fairness();
   if (!(report.start_energy <= unlike_energy * solved_energy_ + flat_energy)) return false;
   iterate_.is_near_earlier =
       std::abs(report.start_energy - solved_energy_) <= nearby * solved_energy_;
   report.converged = true;
+  const double start_tension = tension_of(surface());
   if (options_.energy == CurvatureEnergy::minimum_variation)
     variation_.run(report);
   else
@@ -230,6 +248,8 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
               report.energy <= equal_energy * report.start_energy + flat_energy &&
               report.folds <= solved_folds_;
   solved_energy_ = report.energy;
+  report.start_energy -= start_tension;
+  report.energy -= tension_of(surface());
   return is_sound_;
 }
 

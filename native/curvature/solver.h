@@ -50,6 +50,9 @@ class GaussNewtonSolver {
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
   void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
+  double tension_of(const Array<double>& x);
+  void leave_out_tension(const StepStart& start, const Array<double>& plate,
+                         CurvatureLevelReport& report);
   StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
   bool is_finest() const { return iterate_.level == system_.finest(); }
 

@@ -57,10 +57,10 @@ class Candidates {
   void take_if_lower() {
     it_.system.symmetrizer().points(it_.grid(), trial());
     it_.trial.energy = it_.op().linearize(trial().data(), &it_.trial.linearization);
-    const double bending = it_.op().bending();
-    it_.is_linearized = bending < real_gain * report_.start_energy;
+    const double fairness = it_.op().fairness();
+    it_.is_linearized = fairness < real_gain * report_.start_energy;
     if (!it_.is_linearized) return;
-    report_.start_energy = bending;
+    report_.start_energy = fairness;
     std::swap(it_.current, it_.trial);
   }
 
@@ -86,7 +86,7 @@ void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate
   start_at_plate(iterate, level, plate);
   iterate.linearize();
   iterate.is_linearized = true;
-  report.plate_energy = report.start_energy = iterate.op().bending();
+  report.plate_energy = report.start_energy = iterate.op().fairness();
   if (below.points.empty()) return;
   Candidates candidates(iterate, plate, report);
   candidates.try_change(below, plate_below);

@@ -192,7 +192,7 @@ void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int pat
                               CurvatureLevelReport& report) {
   TotalCurvatureMethod method(iterate_, hold_, options_.step_tolerance, damping, end, patience);
   run_steps(method, options_.max_steps, report);
-  report.energy = iterate_.op().bending();
+  report.energy = iterate_.op().fairness();
 }
 
 void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,

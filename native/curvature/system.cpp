@@ -22,6 +22,8 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
+  // As for the thin plate: the area's share of the diagonal falls from level to level.
+  if (options.tension > 0) ++out.settled;
   return out;
 }
 
@@ -49,6 +51,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
       shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
       hierarchy_(workers, hierarchy_options(unknowns, options)),
       symmetrizer_(std::move(mirrors), shared_.unknowns, workers) {
+  shared_.tension = options.tension;
   for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));

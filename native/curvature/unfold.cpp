@@ -42,15 +42,6 @@ struct Ring {
   bool closed = true;
 };
 
-bool is_unknown(const Unknowns& unknowns, const Run& run) {
-  const auto e = std::size_t(run.element);
-  switch (run.kind) {
-    case RunKind::vertex: return unknowns.vertex[e];
-    case RunKind::edge: return unknowns.edge[e];
-    default: return unknowns.has_face(e);
-  }
-}
-
 // Calls visit(point, ring) for the marked unknowns, in order; `ring` is reused.
 template <class Visit>
 void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
@@ -59,7 +50,7 @@ void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<f
   Ring ring;
   std::vector<Index> all;
   for_each_run(grid, [&](const Run& run) {
-    if (!is_unknown(unknowns, run)) return;
+    if (!unknowns.has(run)) return;
     for (std::size_t i = 0; i < run.count; ++i) {
       const Index p = Index(run.first + i);
       if (!(marks[std::size_t(p)] > 0)) continue;

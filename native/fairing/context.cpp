@@ -43,8 +43,9 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   workers_ = std::make_unique<Workers>(options_.threads);
   report.threads = workers_->count();
   mesh_ = make_control_mesh(input, options_.features, report.flipped_faces);
-  const RunSize size = predict_size(
-      mesh_, options_.levels, options_.shape_count(input.coordinates.size()), options_.energy);
+  const RunSize size =
+      predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
+                   options_.energy, options_.tension > 0);
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
@@ -73,7 +74,7 @@ void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
 
   watch.enter(Phase::hierarchy, 0);
   mesh_.positions = basis_.working;
-  stencils_ = make_stencils(mesh_, options_.chart, *workers_);
+  stencils_ = make_stencils(mesh_, options_.chart, *workers_, membrane_strength(options_.tension));
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
   weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
@@ -128,6 +129,8 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
   GaussNewtonOptions options;
   if (options_.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;
+  const double length = mean_edge(mesh_, flatten(mesh_, 1));
+  options.tension = membrane_strength(options_.tension) / (length * length);
   options.step_tolerance = options_.step_tolerance;
   options.max_steps = options_.max_steps;
   options.max_iterations = options_.max_iterations;
@@ -193,7 +196,7 @@ void FairingContext::release(const ControlPositions& control, Stopwatch& watch, 
 // The energy of working coordinates in the unit of world ones.
 SurfaceEnergies FairingContext::energies(const double* x) {
   SurfaceEnergies e;
-  e.thin_plate = std::pow(frame_.scale, 2 - 2 * exponent_) * system().energy(options_.levels, x);
+  e.thin_plate = std::pow(frame_.scale, 2 - 2 * exponent_) * system().bending(options_.levels, x);
   e.total_curvature = options_.measure ? total_curvature(finest(), *workers_, x) : NAN;
   return e;
 }

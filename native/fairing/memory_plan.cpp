@@ -50,22 +50,23 @@ std::int64_t matrix_bytes(const Counts& c, int levels) {
 // rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
 // points an edge the normal matrix; on the finest level surfaces, steps, and what steps are
 // accelerated with. The finest level that may prove hard counts as if it were factored.
-std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy) {
-  constexpr std::int64_t row = 112, moments = 112, surfaces = 560, normal_matrix = 640;
+std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
+                        bool tense) {
+  constexpr std::int64_t row = 112, moments = 112, surfaces = 560, normal_matrix = 640, area = 40;
   const bool varies = energy == Energy::minimum_variation;
   std::int64_t factored = 0, normal_matrices = 0;
   for (int l = 0; l <= levels; ++l) {
     if (c.points(l) <= std::int64_t(direct_limit_of_steps)) factored = c.points(l);
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.points(l);
   }
-  return (varies ? 2 * row + moments : row) * all_points + surfaces * c.points(levels) +
-         normal_matrices + (varies ? 5 : 2) * factor_bytes(factored);
+  return ((varies ? 2 * row + moments : row) + (tense ? area : 0)) * all_points +
+         surfaces * c.points(levels) + normal_matrices + (varies ? 5 : 2) * factor_bytes(factored);
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
 // that proves hard while the run is on its way is factored then (multigrid/v_cycle.h); that comes
 // on top.
-std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
+std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense) {
   const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;
   // Unknowns of a level that is solved directly, and a third more for the points that are none.
@@ -92,13 +93,14 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy) {
   const std::int64_t rings = 2 * c.sides() * (5 * 4 + 5 * 4 + 3 * 8 + 3 * 8 + 3 * 4) / 2;
   const std::int64_t stencils =
       rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
+  const std::int64_t membrane = tense ? 8 * (2 * c.sides() + 8 * c.edges + 4 * faces) : 0;
   const std::int64_t steps =
-      energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_points, energy);
+      energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_points, energy, tense);
   // Three or four ids a face, and its polygon.
   const std::int64_t output = n * n * (4 * index_bytes * c.triangles + 5 * index_bytes * c.quads);
   // What does not grow with the mesh.
   constexpr std::int64_t fixed = 1 << 14;
-  return std::max(outer + cycle + spectrum + slots + stencils + factor_bytes(factored) +
+  return std::max(outer + cycle + spectrum + slots + stencils + membrane + factor_bytes(factored) +
                       matrix_bytes(c, levels) + steps,
                   vector_bytes * points + output) +
          fixed;
@@ -108,19 +110,21 @@ std::size_t memory_limit(const FairOptions& options) {
   return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
 }
 
-RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy) {
+RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy, bool tense) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = c.points(levels);
   size.triangles = n * n * (c.triangles + 2 * c.quads);
   // Of a shape only its surface stays; it is solved in the same arrays.
-  size.bytes = peak_bytes(c, levels, energy) + std::int64_t(shapes) * vector_bytes * size.points;
+  size.bytes =
+      peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.points;
   return size;
 }
 
 }  // namespace
 
-RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, Energy energy) {
+RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, Energy energy,
+                     bool tense) {
   Counts c;
   c.vertices = mesh.vertex_count();
   std::vector<std::uint64_t> keys;
@@ -144,15 +148,16 @@ RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, En
   }
   std::sort(keys.begin(), keys.end());
   c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
-  return run_size(c, levels, shapes, energy);
+  return run_size(c, levels, shapes, energy, tense);
 }
 
-RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy) {
+RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy,
+                     bool tense) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
-  return run_size(c, levels, shapes, energy);
+  return run_size(c, levels, shapes, energy, tense);
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {
@@ -179,10 +184,11 @@ void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
   const auto corners = std::int64_t(mesh.corners.size());
   const std::size_t shapes = options.shape_count(mesh.coordinates.size());
   const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels,
-                                 shapes, options.energy);
+                                 shapes, options.energy, options.tension > 0);
   const std::size_t limit = memory_limit(options);
   if (limit && least.bytes > std::int64_t(limit))
-    require_fit(predict_size(mesh, options.levels, shapes, options.energy), options);
+    require_fit(predict_size(mesh, options.levels, shapes, options.energy, options.tension > 0),
+                options);
 }
 
 }  // namespace fairing

@@ -18,13 +18,15 @@ struct RunSize {
   std::int64_t bytes = 0;      // peak of the run's own arrays
 };
 
+// `tense`: under tension, which takes a little more.
+//
 // From the plain arrays alone, checked or not; positions are not read. Polygons count as if split
 // around a centre, quads that will be split count as quads.
 RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes = 0,
-                     Energy energy = Energy::thin_plate);
+                     Energy energy = Energy::thin_plate, bool tense = false);
 // From the mesh as it is after splits: exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,
-                     Energy energy = Energy::thin_plate);
+                     Energy energy = Energy::thin_plate, bool tense = false);
 
 // Throws FairingError(too_large), naming the figures, when the run does not fit into
 // options.memory_limit or its ids into 32 bits. The first takes next to no time, and lets pass what

@@ -64,6 +64,10 @@ struct FairOptions {
   // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
   double pad_size = 0;
 
+  // A membrane stretched over the mesh, against swelling and overshoots: none at 0, as taut as is of
+  // use at 1 (membrane_strength()).
+  double tension = 0;
+
   // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.
   std::span<const double> shapes{};
   // `coordinates`: how many numbers one shape has.
@@ -88,6 +92,10 @@ struct FairOptions {
   // Whether to measure the total curvature of result, control polyhedron and prediction.
   bool measure = true;
 };
+
+// What the membrane's energy is multiplied by, relative to bending over the length of a control edge
+// (stencil/membrane.h), for FairOptions::tension.
+double membrane_strength(double tension);
 
 // Throws FairingError(bad_option), naming the option and its range.
 void check_options(const PolygonMesh& mesh, const FairOptions& options);

@@ -19,6 +19,15 @@ struct Unknowns {
   std::vector<std::uint8_t> face{};  // per control face; empty: all of them
 
   bool has_face(std::size_t f) const { return face.empty() || face[f]; }
+  // Whether the points of a run are.
+  bool has(const Run& run) const {
+    const auto element = std::size_t(run.element);
+    switch (run.kind) {
+      case RunKind::vertex: return vertex[element] != 0;
+      case RunKind::edge: return edge[element] != 0;
+      default: return has_face(element);
+    }
+  }
 };
 
 // The slots of one level; they serve smaller levels too.

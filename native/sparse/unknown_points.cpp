@@ -16,11 +16,8 @@ std::size_t count_unknowns(const GridLevel& grid, const Unknowns& unknowns) {
 std::vector<std::uint8_t> unknown_points(const GridLevel& grid, const Unknowns& unknowns) {
   std::vector<std::uint8_t> out(grid.size());
   for_each_run(grid, [&](const Run& run) {
-    const auto element = std::size_t(run.element);
-    const bool unknown = run.kind == RunKind::vertex ? unknowns.vertex[element] != 0
-                         : run.kind == RunKind::edge ? unknowns.edge[element] != 0
-                                                     : unknowns.has_face(element);
-    std::fill_n(out.begin() + std::ptrdiff_t(run.first), run.count, std::uint8_t(unknown));
+    std::fill_n(out.begin() + std::ptrdiff_t(run.first), run.count,
+                std::uint8_t(unknowns.has(run)));
   });
   return out;
 }

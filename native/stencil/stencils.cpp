@@ -130,7 +130,28 @@ EnergyRows::EnergyRows(const ControlMesh& mesh, const Stencils& s, Index element
   }
 }
 
-Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers) {
+MembraneWeights::MembraneWeights(const ControlMesh& mesh, const Stencils& s, Index element) {
+  if (!s.membrane.any()) return;
+  const Index first_edge = mesh.vertex_count(), first_face = first_edge + Index(mesh.edges.size());
+  if (element < first_edge) {
+    const auto v = std::size_t(element), begin = std::size_t(s.ring_offset[v]);
+    size_ = std::size_t(s.ring_offset[v + 1]) - begin;
+    first_ = s.membrane.vertex.data() + begin;
+    period_ = std::max<std::size_t>(size_, 1);
+  } else if (element < first_face) {
+    const auto e = std::size_t(element - first_edge);
+    size_ = period_ = s.edge_ring[e];
+    first_ = s.membrane.edge.data() + 8 * e;
+  } else {
+    const auto f = std::size_t(element - first_face);
+    period_ = std::size_t(mesh.faces[f].size);
+    size_ = 2 * period_;
+    first_ = s.membrane.face.data() + 4 * f;
+  }
+}
+
+Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers,
+                       double tension) {
   const ChartMaker charts(mesh, options);
   const auto vertices = std::size_t(mesh.vertex_count()), edges = mesh.edges.size(),
              faces = mesh.faces.size();
@@ -161,6 +182,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Wor
   workers.for_parts(faces, 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) fill_face(mesh, charts, Index(f), s);
   });
+  s.membrane = make_membrane(mesh, options, s.ring_offset, tension);
   return s;
 }
 

@@ -15,6 +15,7 @@
 #include "parallel/workers.h"
 #include "stencil/chart.h"
 #include "stencil/fit.h"
+#include "stencil/membrane.h"
 
 namespace fairing {
 
@@ -40,6 +41,8 @@ struct Stencils {
   // (face_directions() in grid/ring.h).
   std::vector<std::uint8_t> face_fit;
   Array<double> face_energy;  // 3 x 4
+
+  Membrane membrane;  // tension
 };
 
 // The element of a run.
@@ -76,7 +79,27 @@ class EnergyRows {
   std::size_t size_ = 0, step_, stride_, period_;  // opposite neighbours share their numbers
 };
 
-// Makes all of them. Throws where the run has been cancelled.
-Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers);
+// The membrane's weights of one element by neighbours, in the order of its chart: none without
+// tension. Refers to `stencils`.
+class MembraneWeights {
+ public:
+  MembraneWeights(const ControlMesh& mesh, const Stencils& stencils, Index element);
+
+  std::size_t size() const { return size_; }
+  double operator[](std::size_t neighbour) const { return first_[neighbour % period_]; }
+  double total() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < size_; ++k) sum += (*this)[k];
+    return sum;
+  }
+
+ private:
+  const double* first_ = nullptr;
+  std::size_t size_ = 0, period_ = 1;  // opposite neighbours share their weights
+};
+
+// Makes all of them, with `tension` as in make_membrane(). Throws where the run has been cancelled.
+Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers,
+                       double tension = 0);
 
 }  // namespace fairing

@@ -22,12 +22,25 @@ Array<double> point_weights(const GridLevel& grid) {
   return weight;
 }
 
+// Calls visit(member, number) for the membrane's row of a point, on the unknowns of its ring.
+template <class Visit>
+void visit_membrane_row(const MembraneWeights& weights, const RingTable::Member* members,
+                        Visit&& visit) {
+  if (weights.size() == 0) return;
+  visit(members[0], weights.total());
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    if (members[k + 1] >= 0) visit(members[k + 1], -weights[k]);
+}
+
 // The divided differences of one level as what they contribute to the rows of K.
 class PlateRings {
  public:
   PlateRings(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
              Workers& workers)
-      : rings_(grid, unknowns, workers), weight_(point_weights(grid)) {
+      : mesh_(grid.mesh()),
+        stencils_(stencils),
+        rings_(grid, unknowns, workers),
+        weight_(point_weights(grid)) {
     write_grams(grid, stencils);
   }
 
@@ -43,6 +56,9 @@ class PlateRings {
     return gram_.data() + gram_begin_[std::size_t(ring.element)] + s * ring.size;
   }
   double weight(Index p) const { return weight_.empty() ? 1.0 : weight_[std::size_t(p)]; }
+  MembraneWeights membrane(const RingTable::Ring& ring) const {
+    return {mesh_, stencils_, ring.element};
+  }
 
  private:
   static constexpr std::size_t none = std::size_t(-1);
@@ -68,6 +84,8 @@ class PlateRings {
     }
   }
 
+  const ControlMesh& mesh_;
+  const Stencils& stencils_;
   RingTable rings_;
   Array<double> weight_;                 // per point; empty: all are one
   std::vector<std::size_t> gram_begin_;  // per element
@@ -90,6 +108,8 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
     for (std::size_t m = 0; m < ring->size; ++m)
       if (members[m] >= 0) row.add(members[m], weight * numbers[m]);
   }
+  visit_membrane_row(plate.membrane(own), rings.members(own),
+                     [&](RingTable::Member m, double number) { row.add(m, number); });
 }
 
 // Products that a row is summed from, at the most on average: a point's rings by their sizes, 81 in
@@ -122,6 +142,11 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
   for (std::size_t p = 0; p < rings.points(); ++p) {
     stop_if_cancelled(p);
     const RingTable::Ring& ring = rings.about(Index(p));
+    if (rings.is_unknown(Index(p)))
+      visit_membrane_row({grid.mesh(), stencils, ring.element}, rings.members(ring),
+                         [&](RingTable::Member m, double w) {
+                           entries.emplace_back(number[p], number[std::size_t(m)], w);
+                         });
     const EnergyRows rows(grid.mesh(), stencils, ring.element);
     if (rows.size() == 0) continue;
     const double scale = grid.n() * std::sqrt(weight.empty() ? 1.0 : weight[p]);

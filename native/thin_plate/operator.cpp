@@ -3,6 +3,7 @@
 
 #include "parallel/cancel.h"
 #include "thin_plate/kernels.h"
+#include "thin_plate/membrane.h"
 
 namespace fairing {
 namespace {
@@ -137,6 +138,7 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
   const int n = grid.n();
   const T level_scale = T(n) * T(n);
   const RegionWeight joint(grid);
+  const MembraneRows<T> membrane(grid, rows.stencils, unknowns, x);
 
   const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>&) {
     if (rows.stencils.vertex_fit[std::size_t(v)]) {
@@ -154,6 +156,7 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
         }
       });
     }
+    membrane.add_vertex(v, centre);
     if (!weights.empty())
       for (std::size_t a = 0; a < 3; ++a)
         centre[a] += T(weights[std::size_t(v)]) * x[3 * std::size_t(v) + a];
@@ -173,6 +176,7 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
     if (weight) edge_weights(joint, n, e, weight);
     set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), level_scale, lanes.lane, weight,
                   target, scratch.data() + 3 * stride);
+    membrane.add_edge(e, ring, lanes.lane, run);
   };
 
   const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
@@ -194,6 +198,7 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
       set_face_pass<true>(n, c, level_scale, gathered, weight, closed, scratch.data());
     else
       set_face_pass<false>(n, c, level_scale, gathered, weight, closed, scratch.data());
+    membrane.add_face(f, gathered, closed);
   };
 
   accumulate(grid, workers, slots, &unknowns, y, vertex_body, edge_body, face_body);
@@ -218,6 +223,10 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
     };
     if (run.kind == RunKind::vertex && !weights.empty())
       put(0, 0, weights[std::size_t(run.element)]);
+    if (stencils.membrane.any()) {
+      const MembraneWeights membrane(grid.mesh(), stencils, element_of(grid.mesh(), run));
+      for (std::size_t i = 0; i < run.count; ++i) put(0, i, membrane.total());
+    }
     squares.read(run);
     if (squares.rows.column.empty()) return;
     const bool weighted = joint.weighs(run);

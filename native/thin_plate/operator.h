@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The thin-plate energy E(p) = sum_i w_i (|G_uu p|^2 + 2 |G_uv p|^2 + |G_vv p|^2) of [Kobbelt
 // 1997a, §4] on one level, without a matrix: its gradient's half, K p with K = G^T W G, is two
-// one-ring passes. x, y and z share K.
+// one-ring passes. x, y and z share K. Where the stencils have a membrane (stencil/membrane.h), its
+// L is part of K.
 #pragma once
 
 #include "grid/accumulate.h"
@@ -36,7 +37,8 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
                                  const Unknowns& unknowns, const VertexWeights& weights,
                                  Workers& workers, ElementSlots<double>& slots);
 
-// E(x) over all points, unknowns or not, without the part of the control vertices' weights.
+// E(x) over all points, unknowns or not, without the parts of the control vertices' weights and of
+// the membrane (thin_plate/membrane.h).
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
                          const double* x);
 

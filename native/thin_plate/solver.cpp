@@ -6,6 +6,7 @@
 #include "grid/linear.h"
 #include "hold/pad_widths.h"
 #include "parallel/reductions.h"
+#include "thin_plate/membrane.h"
 
 namespace fairing {
 namespace {
@@ -26,6 +27,9 @@ constexpr double rounding = 2e-15, least_over_noise = 1e8;
 // Edges in four pieces below: from such levels on the largest eigenvalue hardly changes. The
 // hierarchy counts from the level base_.
 constexpr std::size_t settled_from_level_0 = 3, settled_from_level_1 = 2;
+// A membrane's share of the diagonal falls to a quarter from level to level: what is hardly anything
+// on edges in 16 pieces was much of it on those in four.
+constexpr std::size_t settled_under_tension = 2;  // levels later
 
 // Shares of the run in the progress: before the finest level's iterations and after them; the
 // latter where Gauss-Newton steps follow, which take longer; and what a level takes of the next
@@ -33,11 +37,13 @@ constexpr std::size_t settled_from_level_0 = 3, settled_from_level_1 = 2;
 constexpr double solve_begin = 0.25, solve_end = 0.8, begin_of_steps = 0.3;
 constexpr double share_of_coarser = 0.25;
 
-HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options) {
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
+                                   bool tense) {
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.settled = unknowns.any_vertex ? settled_from_level_0 : settled_from_level_1;
+  if (tense) out.settled += settled_under_tension;
   return out;
 }
 
@@ -53,7 +59,7 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& c
       workers_(workers),
       monitor_(monitor),
       base_(unknowns.any_vertex ? 0 : std::min(1, options.levels)),
-      hierarchy_(workers, hierarchy_options(unknowns, options)),
+      hierarchy_(workers, hierarchy_options(unknowns, options, stencils.membrane.any())),
       shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers) {
   for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
   for (int l = base_; l <= top(); ++l) {
@@ -119,8 +125,12 @@ void ThinPlateSolver::residual(int level, std::span<const Vec3> targets, const d
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
 }
 
-double ThinPlateSolver::energy(int level, const double* x) {
+double ThinPlateSolver::bending(int level, const double* x) {
   return thin_plate_energy(grid(level), shared_.stencils, workers_, x);
+}
+
+double ThinPlateSolver::energy(int level, const double* x) {
+  return bending(level, x) + membrane_energy(grid(level), shared_.stencils, workers_, x);
 }
 
 ThinPlateSolver::Scales ThinPlateSolver::scales(int level, std::span<const Vec3> targets,

@@ -82,6 +82,8 @@ class ThinPlateSolver {
   // region.
   void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
 
+  // The plate's own energy, and with tension's: what is minimized.
+  double bending(int level, const double* x);
   double energy(int level, const double* x);
 
   // On the pads, of the surface that was solved for last; empty without pads.

@@ -27,6 +27,7 @@ def fair(
     weights: ArrayLike | None = None,
     epsilon: float = 0.0,
     pad_size: float = 0.0,
+    tension: float = 0.0,
     crease_edges: ArrayLike | None = None,
     crease_angle: float | None = None,
     corner_vertices: ArrayLike | None = None,
@@ -93,6 +94,9 @@ def fair(
         What holds control vertices off curves. 0: point forces, which leave a spot of curvature at
         each. Otherwise forces spread over pads, which leave none; the size is the pad's width as a
         share of the faces around the vertex. The surface still passes through every vertex.
+    tension : float from 0 to 1
+        A membrane stretched over the control mesh beside its bending, against swelling and
+        overshoots: 0 none, 1 as taut as is of use.
     crease_edges : (k, 2) int
         Vertex pairs of the edges that are creases.
     crease_angle, corner_angle : float, radians

@@ -127,6 +127,7 @@ SETTINGS = {
     "weights": weight_array,
     "epsilon": real,
     "pad_size": real,
+    "tension": real,
     "crease_edges": crease_pairs,
     "crease_angle": real,
     "corner_vertices": corner_ids,

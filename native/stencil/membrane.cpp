@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/membrane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Sine below which a triangle's cotangents are taken from that sine.
+constexpr double thinnest = 1e-12;
+
+// Of one face: the weights of its grid's directions (face_directions() in grid/ring.h).
+struct FaceWeights {
+  std::array<double, 4> direction{};
+  bool quad = false;
+
+  // Of edges along side s, on both sides of which the face lies.
+  double side(int s) const {
+    constexpr std::size_t triangle[3] = {0, 2, 1};
+    return direction[quad ? std::size_t(s % 2 * 2) : triangle[s]];
+  }
+  // Of a quad's diagonals from corner c to the one across.
+  double diagonal(int c) const { return direction[c % 2 == 0 ? 1 : 3]; }
+};
+
+// Across each grid edge lie two equal triangles, each with half the cotangent of the angle there.
+FaceWeights triangle_weights(const FlatFace& flat) {
+  const auto square = [&](std::size_t s) { return flat.length[s] * flat.length[s]; };
+  const double longest = std::max({square(0), square(1), square(2)}),
+               area = std::max(flat.area, thinnest * longest);
+  // at corner c, between sides c and c + 2
+  const auto cotangent = [&](std::size_t c) {
+    return (square(c) + square((c + 2) % 3) - square((c + 1) % 3)) / (4 * area);
+  };
+  return {{cotangent(2), cotangent(1), cotangent(0), 0}, false};
+}
+
+FaceWeights quad_weights(const FlatFace& flat) {
+  const double a = flat.length[0], b = flat.length[1],
+               sine = std::max(std::sin(flat.angle[0]), thinnest),
+               cotangent = std::cos(flat.angle[0]) / sine;
+  return {{b / (a * sine), -0.5 * cotangent, a / (b * sine), 0.5 * cotangent}, true};
+}
+
+std::vector<FaceWeights> weigh(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
+  std::vector<FaceWeights> out;
+  out.reserve(flat.size());
+  for (std::size_t f = 0; f < flat.size(); ++f) {
+    stop_if_cancelled(f);
+    const bool quad = mesh.faces[f].quad();
+    out.push_back(quad ? quad_weights(flat[f]) : triangle_weights(flat[f]));
+    if (mesh.face_part(Index(f)) == RegionPart::outside) out.back().direction = {};
+  }
+  return out;
+}
+
+// Both faces of an edge have their part in the edges along it.
+double along(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index e) {
+  double sum = 0;
+  for (const Index s : mesh.edges[std::size_t(e)].side) {
+    if (s < 0) continue;
+    const Side& side = mesh.sides[std::size_t(s)];
+    sum += 0.5 * faces[std::size_t(side.face)].side(side.local);
+  }
+  return sum;
+}
+
+// In the order of ChartMaker::edge().
+void fill_edge(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index e,
+               double* to) {
+  const double own = along(mesh, faces, e);
+  for (const Index s : mesh.edges[std::size_t(e)].side) {
+    *to++ = own;
+    if (s < 0) continue;
+    const Side& side = mesh.sides[std::size_t(s)];
+    const FaceWeights& face = faces[std::size_t(side.face)];
+    const int corner = side.local;
+    if (face.quad) {
+      *to++ = face.diagonal(corner);
+      *to++ = face.side(corner + 1);
+      *to++ = face.diagonal(corner + 1);
+    } else {
+      *to++ = face.side((corner + 2) % 3);
+      *to++ = face.side((corner + 1) % 3);
+    }
+  }
+}
+
+// In the order of ChartMaker::vertex().
+void fill_vertex(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index v,
+                 double* to) {
+  for (const Spoke& spoke : mesh.ring(v)) {
+    *to++ = along(mesh, faces, spoke.edge);
+    if (spoke.face >= 0 && faces[std::size_t(spoke.face)].quad)
+      *to++ = faces[std::size_t(spoke.face)].diagonal(spoke.corner);
+  }
+}
+
+}  // namespace
+
+double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (mesh.edge_part(Index(e)) == RegionPart::outside) continue;
+    sum += edge_length(mesh, flat, Index(e));
+    ++count;
+  }
+  return count > 0 ? sum / double(count) : 1;
+}
+
+Membrane make_membrane(const ControlMesh& mesh, const ChartOptions& options,
+                       const std::vector<Index>& ring_offset, double t) {
+  Membrane out;
+  if (!(t > 0)) return out;
+  const std::vector<FlatFace> flat =
+      flatten(mesh, options.kind == ChartKind::tangent ? 1.0 : options.exponent);
+  std::vector<FaceWeights> faces = weigh(mesh, flat);
+  const double length = mean_edge(mesh, flat), factor = 0.5 * t / (length * length);
+  // The blend of charts keeps their size.
+  std::vector<FaceWeights> uniform;
+  if (options.blend != 1) uniform = weigh(mesh, flatten(mesh, 0));
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t a = 0; a < 4; ++a) {
+      double& w = faces[f].direction[a];
+      if (!uniform.empty()) w = options.blend * w + (1 - options.blend) * uniform[f].direction[a];
+      w *= factor;
+    }
+  out.vertex.resize(std::size_t(ring_offset.back()));
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    fill_vertex(mesh, faces, v, out.vertex.data() + ring_offset[std::size_t(v)]);
+  out.edge.resize(8 * mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    fill_edge(mesh, faces, Index(e), out.edge.data() + 8 * e);
+  out.face.resize(4 * mesh.faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    std::copy(faces[f].direction.begin(), faces[f].direction.end(), out.face.data() + 4 * f);
+  return out;
+}
+
+}  // namespace fairing

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tension: a membrane stretched over the control mesh, whose energy is added to a bending energy,
+//
+//   tau / 2 * (the integral of |grad p|^2 in the control metric) = sum over grid edges ij of
+//   w_ij |p_i - p_j|^2,
+//
+// with linear elements on the flat faces of the metric (stencil/metric.h); a quad counts as the
+// mean of its two triangulations. On a map that keeps angles this is tau times the surface's area.
+// The integral knows no scale, so one set of weights serves every level, and inside a control face
+// there is one weight for each direction of its grid.
+#pragma once
+
+#include <vector>
+
+#include "parallel/memory.h"
+#include "stencil/chart.h"
+
+namespace fairing {
+
+// The w of all elements, by the neighbours of their points in the order of the charts; inside a
+// face by directions (face_directions() in grid/ring.h). Zero in faces outside a region. Empty
+// without tension.
+struct Membrane {
+  Array<double> vertex;  // 1 a neighbour, at Stencils::ring_offset
+  Array<double> edge;    // 8 an edge
+  Array<double> face;    // 4 a face
+
+  bool any() const { return !face.empty(); }
+};
+
+// The mean length of the edges that are faired.
+double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
+
+// tau = t / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled surface.
+// Throws where the run has been cancelled.
+Membrane make_membrane(const ControlMesh& mesh, const ChartOptions& options,
+                       const std::vector<Index>& ring_offset, double t);
+
+}  // namespace fairing

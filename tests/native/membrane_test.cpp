@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tension's L in all its forms against linear elements on the cells of the flat control faces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/linear.h"
+#include "level_settings.h"
+#include "stencil/metric.h"
+#include "thin_plate/level.h"
+#include "thin_plate/membrane.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr double tau = 0.7;
+
+// A control mesh with a membrane, at one level.
+struct Stretched {
+  const ControlMesh& mesh;
+  GridLevel grid;
+  Stencils plain, tense;
+};
+
+void on_all_stretched(int most_levels, const ChartOptions& options,
+                      const std::function<void(const Stretched&, Workers&)>& body) {
+  Workers workers(1);
+  for (const auto& [name, mesh] : all_meshes())
+    for (int level = 0; level <= most_levels; ++level) {
+      SCOPED_TRACE(name + ", level " + std::to_string(level));
+      body({mesh, GridLevel(mesh, level), make_stencils(mesh, options, workers),
+            make_stencils(mesh, options, workers, tau)},
+           workers);
+    }
+}
+
+double metric_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) sum += edge_length(mesh, flat, Index(e));
+  return sum / double(mesh.edges.size());
+}
+
+// Adds factor * |grad|^2 of the flat triangle with these corners, as a quadratic form.
+void add_triangle(const std::array<Index, 3>& point, const std::array<Eigen::Vector2d, 3>& at,
+                  double factor, Dense& l) {
+  const Eigen::Vector2d u = at[1] - at[0], v = at[2] - at[0];
+  const double twice = u.x() * v.y() - u.y() * v.x();
+  Eigen::Matrix<double, 2, 3> gradient;
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector2d across = at[std::size_t(c + 2) % 3] - at[std::size_t(c + 1) % 3];
+    gradient.col(c) = Eigen::Vector2d(-across.y(), across.x()) / twice;
+  }
+  const Eigen::Matrix3d form = 0.5 * std::abs(twice) * factor * gradient.transpose() * gradient;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      l(point[a], point[b]) += form(Eigen::Index(a), Eigen::Index(b));
+}
+
+// L of all points, cell by cell: a flat triangle's cells are its own shape, a quad's parallelograms
+// are cut either way.
+Dense reference(const GridLevel& grid, double exponent) {
+  const ControlMesh& mesh = grid.mesh();
+  const std::vector<FlatFace> flat = flatten(mesh, exponent);
+  const double length = metric_edge(mesh, flat), factor = 0.5 * tau / (length * length);
+  Dense l = Dense::Zero(Eigen::Index(grid.size()), Eigen::Index(grid.size()));
+  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
+    const bool quad = mesh.faces[std::size_t(f)].quad();
+    const FlatFace& shape = flat[std::size_t(f)];
+    const Eigen::Vector2d i_step(shape.length[0], 0),
+        j_step = shape.length[quad ? 3 : 2] *
+                 Eigen::Vector2d(std::cos(shape.angle[0]), std::sin(shape.angle[0]));
+    const auto add = [&](std::array<GridPoint, 3> corner, double share) {
+      std::array<Index, 3> point;
+      std::array<Eigen::Vector2d, 3> at;
+      for (std::size_t c = 0; c < 3; ++c) {
+        point[c] = grid.face_point(f, corner[c]);
+        at[c] = corner[c].i * i_step + corner[c].j * j_step;
+      }
+      add_triangle(point, at, share * factor, l);
+    };
+    const int n = grid.n();
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < (quad ? n : n - j); ++i) {
+        const GridPoint a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
+        if (quad) {
+          for (const auto& t : {std::array{a, b, c}, {a, c, d}, {a, b, d}, {b, c, d}}) add(t, 0.5);
+        } else {
+          add({a, b, d}, 1);
+          if (i + j + 2 <= n) add({b, c, d}, 1);
+        }
+      }
+  }
+  return l;
+}
+
+Dense assembled(const Stretched& s, const Stencils& stencils, const Unknowns& unknowns) {
+  Workers workers(1);
+  return Dense(assemble_thin_plate(s.grid, stencils, unknowns, {}, workers).matrix);
+}
+
+TEST(Membrane, IsThatOfLinearElements) {
+  for (const double exponent : {0.0, 0.5, 1.0})
+    on_all_stretched(2, {.exponent = exponent}, [&](const Stretched& s, Workers&) {
+      const Unknowns all = all_points(s.mesh);
+      const Dense with = assembled(s, s.tense, all), l = with - assembled(s, s.plain, all),
+                  expected = reference(s.grid, exponent);
+      EXPECT_LT((l - expected).norm(), 1e-11 * with.norm());
+      EXPECT_LT((l * Dense::Ones(l.cols(), 1)).norm(), 1e-12 * with.norm());
+    });
+}
+
+TEST(Membrane, BlendsTheChartsWeights) {
+  on_all_stretched(1, {.exponent = 0.5, .blend = 0.4}, [](const Stretched& s, Workers&) {
+    const std::vector<FlatFace> flat = flatten(s.mesh, 0.5), uniform = flatten(s.mesh, 0);
+    const double scale = metric_edge(s.mesh, uniform) / metric_edge(s.mesh, flat);
+    const Unknowns all = all_points(s.mesh);
+    const Dense with = assembled(s, s.tense, all), l = with - assembled(s, s.plain, all),
+                expected =
+                    0.4 * reference(s.grid, 0.5) + 0.6 * scale * scale * reference(s.grid, 0);
+    EXPECT_LT((l - expected).norm(), 1e-11 * with.norm());
+  });
+}
+
+TEST(Membrane, IsPositive) {
+  on_all_stretched(1, {.exponent = 1}, [](const Stretched& s, Workers&) {
+    const Dense l = reference(s.grid, 1);
+    const Eigen::SelfAdjointEigenSolver<Dense> eigen(l);
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12 * l.norm());
+  });
+}
+
+TEST(Membrane, IsAppliedByPassesAsItIsAssembled) {
+  on_all_stretched(3, {}, [](const Stretched& s, Workers& workers) {
+    const Dense all = assembled(s, s.tense, all_points(s.mesh));
+    const ThinPlateRows<double> rows(s.mesh, s.tense);
+    const ThinPlateRows<float> narrow(s.mesh, s.tense);
+    ElementSlots<double> slots = poisoned<double>(s.grid);
+    ElementSlots<float> narrow_slots = poisoned<float>(s.grid);
+    const Points x = random_points(s.grid.size());
+    for (int choice = 0; choice < 3; ++choice) {
+      const Unknowns unknowns = some_points(s.mesh, choice);
+      Points y = random_points(s.grid.size(), 2);  // what it holds before must not matter
+      apply_thin_plate(s.grid, rows, unknowns, {}, workers, slots, x.data(), y.data());
+      const Points expected = masked(s.grid, unknowns, all * x);
+      EXPECT_LT((y - expected).norm(), 1e-12 * all.norm() * x.norm()) << choice;
+      const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> xf = x.cast<float>();
+      Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> yf = xf;
+      apply_thin_plate(s.grid, narrow, unknowns, {}, workers, narrow_slots, xf.data(), yf.data());
+      EXPECT_LT((yf.cast<double>() - expected).norm(), 1e-5 * all.norm() * x.norm()) << choice;
+    }
+  });
+}
+
+TEST(Membrane, HasItsDiagonalRowsAndEnergy) {
+  on_all_stretched(3, {}, [](const Stretched& s, Workers& workers) {
+    const Unknowns unknowns = some_points(s.mesh, 1);
+    ElementSlots<double> slots = poisoned<double>(s.grid);
+    const AssembledSystem system = assemble_thin_plate(s.grid, s.tense, unknowns, {}, workers);
+    const Array<float> diagonal =
+        thin_plate_diagonal(s.grid, s.tense, unknowns, {}, workers, slots);
+    const auto matrix = PlateMatrix::make(s.grid, s.tense, unknowns, workers);
+    const Array<float> inverse = matrix ? matrix->inverse_diagonal(workers) : Array<float>();
+    const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
+    Points small(system.matrix.cols(), 3), expected = Points::Zero(x.rows(), 3);
+    for (Eigen::Index r = 0; r < small.rows(); ++r) {
+      const auto p = std::size_t(system.unknown_points[std::size_t(r)]);
+      const double own = system.matrix.coeff(r, r), entry = own > 0 ? own : 1;
+      EXPECT_NEAR(diagonal[p], entry, 1e-6 * entry);
+      if (matrix) {
+        EXPECT_NEAR(inverse[p], 1 / entry, 1e-5 / entry);
+      }
+      small.row(r) = x.row(Eigen::Index(p));
+    }
+    small = system.matrix * small;
+    for (Eigen::Index r = 0; r < small.rows(); ++r)
+      expected.row(system.unknown_points[std::size_t(r)]) = small.row(r);
+    const FloatPoints xf = with_room(x);
+    FloatPoints product = FloatPoints::Zero(x.rows(), 3);
+    if (matrix) {
+      matrix->visit_products(xf.data(), workers,
+                             [&](std::size_t first, std::size_t count, const float* part) {
+                               std::copy_n(part, 3 * count, product.data() + 3 * first);
+                             });
+      EXPECT_LT((product.cast<double>() - expected).norm(),
+                1e-6 * system.matrix.norm() * x.norm() + 1e-300);
+    }
+
+    const Points free = random_points(s.grid.size(), 5);
+    const double energy = membrane_energy(s.grid, s.tense, workers, free.data()),
+                 form = (free.transpose() * reference(s.grid, 0.5) * free).trace();
+    EXPECT_NEAR(energy, form, 1e-12 * form);
+    EXPECT_EQ(membrane_energy(s.grid, s.plain, workers, free.data()), 0);
+    EXPECT_EQ(thin_plate_energy(s.grid, s.tense, workers, free.data()),
+              thin_plate_energy(s.grid, s.plain, workers, free.data()));
+  });
+}
+
+// Of a map that is linear on each control face the integral is the same on all levels.
+TEST(Membrane, HasOneEnergyOnAllLevels) {
+  Workers workers(1);
+  const ControlMesh mesh = control(shaken(icosahedron()));
+  const Stencils stencils = make_stencils(mesh, {}, workers, tau);
+  std::vector<double> energies;
+  for (int level = 0; level <= 4; ++level) {
+    const GridLevel grid(mesh, level);
+    Array<double> x(3 * grid.size());
+    refine_linearly(grid, mesh.positions, workers, x.data());
+    energies.push_back(membrane_energy(grid, stencils, workers, x.data()));
+    EXPECT_NEAR(energies.back(), energies.front(), 1e-12 * energies.front()) << level;
+  }
+}
+
+// Only the faces that are faired stretch a membrane, and their edges give its unit.
+TEST(Membrane, EndsAtARegionsJoint) {
+  Workers workers(1);
+  for (const RegionContinuity joint :
+       {RegionContinuity::position, RegionContinuity::tangent, RegionContinuity::curvature}) {
+    FeatureOptions features;
+    features.region = {true, {0, 1, 2, 5}, joint};
+    const ControlMesh mesh = control(shaken(mixed_grid(4, 3)), features);
+    const Stencils stencils = make_stencils(mesh, {}, workers, tau);
+    const GridLevel grid(mesh, 2);
+    Points x = random_points(grid.size());
+    const double before = membrane_energy(grid, stencils, workers, x.data());
+    EXPECT_GT(before, 0);
+    for (Index f = 0; f < Index(mesh.faces.size()); ++f)
+      if (mesh.face_part(f) == RegionPart::outside)
+        for (int j = 1; j < grid.n() - 2; ++j) x.row(grid.face_point(f, 1, j)).setRandom();
+    EXPECT_EQ(membrane_energy(grid, stencils, workers, x.data()), before);
+
+    Unknowns unknowns = some_points(mesh, 1);
+    for (std::size_t v = 0; v < unknowns.vertex.size(); ++v)
+      unknowns.vertex[v] &= mesh.vertex_part(Index(v)) == RegionPart::inside;
+    for (std::size_t e = 0; e < unknowns.edge.size(); ++e)
+      unknowns.edge[e] &= mesh.edge_part(Index(e)) == RegionPart::inside;
+    for (const RegionPart part : mesh.region.face)
+      unknowns.face.push_back(part == RegionPart::inside);
+    const Dense all(assemble_thin_plate(grid, stencils, all_points(mesh), {}, workers).matrix);
+    ElementSlots<double> slots = poisoned<double>(grid);
+    Points y(x.rows(), 3);
+    apply_thin_plate(grid, ThinPlateRows<double>(mesh, stencils), unknowns, {}, workers, slots,
+                     x.data(), y.data());
+    const Points expected = masked(grid, unknowns, all * x);
+    EXPECT_LT((y - expected).norm(), 1e-12 * all.norm() * x.norm());
+  }
+}
+
+TEST(Membrane, LeavesNoTraceWithoutTension) {
+  Workers workers(1);
+  const ControlMesh mesh = control(shaken(mixed_grid(4, 3)));
+  EXPECT_FALSE(make_stencils(mesh, {}, workers).membrane.any());
+  EXPECT_FALSE(make_stencils(mesh, {}, workers, 0).membrane.any());
+  EXPECT_TRUE(make_stencils(mesh, {}, workers, 1e-3).membrane.any());
+}
+
+}  // namespace
+}  // namespace fairing::test

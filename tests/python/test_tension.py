@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tension: what a membrane beside the bending does to a surface, and what it leaves alone."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from shared_data import SHARED, read_obj
+from surfaces import boundary_vertices, size_of
+
+CLOSED = ("octahedron", "cube", "torus", "creature", "mixed_house", "dodecahedron", "three_handles")
+ENERGIES = ("thin_plate", "total_curvature")
+SWELLING = {
+    "spot": "good/cages/odedstein-meshes__spot_spot_control_mesh.obj",
+    "fish": "good/cages/odedstein-meshes__fish_fish_control_mesh.obj",
+}
+
+
+def mesh_of(name):
+    return getattr(meshes, name)()
+
+
+def volume(result):
+    corner = result.vertices[result.triangles]
+    return np.einsum("fi,fi->", corner[:, 0], np.cross(corner[:, 1], corner[:, 2])) / 6
+
+
+def area(result):
+    corner = result.vertices[result.triangles]
+    return (
+        np.linalg.norm(
+            np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
+        ).sum()
+        / 2
+    )
+
+
+def energies(result):
+    return result.report["energy"]["result"]
+
+
+@pytest.mark.parametrize("energy", (*ENERGIES, "minimum_variation"))
+def test_none_is_the_default(energy):
+    mesh = meshes.creature()
+    plain, none = (df.fair(*mesh, levels=2, energy=energy, **t) for t in ({}, {"tension": 0}))
+    assert np.array_equal(plain.vertices, none.vertices)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("name", CLOSED)
+def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
+    vertices, faces = mesh_of(name)
+    found = [
+        df.fair(vertices, faces, levels=2, energy=energy, tension=tension)
+        for tension in (0, 0.25, 0.5, 0.75, 1)
+    ]
+    areas = [area(result) for result in found]
+    assert areas == sorted(areas, reverse=True)
+    for result in found:
+        assert np.array_equal(result.vertices[: len(vertices)], vertices)
+        assert result.report["converged"]
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_reported_energies_are_of_bending_alone(name):
+    mesh = mesh_of(name)
+    bending = [
+        energies(df.fair(*mesh, levels=2, tension=tension))["thin_plate"]
+        for tension in (0, 0.3, 0.6, 1)
+    ]
+    assert bending == sorted(bending)  # the first is the least there is
+    result = df.fair(*mesh, levels=2, tension=0.5, energy="total_curvature")
+    steps = result.report["curvature"][-1]
+    measured = energies(result)["total_curvature"]
+    assert steps["energy"] == pytest.approx(measured, rel=0.05)
+    assert steps["steps"][-1]["energy"] > 1.05 * steps["energy"]  # these judge by the sum
+
+
+# A bubble, like total curvature's fish, collapses with the first little tension.
+@pytest.mark.parametrize(
+    ("name", "energy", "uneven"),
+    (
+        ("spot", "thin_plate", 1.6),
+        ("spot", "total_curvature", 1.7),
+        ("fish", "thin_plate", 1.6),
+        ("fish", "total_curvature", np.inf),
+    ),
+)
+def test_equal_steps_take_about_equal_volumes(name, energy, uneven):
+    path = SHARED / SWELLING[name]
+    if not path.is_file():
+        pytest.skip("no shared meshes")
+    vertices, faces = read_obj(path)
+    volumes = [
+        volume(df.fair(vertices, faces, levels=2, energy=energy, tension=t / 4)) for t in range(5)
+    ]
+    steps = -np.diff(volumes)
+    assert steps.min() > 0
+    assert steps.max() < uneven * steps.min()
+
+
+@pytest.mark.parametrize("pad_size", (0, 0.5))
+@pytest.mark.parametrize("name", ("cube", "icosahedron", "torus", "creature", "wavy_patch"))
+def test_the_solver_takes_hardly_more_iterations(name, pad_size):
+    mesh = mesh_of(name)
+    none, half, full = (
+        df.fair(*mesh, levels=5, pad_size=pad_size, tension=t, measure=False).report["levels"][-1]
+        for t in (0, 0.5, 1)
+    )
+    assert max(half["iterations"], full["iterations"]) <= 1.5 * none["iterations"]
+    assert half["converged"] and full["converged"]
+
+
+@pytest.mark.parametrize("pad_size", (0, 0.5))
+def test_the_plate_is_a_linear_map_of_the_positions(pad_size):
+    vertices, faces = meshes.creature()
+    rng = np.random.default_rng(2)
+    first, second = (vertices + 0.1 * rng.standard_normal(vertices.shape) for _ in range(2))
+    mixed = 0.3 * first - 0.5 * second + 1.2 * vertices + [3, -4, 5]
+    result = df.fair(
+        vertices,
+        faces,
+        levels=2,
+        pad_size=pad_size,
+        tension=0.7,
+        relative_residual=1e-12,
+        shapes=[first, second, mixed],
+    )
+    a, b, c = result.shapes
+    error = np.abs(0.3 * a - 0.5 * b + 1.2 * result.vertices + [3, -4, 5] - c).max()
+    assert error < 1e-6 * np.ptp(vertices)
+
+
+@pytest.mark.parametrize("name", ("octahedron", "cube", "creature", "wavy_patch"))
+def test_pads_hold_every_vertex_under_tension(name):
+    vertices, faces = mesh_of(name)
+    result = df.fair(vertices, faces, levels=3, pad_size=0.5, tension=0.8)
+    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+    assert result.report["converged"]
+    assert result.report["levels"][-1]["pad_force"] <= 1e-3
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_a_scaled_mesh_has_the_scaled_surface(energy):
+    vertices, faces = meshes.creature()
+    options = {"levels": 2, "energy": energy, "tension": 0.6, "relative_residual": 1e-11}
+    one, large = (df.fair(scale * vertices, faces, **options).vertices for scale in (1, 1000))
+    assert np.abs(large / 1000 - one).max() < 1e-5 * size_of(vertices)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("boundary", ("curve", "linear", "free"))
+def test_a_plane_stays_one(boundary, energy):
+    vertices, faces = meshes.flat_patch()
+    result = df.fair(vertices, faces, levels=3, boundary=boundary, energy=energy, tension=0.5)
+    assert np.abs(result.vertices[:, 2]).max() < 1e-9
+    assert result.report["converged"]
+
+
+def test_curves_depend_on_their_own_vertices_alone():
+    mesh = meshes.wavy_patch(6, 5)
+    for boundary in ("curve", "linear"):
+        slack, taut = (df.fair(*mesh, levels=2, boundary=boundary, tension=t) for t in (0, 1))
+        rim = boundary_vertices(taut.triangles)
+        assert len(rim) == 4 * 2 * (6 + 5)
+        assert np.array_equal(slack.vertices[rim], taut.vertices[rim])
+        assert np.abs(slack.vertices - taut.vertices).max() > 1e-2
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("joint", ("position", "tangent", "curvature"))
+def test_a_region_knows_nothing_of_the_rest(joint, energy):
+    vertices, faces = meshes.wavy_patch(9, 9)
+    away = np.abs(vertices[faces].mean(1)[:, :2] - vertices.mean(0)[:2]).max(1)
+    region = np.flatnonzero(away < 0.25 * np.ptp(vertices[:, 0]))
+    outside = np.setdiff1d(np.arange(len(faces)), region)
+    around = np.setdiff1d(faces[outside], faces[region])
+    middle = vertices.mean(0)
+    moved = vertices.copy()  # other edge lengths outside, and another area
+    moved[around] = middle + [1.5, 1.5, 1] * (vertices[around] - middle)
+    options = {"levels": 2, "region": region, "joint": "position", "energy": energy}
+    points = {}
+    for key, positions in (("one", vertices), ("other", moved)):
+        result = df.fair(positions, faces, tension=0.8, **options)
+        inside = np.unique(result.triangles[np.isin(result.triangle_polygon, region)])
+        points[key] = result.vertices[inside]
+        slack = df.fair(positions, faces, **options).vertices
+        kept = np.setdiff1d(np.arange(len(slack)), inside)
+        assert np.array_equal(slack[kept], result.vertices[kept])
+        assert np.abs(slack - result.vertices).max() > 1e-4
+    assert np.abs(points["one"] - points["other"]).max() < 1e-5
+    result = df.fair(vertices, faces, tension=0.8, **{**options, "joint": joint})
+    assert result.report["converged"]
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_threads_leave_no_trace(energy):
+    mesh = meshes.creature()
+    one, two, five = (
+        df.fair(*mesh, levels=3, energy=energy, tension=0.5, threads=t) for t in (1, 2, 5)
+    )
+    assert np.array_equal(one.vertices, two.vertices)
+    assert np.array_equal(one.vertices, five.vertices)
+
+
+def test_a_solver_follows_moved_vertices():
+    vertices, faces = meshes.creature()
+    options = {"levels": 3, "tension": 0.6}
+    solver = df.Solver(vertices, faces, **options)
+    assert np.array_equal(solver.solve().vertices, df.fair(vertices, faces, **options).vertices)
+    moved = vertices.copy()
+    for _ in range(3):
+        moved[0] += 0.02 * size_of(vertices)
+        followed = solver.solve(moved)
+        assert followed.report["warm"]
+        alone = df.fair(vertices, faces, shapes=moved[None], **options).shapes[0]
+        assert np.abs(followed.vertices - alone).max() < 1e-4 * size_of(vertices)
+
+
+def test_a_solver_follows_by_steps():
+    vertices, faces = meshes.creature()
+    options = {"levels": 3, "energy": "total_curvature", "tension": 0.3}
+    solver = df.Solver(vertices, faces, **options)
+    assert np.array_equal(solver.solve().vertices, df.fair(vertices, faces, **options).vertices)
+    moved = vertices.copy()
+    for _ in range(2):
+        moved[0] += 0.01 * size_of(vertices)
+        followed, anew = solver.solve(moved), df.Solver(vertices, faces, **options).solve(moved)
+        assert followed.report["warm"] and not anew.report["warm"]
+        found, expected = (r.report["curvature"][-1]["energy"] for r in (followed, anew))
+        assert found == pytest.approx(expected, rel=0.01)
+        assert area(followed) == pytest.approx(area(anew), rel=0.005)
+
+
+def test_back_leg_comes_to_the_same_surface():
+    mesh = meshes.cube()
+    swept = df.fair(*mesh, levels=2, tension=0.5, method="back_leg", sweeps=2000).vertices
+    solved = df.fair(*mesh, levels=2, tension=0.5, relative_residual=1e-11).vertices
+    assert np.abs(swept - solved).max() < 1e-8
+
+
+def test_tolerance_and_epsilon_go_with_tension():
+    vertices, faces = meshes.creature()
+    for energy in ("thin_plate", "total_curvature"):
+        held = df.fair(
+            vertices,
+            faces,
+            levels=2,
+            energy=energy,
+            tension=0.5,
+            interpolation="approximate",
+            tolerance=0.05,
+        )
+        assert 0 < held.report["largest_deviation"] <= 0.05
+        released = df.fair(vertices, faces, levels=2, energy=energy, tension=0.5, epsilon=0.02)
+        assert 0 < released.report["largest_deviation"] <= 0.02
+
+
+@pytest.mark.parametrize("name", ("icosahedron", "octahedron", "cube", "random_hull"))
+def test_spheres_flatten_towards_their_hulls(name):
+    vertices, faces = mesh_of(name)
+    vertices = vertices / np.linalg.norm(vertices, axis=1)[:, None]
+    round_, taut = (
+        df.fair(vertices, faces, levels=3, energy="total_curvature", tension=t) for t in (0, 0.5)
+    )
+    assert np.array_equal(taut.vertices[: len(vertices)], vertices)
+    assert taut.report["converged"]
+    assert np.abs(np.linalg.norm(round_.vertices, axis=1) - 1).max() < 1e-4
+    assert volume(df.fair(vertices, faces, levels=0)) < volume(taut) < volume(round_)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_prediction_bounds_the_peak(energy):
+    report = df.fair(*meshes.creature(), levels=3, energy=energy, tension=0.5).report
+    assert report["peak_bytes"] <= report["predicted_bytes"]
+
+
+@pytest.mark.parametrize("tension", (-0.1, 1.1, float("nan")))
+def test_other_values_are_refused(tension):
+    with pytest.raises(df.FairingError, match="tension") as caught:
+        df.fair(*meshes.cube(), tension=tension)
+    assert caught.value.code == "BAD_OPTION"
+
+
+def test_minimum_variation_has_none():
+    with pytest.raises(df.FairingError, match="minimum variation") as caught:
+        df.fair(*meshes.cube(), energy="minimum_variation", tension=0.5)
+    assert caught.value.code == "BAD_OPTION"
