@@ -116,7 +116,14 @@ ToleranceConstraint FairingContext::constraint_of(const ControlPositions& contro
   if (options_.interpolation == Interpolation::exact)
     return ToleranceConstraint(mesh_, control.working, unknowns_);
   return ToleranceConstraint(mesh_, control.working, unknowns_, options_.weights, weight_unit_,
-                             options_.tolerance / frame_.scale);
+                             working_tolerances());
+}
+
+std::vector<double> FairingContext::working_tolerances() const {
+  std::vector<double> out;
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
+    out.push_back(options_.tolerance_of(v) / frame_.scale);
+  return out;
 }
 
 std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
@@ -136,8 +143,7 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
       mesh_, levels, system().base(), stencils_, unknowns_, options,
       options_.interpolation == Interpolation::exact
           ? ControlHold(control.working, unknowns_)
-          : ControlHold(mesh_, control.working, unknowns_, options_.weights,
-                        options_.tolerance / frame_.scale),
+          : ControlHold(mesh_, control.working, unknowns_, options_.weights, working_tolerances()),
       options_.epsilon / frame_.scale, mirrors_of(control), *workers_, monitor_);
 }
 

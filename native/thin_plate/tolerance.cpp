@@ -51,15 +51,16 @@ double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
 
 ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> targets,
                                          const Unknowns& unknowns, std::span<const double> weights,
-                                         double unit, double tolerance)
+                                         double unit, std::vector<double> tolerances)
     : mesh_(mesh),
       targets_(targets),
       unknowns_(unknowns),
-      tolerance_(tolerance * tolerance_aim),
-      unit_(unit) {
-  if (!unknowns.any_vertex) {
-    tolerance_ = 0;
-    return;
+      unit_(unit),
+      tolerance_(std::move(tolerances)) {
+  if (!unknowns.any_vertex) return;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    tolerance_[v] *= tolerance_aim;
+    active_ |= bound(v);
   }
   base_.assign(std::size_t(mesh.vertex_count()), 0.0);
   for (std::size_t v = 0; v < weights.size(); ++v)
@@ -68,8 +69,8 @@ ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, std::span<cons
   power_.assign(base_.size(), 1.0);
   was_outside_.assign(base_.size(), 0);
   if (!active()) return;
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
-    if (unknowns.vertex[v]) weights_[v] = std::max(base_[v], unit);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v)) weights_[v] = std::max(base_[v], unit);
 }
 
 double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) const {
@@ -79,23 +80,25 @@ double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) cons
 // The energy is convex, so the force 2 w d at each vertex bounds what the way to its ball's surface
 // could still gain.
 bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
-  double gap = 0, farthest = 0;
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v]) continue;
+  double gap = 0;
+  bool outside = false, pulled = false;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
     const double d = distance(x, v);
-    gap += 2 * (weights_[v] - base_[v]) * d * std::abs(tolerance_ - d);
-    farthest = std::max(farthest, d);
+    gap += 2 * (weights_[v] - base_[v]) * d * std::abs(tolerance_[v] - d);
+    outside |= !(d <= tolerance_slack * tolerance_[v]);
+    pulled |= !(d <= idle * tolerance_[v]);
   }
   start_energy_ = std::max(start_energy_, energy);
   gap_ = energy > 0 ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
-  if (farthest <= idle * tolerance_) gap_ = 0;  // nothing pulls
-  return farthest <= tolerance_slack * tolerance_ && gap_ <= gap_wanted;
+  if (!pulled) gap_ = 0;
+  return !outside && gap_ <= gap_wanted;
 }
 
 void ToleranceConstraint::adapt(const Array<double>& x) {
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v]) continue;
-    const double ratio = distance(x, v) / tolerance_;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    const double ratio = distance(x, v) / tolerance_[v];
     const bool outside = ratio > 1;
     power_[v] = outside == bool(was_outside_[v]) ? std::min(largest_power, power_[v] * power_rise)
                                                  : std::max(1.0, power_[v] / power_fall);
@@ -121,22 +124,22 @@ void ToleranceConstraint::settle(ThinPlateSolver& system, int level, Array<doubl
 LevelReport ToleranceConstraint::finish(ThinPlateSolver& system, double relative_residual,
                                         Array<double>& x) {
   std::vector<Vec3> targets(targets_.begin(), targets_.end());
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v] || distance(x, v) <= tolerance_) continue;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v) || distance(x, v) <= tolerance_[v]) continue;
     targets[v] = nearest_allowed(x, v);
     weights_[v] *= pin;
   }
   system.set_weights(weights_, system.top());
   const LevelReport report = system.solve_again(system.top(), targets, x, relative_residual);
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
-    if (unknowns_.vertex[v] && distance(x, v) > tolerance_) put(x, v, nearest_allowed(x, v));
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v) && distance(x, v) > tolerance_[v]) put(x, v, nearest_allowed(x, v));
   ++rounds_;
   return report;
 }
 
 Vec3 ToleranceConstraint::nearest_allowed(const Array<double>& x, std::size_t v) const {
   const Vec3& target = targets_[v];
-  return target + (tolerance_ / distance(x, v)) * (point(x, v) - target);
+  return target + (tolerance_[v] / distance(x, v)) * (point(x, v) - target);
 }
 
 int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,

@@ -4,6 +4,8 @@
 // ThinPlateSolver does.
 #pragma once
 
+#include <cmath>
+
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -12,7 +14,7 @@ namespace fairing {
 // size.
 double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 
-// Keeps weighted control vertices within a tolerance of their targets, with the energy as low as
+// Keeps weighted control vertices within their tolerances of their targets, with the energy as low as
 // that allows. The weights are the multipliers of |p - c|^2 <= tolerance^2, found by a fixed point:
 // a vertex held with force w |p - c| needs the weight w |p - c| / tolerance.
 class ToleranceConstraint {
@@ -21,15 +23,16 @@ class ToleranceConstraint {
   ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> targets,
                       const Unknowns& unknowns)
       : mesh_(mesh), targets_(targets), unknowns_(unknowns) {}
-  // `targets` of the control vertices, and tolerance, in working coordinates; tolerance <= 0: the
-  // caller's weights alone, nothing to find. `weights`: one an input vertex, in units of `unit`; or
-  // empty. All must outlive the constraint but the weights.
+  // `targets` of the control vertices, and `tolerances` of the input vertices, in working
+  // coordinates; infinity: the caller's weight alone, nothing to find. `weights`: one an input
+  // vertex, in units of `unit`; or empty. `mesh`, `targets` and `unknowns` must outlive the
+  // constraint.
   ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> targets,
                       const Unknowns& unknowns, std::span<const double> weights, double unit,
-                      double tolerance);
+                      std::vector<double> tolerances);
 
   VertexWeights start_weights() const { return weights_; }
-  bool active() const { return tolerance_ > 0; }
+  bool active() const { return active_; }
 
   // Adapts the weights on one level until the constraint holds and the duality gap is closed; x
   // follows.
@@ -44,6 +47,8 @@ class ToleranceConstraint {
   double gap() const { return gap_; }
 
  private:
+  // Whether it is an unknown that may move only so far.
+  bool bound(std::size_t v) const { return unknowns_.vertex[v] && std::isfinite(tolerance_[v]); }
   double distance(const Array<double>& x, std::size_t v) const;
   Vec3 nearest_allowed(const Array<double>& x, std::size_t v) const;
   bool settled(double energy, const Array<double>& x);
@@ -52,8 +57,10 @@ class ToleranceConstraint {
   const ControlMesh& mesh_;
   std::span<const Vec3> targets_;
   const Unknowns& unknowns_;
-  double tolerance_ = 0, unit_ = 1;
-  std::vector<double> base_;  // the caller's own weights
+  double unit_ = 1;
+  bool active_ = false;
+  std::vector<double> tolerance_;  // aimed at, one an input vertex
+  std::vector<double> base_;       // the caller's own weights
   VertexWeights weights_;
   std::vector<double> power_;  // of the fixed point's step, per vertex
   std::vector<std::uint8_t> was_outside_;
