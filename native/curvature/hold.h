@@ -18,8 +18,7 @@ struct SurfaceIterate;
 class TotalCurvatureSteps;
 
 // What holds the control vertices that are unknowns of the Gauss-Newton steps: the caller's
-// weights, or weights that keep them within the tolerance, found step by step as in
-// ToleranceConstraint.
+// weights, or weights that keep them within the tolerance, found step by step.
 class ControlHold {
  public:
   // Holds nothing: control vertices are interpolated, or free.

@@ -79,8 +79,6 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
         refuse(std::string("pad_size holds control vertices exactly and has no ") + what +
                " yet; " + instead + ", or set pad_size to 0.");
     };
-    exclude(o.interpolation == Interpolation::approximate, "interpolation=\"approximate\"",
-            "use interpolation=\"exact\"");
     exclude(o.epsilon > 0, "epsilon", "leave epsilon at 0: pads leave no cusps to take off");
     exclude(o.method == Method::back_leg, "method=\"back_leg\"", "use multigrid");
     exclude(o.energy != Energy::thin_plate, "other energy than the thin plate's",

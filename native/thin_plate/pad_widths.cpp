@@ -85,6 +85,8 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
   if (!options_.star_energies) return solve_level(level, targets, limits, x.data());
   PcgLimits rough = limits;
   rough.tolerance = std::max(limits.tolerance, tolerance);
+  ToleranceConstraint* constraint = nullptr;
+  std::swap(constraint, constraint_);
   std::vector<double> of_needles;
   {
     Array<double> needles(3 * grid(level).size());
@@ -105,7 +107,8 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
   for (int round = 0; narrow_pads(options_.star_energies(grid(level), x.data()), of_needles, round);
        ++round)
     again(rough);
-  if (limits.tolerance < rough.tolerance) again(limits);
+  std::swap(constraint, constraint_);
+  if (constraint_ || limits.tolerance < rough.tolerance) again(limits);
   report.iterations += iterations;
   report.pad_corrections += corrections;
   return report;
