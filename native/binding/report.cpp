@@ -32,6 +32,8 @@ py::dict to_python(const LevelReport& l) {
   d["residuals"] = l.residuals;
   d["pad_corrections"] = l.pad_corrections;
   d["pad_force"] = l.pad_force;
+  d["constraint_rounds"] = l.constraint_rounds;
+  d["constraint_gap"] = l.constraint_gap;
   return d;
 }
 

@@ -28,20 +28,27 @@ double curvature_weight_unit(const ControlMesh& mesh) {
 
 ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
                          const Unknowns& unknowns, std::span<const double> weights,
-                         double tolerance)
-    : targets_(targets), unknowns_(unknowns) {
+                         std::vector<double> tolerances)
+    : targets_(targets), unknowns_(unknowns), tolerance_(std::move(tolerances)) {
   if (!unknowns.any_vertex) return;
   const double unit = curvature_weight_unit(mesh);
-  tolerance_ = tolerance_aim * tolerance;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    tolerance_[v] *= tolerance_aim;
+    adapts_ |= bound(v);
+  }
   base_.assign(std::size_t(mesh.vertex_count()), 0.0);
   for (std::size_t v = 0; v < weights.size(); ++v)
     if (unknowns.vertex[v]) base_[v] = unit * weights[v];
   weights_ = base_;
-  if (!adapts()) return;
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
-    if (unknowns.vertex[v]) weights_[v] = base_[v] = std::max(base_[v], least_weight * unit);
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
-    if (unknowns.vertex[v]) weights_[v] = std::max(base_[v], unit);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    base_[v] = std::max(base_[v], least_weight * unit);
+    weights_[v] = std::max(base_[v], unit);
+  }
+}
+
+bool ControlHold::bound(std::size_t v) const {
+  return v < tolerance_.size() && unknowns_.vertex[v] && std::isfinite(tolerance_[v]);
 }
 
 Vec3 ControlHold::away(const Array<double>& x, std::size_t v) const {
@@ -50,8 +57,8 @@ Vec3 ControlHold::away(const Array<double>& x, std::size_t v) const {
 
 void ControlHold::adapt(const Array<double>& x) {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
-    if (!(base_[v] > 0)) continue;
-    const double ratio = std::pow(away(x, v).norm() / tolerance_, response);
+    if (!bound(v)) continue;
+    const double ratio = std::pow(away(x, v).norm() / tolerance_[v], response);
     weights_[v] = std::max(base_[v], weights_[v] * std::clamp(ratio, 1 / largest_weight_change,
                                                               largest_weight_change));
   }
@@ -59,16 +66,17 @@ void ControlHold::adapt(const Array<double>& x) {
 
 bool ControlHold::holds(const Array<double>& x) const {
   for (std::size_t v = 0; v < weights_.size(); ++v)
-    if (base_[v] > 0 && away(x, v).norm() > tolerance_slack * tolerance_) return false;
+    if (bound(v) && away(x, v).norm() > tolerance_slack * tolerance_[v]) return false;
   return true;
 }
 
 void ControlHold::enforce(Array<double>& x) const {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
+    if (!bound(v)) continue;
     const Vec3 offset = away(x, v);
     const double length = offset.norm();
-    if (!(base_[v] > 0) || !(length > tolerance_)) continue;
-    const Vec3 p = targets_[v] + (tolerance_ / length) * offset;
+    if (!(length > tolerance_[v])) continue;
+    const Vec3 p = targets_[v] + (tolerance_[v] / length) * offset;
     for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = p[Eigen::Index(a)];
   }
 }

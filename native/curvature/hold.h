@@ -18,22 +18,22 @@ struct SurfaceIterate;
 class TotalCurvatureSteps;
 
 // What holds the control vertices that are unknowns of the Gauss-Newton steps: the caller's
-// weights, or weights that keep them within the tolerance, found step by step as in
-// ToleranceConstraint.
+// weights, or weights that keep them within the tolerance, found step by step.
 class ControlHold {
  public:
   // Holds nothing: control vertices are interpolated, or free.
   ControlHold(std::span<const Vec3> targets, const Unknowns& unknowns)
       : targets_(targets), unknowns_(unknowns) {}
-  // `targets` of all control vertices and `tolerance` (0: none) in working coordinates; `weights`:
-  // the caller's, one an input vertex, or empty. `targets` and `unknowns` must outlive the hold.
+  // `targets` of all control vertices, and `tolerances` of the input vertices (infinity: none), in
+  // working coordinates; `weights`: the caller's, one an input vertex, or empty. `targets` and
+  // `unknowns` must outlive the hold.
   ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns,
-              std::span<const double> weights, double tolerance);
+              std::span<const double> weights, std::vector<double> tolerances);
 
   std::span<const Vec3> targets() const { return targets_; }
   const VertexWeights& weights() const { return weights_; }
   bool any() const { return !weights_.empty(); }
-  bool adapts() const { return tolerance_ > 0; }
+  bool adapts() const { return adapts_; }
 
   // New weights after a step.
   void adapt(const Array<double>& x);
@@ -46,11 +46,14 @@ class ControlHold {
   Unknowns without_held() const;
 
  private:
+  // Whether it is an unknown that may move only so far.
+  bool bound(std::size_t v) const;
   Vec3 away(const Array<double>& x, std::size_t v) const;
 
   std::span<const Vec3> targets_;
   const Unknowns& unknowns_;
-  double tolerance_ = 0;
+  bool adapts_ = false;
+  std::vector<double> tolerance_;  // aimed at, one an input vertex
   VertexWeights base_, weights_;
 };
 

@@ -78,7 +78,7 @@ void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
   weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
-  start_weights_ = constraint_of(basis_).start_weights();
+  start_weights_ = constraint_of(basis_).weights();
   require_anchored(mesh_, unknowns_, start_weights_);
   system();
 }
@@ -117,7 +117,14 @@ ToleranceConstraint FairingContext::constraint_of(const ControlPositions& contro
   if (options_.interpolation == Interpolation::exact)
     return ToleranceConstraint(mesh_, control.working, unknowns_);
   return ToleranceConstraint(mesh_, control.working, unknowns_, options_.weights, weight_unit_,
-                             options_.tolerance / frame_.scale);
+                             working_tolerances());
+}
+
+std::vector<double> FairingContext::working_tolerances() const {
+  std::vector<double> out;
+  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
+    out.push_back(options_.tolerance_of(v) / frame_.scale);
+  return out;
 }
 
 std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
@@ -139,8 +146,7 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
       mesh_, levels, system().base(), stencils_, unknowns_, options,
       options_.interpolation == Interpolation::exact
           ? ControlHold(control.working, unknowns_)
-          : ControlHold(mesh_, control.working, unknowns_, options_.weights,
-                        options_.tolerance / frame_.scale),
+          : ControlHold(mesh_, control.working, unknowns_, options_.weights, working_tolerances()),
       options_.epsilon / frame_.scale, system().pads(), mirrors_of(control), *workers_, monitor_);
 }
 
@@ -156,21 +162,16 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
     if (measured) measure_prediction(start, watch, report);
   };
   const auto on_level = [&](int level, Array<double>& points) {
-    if (constraint.active()) {
-      watch.enter(Phase::constrain, 0.5);
-      constraint.settle(*system_, level, points);
-      if (level == options_.levels)
-        report.levels.back() = constraint.finish(*system_, options_.relative_residual, points);
-      watch.enter(Phase::solve, 0.5);
-    }
     if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
   };
   if (options_.method == Method::back_leg)
     solve_back_leg(*system_, control.working, options_.sweeps, x, report.levels, on_prediction);
   else
-    system_->solve_nested(control.working, x, report.levels, on_prediction, on_level);
-  report.constraint_rounds = constraint.rounds();
-  report.constraint_gap = constraint.gap();
+    system_->solve_nested(control.working, x, report.levels, on_prediction, on_level,
+                          constraint.active() ? &constraint : nullptr);
+  for (const LevelReport& level : report.levels)
+    report.constraint_rounds += level.constraint_rounds;
+  report.constraint_gap = report.levels.back().constraint_gap;
   report_pads(report);
 }
 
@@ -227,7 +228,13 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, cons
                       Report& report) {
   if (level.converged) return;
   char text[200];
-  if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
+  if (level.constraint_gap > gap_wanted)
+    std::snprintf(
+        text, sizeof text,
+        "The tolerance is kept, but the energy may be %.1e above the least one, relative. "
+        "The surface is usable; a smaller tolerance settles sooner.",
+        level.constraint_gap);
+  else if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
     std::snprintf(text, sizeof text,
                   "The loads on pads have not settled after %d corrections: %.1e of them is still "
                   "changing. The surface is usable; a smaller pad_size settles sooner.",

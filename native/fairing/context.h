@@ -87,6 +87,8 @@ class FairingContext {
  private:
   SurfaceEnergies energies(const double* x);
   ToleranceConstraint constraint_of(const ControlPositions& control) const;
+  // One an input vertex, in working coordinates; infinity: none.
+  std::vector<double> working_tolerances() const;
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
   void build(std::vector<Vec3> world, Stopwatch& watch);
 

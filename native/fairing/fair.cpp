@@ -169,9 +169,7 @@ Report FairSolver::solve(std::span<const double> coordinates, double* out) {
     context_.system();
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
-    const bool constrained =
-        options.interpolation == Interpolation::approximate && options.tolerance > 0;
-    report.warm = !recent_.empty() && !constrained && solve_from_last(watch, report);
+    report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
     if (report.warm)
       context_.report_pads(report);
     else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,11 +20,38 @@ void in_range(const char* option, double value, double low, double high) {
            std::to_string(low) + " to " + std::to_string(high) + ".");
 }
 
+// One a vertex, and none negative or NaN.
+void check_per_vertex(const PolygonMesh& mesh, const char* option,
+                      const std::vector<double>& values) {
+  if (std::int64_t(values.size()) != mesh.vertex_count())
+    refuse(std::string(option) + " has " + std::to_string(values.size()) + " entries for " +
+           std::to_string(mesh.vertex_count()) + " vertices; give one for each vertex.");
+  std::vector<std::int64_t> bad;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (!(values[v] >= 0)) bad.push_back(std::int64_t(v));
+  if (!bad.empty())
+    refuse(std::string(option) + " must be zero or positive; see vertex " + std::to_string(bad[0]) +
+               ".",
+           bad);
+}
+
 // The strength at which swelling is gone on the meshes that tension is for, and cusps at control
 // vertices begin to cost more than it gains.
 constexpr double tautest = 30;
 
 }  // namespace
+
+double FairOptions::tolerance_of(std::size_t v) const {
+  if (interpolation == Interpolation::exact) return 0;
+  if (tolerance.size() > 1) return tolerance[v];
+  return tolerance[0] > 0 ? tolerance[0] : weights.empty() ? 0 : INFINITY;
+}
+
+bool FairOptions::has_tolerance() const {
+  return interpolation == Interpolation::approximate &&
+         std::any_of(tolerance.begin(), tolerance.end(),
+                     [](double t) { return t > 0 && std::isfinite(t); });
+}
 
 // Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
 // the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two animals). So
@@ -36,7 +64,10 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
            std::to_string(most_levels) + ".");
   in_range("metric_exponent", o.chart.exponent, 0, 1);
   in_range("chart_blend", o.chart.blend, 0, 1);
-  in_range("tolerance", o.tolerance, 0, 1e300);
+  if (o.tolerance.size() == 1)
+    in_range("tolerance", o.tolerance[0], 0, 1e300);
+  else
+    check_per_vertex(mesh, "tolerance", o.tolerance);
   in_range("epsilon", o.epsilon, 0, 1e300);
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
@@ -62,8 +93,6 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
         refuse(std::string("pad_size holds control vertices exactly and has no ") + what +
                " yet; " + instead + ", or set pad_size to 0.");
     };
-    exclude(o.interpolation == Interpolation::approximate, "interpolation=\"approximate\"",
-            "use interpolation=\"exact\"");
     exclude(o.epsilon > 0, "epsilon", "leave epsilon at 0: pads leave no cusps to take off");
     exclude(o.method == Method::back_leg, "method=\"back_leg\"", "use multigrid");
   }
@@ -73,14 +102,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)
     refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");
-  if (std::int64_t(o.weights.size()) != mesh.vertex_count())
-    refuse("weights has " + std::to_string(o.weights.size()) + " entries for " +
-           std::to_string(mesh.vertex_count()) + " vertices; give one for each vertex.");
-  std::vector<std::int64_t> bad;
-  for (std::size_t v = 0; v < o.weights.size(); ++v)
-    if (!(o.weights[v] >= 0) || std::isnan(o.weights[v])) bad.push_back(std::int64_t(v));
-  if (!bad.empty())
-    refuse("weights must be zero or positive; see vertex " + std::to_string(bad[0]) + ".", bad);
+  check_per_vertex(mesh, "weights", o.weights);
 }
 
 }  // namespace fairing

@@ -52,9 +52,11 @@ struct FairOptions {
   bool repair_orientation = false;
 
   Interpolation interpolation = Interpolation::exact;
-  // Approximate: the farthest that a control vertex may move, in mesh units; 0: weights alone hold.
-  double tolerance = 0;
-  // Approximate: one a vertex, or empty. 0 frees a vertex where tolerance is 0, infinity fixes it.
+  // Approximate: the farthest that a control vertex may move, in mesh units. One number for all,
+  // with 0 for none: weights alone hold. Or one a vertex: 0 fixes it, infinity leaves it to its
+  // weight.
+  std::vector<double> tolerance{0.0};
+  // Approximate: one a vertex, or empty. 0 frees a vertex that has no tolerance, infinity fixes it.
   std::vector<double> weights;
   // Afterwards interpolated control vertices are released by so much, which takes off cusps; mesh
   // units.
@@ -74,6 +76,10 @@ struct FairOptions {
   std::size_t shape_count(std::size_t coordinates) const {
     return coordinates ? shapes.size() / coordinates : 0;
   }
+  // How far input vertex v may move, in mesh units; infinity: only weights hold it.
+  double tolerance_of(std::size_t v) const;
+  // Whether any vertex may move, and only so far.
+  bool has_tolerance() const;
 
   Method method = Method::multigrid;
   // Where conjugate gradients end: the residual relative to the control polyhedron's, and the

@@ -47,6 +47,7 @@ std::vector<Mirror> find_symmetry(const ControlMesh& mesh, const ControlPosition
   const double tolerance = rounding(frame);
   return find_mirrors(mesh, tolerance, [&](const Mirror& mirror) {
     return mirrors_weights(mesh, mirror, options.weights) &&
+           (options.tolerance.size() == 1 || mirrors_weights(mesh, mirror, options.tolerance)) &&
            mirrors_curves(mesh, mirror, control.working_curves, tolerance);
   });
 }

@@ -12,9 +12,8 @@ namespace {
 
 // Whether input vertex v is an unknown of the solve.
 bool control_vertex_moves(const FairOptions& options, Index v) {
-  if (options.interpolation == Interpolation::exact) return false;
-  if (options.weights.empty()) return options.tolerance > 0;
-  return std::isfinite(options.weights[std::size_t(v)]);
+  return options.tolerance_of(std::size_t(v)) > 0 &&
+         (options.weights.empty() || std::isfinite(options.weights[std::size_t(v)]));
 }
 
 }  // namespace

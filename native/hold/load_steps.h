@@ -8,6 +8,7 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include "hold/pads.h"
 
@@ -33,23 +34,46 @@ void take_forces(const Pads& pads, double sign, double* r, LoadsOf<N>& forces) {
   }
 }
 
-// Anderson's acceleration of f <- f + M^-1 r, in the norm of M.
+// What holds control vertices: the loads on their pads, and multipliers of what bounds them, one an
+// input vertex. Either may be empty.
+template <int N>
+struct Multipliers {
+  LoadsOf<N> loads;
+  std::vector<double> bounds;
+};
+
+// Anderson's acceleration of f <- f + M^-1 r, in the norm of M, and of multipliers along with it.
 template <int N>
 class LoadSteps {
  public:
   // `pads` must outlive it and keep its level.
-  explicit LoadSteps(const Pads& pads) : pads_(pads) {}
+  explicit LoadSteps(const Pads& pads) : pads_(&pads) {}
+  // The same; null where there are no loads. Changes of multipliers are compared by `weights`, which
+  // make them comparable with changes of loads.
+  LoadSteps(const Pads* pads, std::vector<double> weights)
+      : pads_(pads), weight_(std::move(weights)) {}
 
-  // The change of the loads from this correction, M^-1 r, and the last few.
-  LoadsOf<N> change(const LoadsOf<N>& correction);
+  // The change to make, from this correction, M^-1 r, and the last few.
+  LoadsOf<N> change(const LoadsOf<N>& correction) {
+    return change(Multipliers<N>{correction, {}}).loads;
+  }
+  Multipliers<N> change(const Multipliers<N>& correction);
+  // What has been made of the last change, where that is something else.
+  void took(Multipliers<N> change) { last_change_ = std::move(change); }
+  // The next correction is the first one.
+  void forget();
 
  private:
   struct Pair {
-    LoadsOf<N> bent, gone, product;  // of the correction, of the loads; M times the former
+    Multipliers<N> bent, gone, product;  // of the correction, of f; M times the former
   };
-  const Pads& pads_;
+  Multipliers<N> product(const Multipliers<N>& a) const;
+
+  const Pads* pads_;
+  std::vector<double> weight_;
   std::deque<Pair> pairs_;
-  LoadsOf<N> last_, last_change_;
+  bool any_ = false;
+  Multipliers<N> last_, last_change_;
 };
 
 }  // namespace fairing

@@ -20,15 +20,15 @@ constexpr double least_share = 0.125;  // of the width asked for: narrower pads 
 }  // namespace
 
 Pads::Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns,
-           double size, Workers& workers)
-    : mesh_(&mesh), workers_(&workers), size_(size), rows_(unknowns) {
+           double size, Workers& workers, const VertexWeights& weights)
+    : mesh_(&mesh), workers_(&workers), size_(size), unknowns_(unknowns), rows_(unknowns) {
   const double exponent = charts.kind == ChartKind::tangent ? 1.0 : charts.exponent;
   for (const FlatFace& flat : flatten(mesh, exponent)) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
   width_.assign(vertices, 0.0);
   for (std::size_t v = 0; v < vertices; ++v) {
-    if (unknowns.vertex[v] || !mesh.vertex_fit(Index(v)) ||
-        mesh.vertex_part(Index(v)) != RegionPart::inside)
+    const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
+    if (!held || !mesh.vertex_fit(Index(v)) || mesh.vertex_part(Index(v)) != RegionPart::inside)
       continue;
     width_[v] = size;
     rows_.vertex[v] = 1;
@@ -56,8 +56,8 @@ void Pads::narrow(std::size_t v, int halvings) {
   if (width_[v] >= least_share * size_) return;
   width_[v] = 0;
   std::fill(value_.begin() + row_begin_[v], value_.begin() + row_begin_[v + 1], 0.0);
-  rows_.vertex[v] = 0;
-  rows_.any_vertex = --count_ > 0;
+  rows_.vertex[v] = unknowns_.vertex[v];
+  rows_.any_vertex = --count_ > 0 || unknowns_.any_vertex;
 }
 
 double Pads::hat(double lambda, std::size_t v) const {
@@ -286,7 +286,8 @@ void Pads::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
 
 // Chebyshev's semi-iteration on the diagonally scaled matrix.
 template <int N>
-void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads) const {
+void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
+                          const std::vector<double>& give) const {
   constexpr double middle = 0.5 * (largest_eigenvalue + least_eigenvalue),
                    half = 0.5 * (largest_eigenvalue - least_eigenvalue), shape = middle / half;
   LoadsOf<N> step(forces.size(), LoadsOf<N>::value_type::Zero()), product;
@@ -298,7 +299,9 @@ void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads) const {
                  gain = k == 0 ? 1 / middle : 2 * next / half;
     for (std::size_t v = 0; v < forces.size(); ++v) {
       if (!under(v)) continue;
-      step[v] = carry * step[v] + gain / diagonal_[v] * (forces[v] - product[v]);
+      const double r = give.empty() ? 0 : give[v], own = r * total_[v];
+      step[v] = carry * step[v] +
+                gain / (diagonal_[v] + own) * ((1 + r) * forces[v] - product[v] - own * loads[v]);
       loads[v] += step[v];
     }
     if (k > 0) rho = next;
@@ -307,7 +310,8 @@ void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads) const {
 
 template void Pads::multiply_mass(const Loads&, Loads&) const;
 template void Pads::multiply_mass(const NormalLoads&, NormalLoads&) const;
-template void Pads::divide_by_mass(const Loads&, Loads&) const;
-template void Pads::divide_by_mass(const NormalLoads&, NormalLoads&) const;
+template void Pads::divide_by_mass(const Loads&, Loads&, const std::vector<double>&) const;
+template void Pads::divide_by_mass(const NormalLoads&, NormalLoads&,
+                                   const std::vector<double>&) const;
 
 }  // namespace fairing

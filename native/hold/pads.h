@@ -20,6 +20,7 @@
 
 #include "grid/accumulate.h"
 #include "stencil/chart.h"
+#include "stencil/weights.h"
 
 namespace fairing {
 
@@ -33,10 +34,10 @@ using NormalLoads = LoadsOf<1>;
 class Pads {
  public:
   // `size` in (0, 1] is the width of all pads, until one is narrowed. A pad is under every control
-  // vertex that is fixed, off all curves and inside the region. Positions of `mesh` in working
-  // coordinates.
+  // vertex that is fixed or has a weight, off all curves and inside the region. Positions of `mesh`
+  // in working coordinates.
   Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns, double size,
-       Workers& workers);
+       Workers& workers, const VertexWeights& weights = {});
 
   // False where no control vertex stands on a pad.
   bool any() const { return count_ > 0; }
@@ -66,9 +67,12 @@ class Pads {
   // What follows is about M_cd = sum_i Omega_i phi_c(i) phi_d(i), the hats' mass matrix.
   template <int N>
   void multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const;
-  // loads <- M^-1 forces, by a fixed number of Chebyshev steps: a linear map, to 1e-3 or better.
+  // loads <- (M + R T)^-1 (1 + R) forces, by a fixed number of Chebyshev steps: a linear map, to
+  // 1e-3 or better. R is a diagonal matrix, `give`, one number a control vertex; empty: zero. T has
+  // the total of each hat.
   template <int N>
-  void divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads) const;
+  void divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
+                      const std::vector<double>& give = {}) const;
   // The whole of a hat, sum_i Omega_i phi_c(i): the force of a unit load.
   double total(std::size_t v) const { return total_[v]; }
 
@@ -109,7 +113,7 @@ class Pads {
   std::vector<double> area_;   // of each control face, in the control metric
   std::vector<double> width_;  // of each control vertex' pad; 0: none
   std::size_t count_ = 0;
-  Unknowns rows_;
+  Unknowns unknowns_, rows_;
   Array<double> weight_;  // of the level's points; empty: those of the metric
 
   // M on the control mesh: rows of the vertices on pads, the diagonal apart.

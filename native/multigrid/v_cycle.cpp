@@ -2,6 +2,7 @@
 #include "multigrid/v_cycle.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
@@ -11,6 +12,22 @@ namespace fairing {
 struct CoarseSolver::Factor {
   std::vector<Index> points;
   Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  // What the elimination's order was found for: columns, and rows one column after another.
+  std::vector<int> columns, rows;
+
+  // Finds the order anew where the pattern is another one.
+  void compute(const SparseMatrix& k) {
+    const auto same = [](const std::vector<int>& known, const int* now, Eigen::Index count) {
+      return std::equal(known.begin(), known.end(), now, now + count);
+    };
+    if (!same(columns, k.outerIndexPtr(), k.outerSize() + 1) ||
+        !same(rows, k.innerIndexPtr(), k.nonZeros())) {
+      columns.assign(k.outerIndexPtr(), k.outerIndexPtr() + k.outerSize() + 1);
+      rows.assign(k.innerIndexPtr(), k.innerIndexPtr() + k.nonZeros());
+      ldlt.analyzePattern(k);
+    }
+    ldlt.factorize(k);
+  }
 };
 
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
@@ -31,7 +48,7 @@ void CoarseSolver::refactor() {
   const Eigen::VectorXd diagonal = system.matrix.diagonal();
   for (Eigen::Index i = 0; i < system.matrix.rows(); ++i)
     system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
-  factor_->ldlt.compute(system.matrix);
+  factor_->compute(system.matrix);
   if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0))
     throw FairingError(ErrorCode::underdetermined,
                        "The surface is not determined: a part of the mesh has too few fixed "

@@ -32,7 +32,9 @@ struct LevelReport : LevelSolve {
   int level = 0;
   std::size_t points = 0;
   std::size_t unknowns = 0;
-  int pad_corrections = 0;  // of the loads on pads
+  int pad_corrections = 0;    // of the loads on pads
+  int constraint_rounds = 0;  // with new weights, for tolerances
+  double constraint_gap = 0;  // how far the energy may be above the least one, relative
   double pad_force = 0;  // what the last correction changed of the loads, or would have; relative
 };
 

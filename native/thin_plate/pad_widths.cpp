@@ -20,6 +20,8 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
   if (!options_.star_energies) return solve_level(level, targets, limits, x.data());
   PcgLimits rough = limits;
   rough.tolerance = std::max(limits.tolerance, tolerance);
+  ToleranceConstraint* constraint = nullptr;
+  std::swap(constraint, constraint_);
   std::vector<double> of_needles;
   {
     Array<double> needles(3 * grid(level).size());
@@ -44,7 +46,8 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
     narrow_pads<3>(halvings, *pads_, loads_);
     again(rough);
   }
-  if (limits.tolerance < rough.tolerance) again(limits);
+  std::swap(constraint, constraint_);
+  if (constraint_ || limits.tolerance < rough.tolerance) again(limits);
   report.iterations += iterations;
   report.pad_corrections += corrections;
   return report;

@@ -7,6 +7,7 @@
 #include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 #include "thin_plate/membrane.h"
+#include "thin_plate/tolerance.h"
 
 namespace fairing {
 namespace {
@@ -77,9 +78,13 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& c
   }
   hierarchy_.complete();
   if (options.pad_size > 0)
-    pads_ =
-        std::make_unique<Pads>(mesh, options.chart, shared_.unknowns, options.pad_size, workers);
+    pads_ = std::make_unique<Pads>(mesh, options.chart, shared_.unknowns, options.pad_size, workers,
+                                   shared_.weights);
   if (pads_ && !pads_->any()) pads_.reset();
+  if (!shared_.unknowns.any_vertex) return;
+  const Array<float> diagonal =
+      thin_plate_diagonal(grid(0), stencils, shared_.unknowns, {}, workers, shared_.double_slots);
+  stiffness_.assign(diagonal.begin(), diagonal.begin() + mesh.vertex_count());
 }
 
 ThinPlateSolver::~ThinPlateSolver() = default;
@@ -162,7 +167,7 @@ PcgLimits ThinPlateSolver::limits_of(double tolerance, const Scales& scale,
 
 LevelReport ThinPlateSolver::solve_level(int level, std::span<const Vec3> targets,
                                          const PcgLimits& limits, double* x) {
-  if (pads_) return solve_on_pads(level, limits, x);
+  if (pads_ || constraint_) return solve_in_rounds(level, targets, limits, x);
   residual(level, targets, x, hierarchy_.state().residual.data());
   LevelReport report;
   report.level = level;
@@ -207,7 +212,10 @@ void ThinPlateSolver::start_level(int level, std::span<const Vec3> targets,
 void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>& x,
                                    std::vector<LevelReport>& reports,
                                    const std::function<void(const double*)>& on_prediction,
-                                   const std::function<void(int, Array<double>&)>& on_level) {
+                                   const std::function<void(int, Array<double>&)>& on_level,
+                                   ToleranceConstraint* constraint) {
+  constraint_ = constraint;
+  if (constraint_) constraint_->set_stiffness(stiffness_);
   double energy_below = 0;  // energies hardly change from level to level
   for (int l = base_; l <= top(); ++l) {
     monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, top() - l));
@@ -229,9 +237,11 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
       reports.push_back(solve_level(l, targets, limits, x.data()));
     if (l < top()) energy_below = energy(l, x.data());
     if (l < top())
-      hierarchy_.choose_degree(pads_ ? pace_ : reports.back(), tolerance(l), tolerance(l + 1));
+      hierarchy_.choose_degree(pads_ || constraint_ ? pace_ : reports.back(), tolerance(l),
+                               tolerance(l + 1));
     on_level(l, x);
   }
+  constraint_ = nullptr;
 }
 
 void ThinPlateSolver::solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets,

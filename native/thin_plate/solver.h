@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "curves/feature_curves.h"
+#include "hold/pads.h"
 #include "parallel/monitor.h"
 #include "thin_plate/level.h"
 #include "thin_plate/options.h"
-#include "hold/pads.h"
 #include "transfer/level_transfer.h"
 
 namespace fairing {
+
+class ToleranceConstraint;
 
 // The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every
 // level once; solves as often as weights or control positions change.
@@ -47,12 +49,13 @@ class ThinPlateSolver {
 
   // Full multigrid: from the control polyhedron to the solution on the finest level.
   // `targets` are the control vertices: fixed ones stay there, weighted ones are drawn to it.
-  // `on_prediction` sees the finest level's start; `on_level` may change weights, and x, after each
-  // level's solve.
+  // `constraint`, which may be null, chooses the weights on each level. `on_prediction` sees the
+  // finest level's start; `on_level` may change x after each level's solve.
   void solve_nested(std::span<const Vec3> targets, Array<double>& x,
                     std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction,
-                    const std::function<void(int, Array<double>&)>& on_level);
+                    const std::function<void(int, Array<double>&)>& on_level,
+                    ToleranceConstraint* constraint = nullptr);
 
   // From x, a surface of the control positions `before`, to that of `targets` on the finest level,
   // to `tolerance`: the difference first, roughly and level by level.
@@ -107,9 +110,14 @@ class ThinPlateSolver {
   PcgLimits limits_of(double tolerance, const Scales& scale, double energy_scale) const;
   LevelReport solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                           double* x);
-  // On pads (solve_on_pads.cpp).
-  LevelReport solve_on_pads(int level, const PcgLimits& limits, double* x);
-  void residual_on_pads(int level, const double* x, double* r);
+  // On pads, or within tolerances (solve_in_rounds.cpp).
+  struct Rounds;
+  LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
+                              double* x);
+  std::vector<double> comparable_weights() const;
+  std::vector<double> give_of_springs() const;
+  void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
+  void take_point_forces(std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
@@ -133,6 +141,9 @@ class ThinPlateSolver {
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   bool widths_chosen_ = false;
+  ToleranceConstraint* constraint_ = nullptr;  // while a surface is solved for from nothing
+  // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
+  std::vector<double> stiffness_;
   Loads loads_, forces_;     // on the pads; left at the control vertices on them
   LevelSolve pace_;          // what one solve in place of a level's many would have taken
   Array<double> below_;      // the level below a start

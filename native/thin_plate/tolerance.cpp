@@ -7,25 +7,20 @@
 namespace fairing {
 namespace {
 
+// Energies below this share of the largest so far do not count as such: a tolerance as large as the
+// mesh leaves none.
+constexpr double least_energy = 1e-3;
 constexpr double idle = 1e-9;  // of the tolerance: rounding
-
-// The duality gap, relative to the energy, at which the fixed point ends. Energies below this share
-// of the largest so far do not count as such: a tolerance as large as the mesh leaves none.
-constexpr double gap_wanted = 5e-4, least_energy = 1e-3;
-
-// Rounds on the finest level; those before, which cost little, take three times as many. Each
-// solves to round_tolerance, as far as the weights deserve.
-constexpr int most_rounds = 12, coarse_factor = 3;
-constexpr double round_tolerance = 1e-4;
-
-// A step of the fixed point multiplies a weight by (distance / tolerance)^power, within a factor of
-// largest_weight_change; the power rises while the error keeps its sign, for neighbours share the
-// load, and falls, to one, where it changes.
-constexpr double largest_power = 6, power_rise = 1.4, power_fall = 2;
-// Weights never vanish, so that products can bring them back; share of their unit.
-constexpr double least_weight = 1e-10;
-
-constexpr double pin = 1e4;  // stiffer than any surface: holds what is left over on the ball
+// Of the first weights and of the least: shares of their unit. The former are as good as fixed; the
+// latter keep a closed surface in its place.
+constexpr double first_weight = 1e4, least_weight = 1e-10;
+// In tolerances: what a step believes of a distance, and within what the last solve may put a
+// vertex on its ball.
+constexpr double most_away = 10, farthest_away = 2;
+// A weight falls to so much of itself in a step; only what is so small beside its neighbours' may
+// vanish.
+constexpr double few = 0.1;
+constexpr double pin_factor = 1e4;  // stiffer than any surface: holds what is left over on the ball
 
 // Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
 // first_undamped_level: they step half as far there.
@@ -51,92 +46,145 @@ double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
 
 ToleranceConstraint::ToleranceConstraint(const ControlMesh& mesh, std::span<const Vec3> targets,
                                          const Unknowns& unknowns, std::span<const double> weights,
-                                         double unit, double tolerance)
+                                         double unit, std::vector<double> tolerances)
     : mesh_(mesh),
       targets_(targets),
       unknowns_(unknowns),
-      tolerance_(tolerance * tolerance_aim),
-      unit_(unit) {
-  if (!unknowns.any_vertex) {
-    tolerance_ = 0;
-    return;
+      unit_(unit),
+      tolerance_(std::move(tolerances)) {
+  if (!unknowns.any_vertex) return;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    tolerance_[v] *= tolerance_aim;
+    active_ |= bound(v);
   }
   base_.assign(std::size_t(mesh.vertex_count()), 0.0);
   for (std::size_t v = 0; v < weights.size(); ++v)
     if (unknowns.vertex[v]) base_[v] = unit * weights[v];
   weights_ = base_;
-  power_.assign(base_.size(), 1.0);
-  was_outside_.assign(base_.size(), 0);
   if (!active()) return;
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
-    if (unknowns.vertex[v]) weights_[v] = std::max(base_[v], unit);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v)) weights_[v] = std::max(base_[v], first_weight * unit);
 }
 
-double ToleranceConstraint::distance(const Array<double>& x, std::size_t v) const {
-  return (point(x, v) - targets_[v]).norm();
+double ToleranceConstraint::distance(const double* x, std::size_t v) const {
+  return (Eigen::Map<const Vec3>(x + 3 * v) - targets_[v]).norm();
+}
+
+void ToleranceConstraint::take_gap(double gap, double energy, double farthest) {
+  start_energy_ = std::max(start_energy_, energy);
+  const bool pulled = farthest > idle && energy > 0;
+  gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
 }
 
 // The energy is convex, so the force 2 w d at each vertex bounds what the way to its ball's surface
-// could still gain.
-bool ToleranceConstraint::settled(double energy, const Array<double>& x) {
+// could still gain; a vertex outside will need more force on the way.
+bool ToleranceConstraint::settled(double energy, double wanted, const double* x) {
+  choose_stiffness();
   double gap = 0, farthest = 0;
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v]) continue;
-    const double d = distance(x, v);
-    gap += 2 * (weights_[v] - base_[v]) * d * std::abs(tolerance_ - d);
-    farthest = std::max(farthest, d);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    const double d = distance(x, v), way = d - tolerance_[v];
+    const double force = (weights_[v] - base_[v]) * d + stiffness_[v] * std::max(way, 0.0);
+    gap += 2 * force * std::abs(way);
+    farthest = std::max(farthest, d / tolerance_[v]);
   }
-  start_energy_ = std::max(start_energy_, energy);
-  gap_ = energy > 0 ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
-  if (farthest <= idle * tolerance_) gap_ = 0;  // nothing pulls
-  return farthest <= tolerance_slack * tolerance_ && gap_ <= gap_wanted;
+  take_gap(gap, energy, farthest);
+  far_ = !begun_ || !(farthest <= farthest_away);
+  return !far_ && gap_ <= wanted;
 }
 
-void ToleranceConstraint::adapt(const Array<double>& x) {
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v]) continue;
-    const double ratio = distance(x, v) / tolerance_;
-    const bool outside = ratio > 1;
-    power_[v] = outside == bool(was_outside_[v]) ? std::min(largest_power, power_[v] * power_rise)
-                                                 : std::max(1.0, power_[v] / power_fall);
-    was_outside_[v] = outside;
-    const double factor =
-        std::clamp(std::pow(ratio, power_[v]), 1 / largest_weight_change, largest_weight_change);
-    weights_[v] = std::max({base_[v], factor * weights_[v], least_weight * unit_});
+bool ToleranceConstraint::begin(const double* x) {
+  if (begun_) return false;
+  begun_ = true;
+  multiplier_.assign(tolerance_.size(), 0.0);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    multiplier_[v] = weights_[v] * distance(x, v) / tolerance_[v];
+    weights_[v] = std::max({base_[v], multiplier_[v], least_weight * unit_});
+  }
+  return true;
+}
+
+// The neighbours' weights resist where the surface hardly does, and the surface where they are
+// stiffer than it is.
+void ToleranceConstraint::choose_stiffness() {
+  stiffness_.assign(tolerance_.size(), 0.0);
+  around_.assign(tolerance_.size(), 0.0);
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    double sum = weights_[v], count = 1;
+    for (const Spoke& spoke : mesh_.ring(Index(v))) {
+      const Edge& edge = mesh_.edges[std::size_t(spoke.edge)];
+      const auto other = std::size_t(edge.vertex[spoke.outward ? 1 : 0]);
+      if (other >= tolerance_.size() || !bound(other)) continue;
+      sum += weights_[other];
+      ++count;
+    }
+    const double around = around_[v] = sum / count, surface = of_surface_[v];
+    stiffness_[v] = around * surface / (0.5 * around + surface);
   }
 }
 
-void ToleranceConstraint::settle(ThinPlateSolver& system, int level, Array<double>& x) {
-  if (!active()) return;
-  const int rounds = level == system.top() ? most_rounds : coarse_factor * most_rounds;
-  for (int round = 0; round < rounds; ++round) {
-    if (settled(system.energy(level, x.data()), x)) return;
-    adapt(x);
-    system.set_weights(weights_, level);
-    system.solve_again(level, targets_, x, round_tolerance);
-    ++rounds_;
+std::vector<double> ToleranceConstraint::correction(const double* x) {
+  choose_stiffness();
+  std::vector<double> out(tolerance_.size(), 0.0);
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    if (!bound(v)) continue;
+    const double away = std::min(distance(x, v) / tolerance_[v], most_away);
+    out[v] = (weights_[v] + stiffness_[v]) * away - stiffness_[v] - multiplier_[v];
+  }
+  return out;
+}
+
+void ToleranceConstraint::change(std::vector<double>& by) {
+  for (std::size_t v = 0; v < by.size(); ++v) {
+    if (!bound(v)) continue;
+    const double before = multiplier_[v],
+                 most = largest_weight_change * (weights_[v] + stiffness_[v]);
+    const double least = weights_[v] > few * around_[v] ? few * weights_[v] : -stiffness_[v];
+    multiplier_[v] = std::clamp(before + by[v], least, most);
+    by[v] = multiplier_[v] - before;
+    weights_[v] = std::max({base_[v], multiplier_[v], least_weight * unit_});
   }
 }
 
-LevelReport ToleranceConstraint::finish(ThinPlateSolver& system, double relative_residual,
-                                        Array<double>& x) {
-  std::vector<Vec3> targets(targets_.begin(), targets_.end());
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v) {
-    if (!unknowns_.vertex[v] || distance(x, v) <= tolerance_) continue;
-    targets[v] = nearest_allowed(x, v);
-    weights_[v] *= pin;
-  }
-  system.set_weights(weights_, system.top());
-  const LevelReport report = system.solve_again(system.top(), targets, x, relative_residual);
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
-    if (unknowns_.vertex[v] && distance(x, v) > tolerance_) put(x, v, nearest_allowed(x, v));
-  ++rounds_;
-  return report;
+void ToleranceConstraint::start_level() {
+  if (aims_.empty()) return;
+  aims_.clear();
+  weights_ = unpinned_;
 }
 
-Vec3 ToleranceConstraint::nearest_allowed(const Array<double>& x, std::size_t v) const {
+void ToleranceConstraint::pin(const double* x) {
+  unpinned_ = weights_;
+  aims_.assign(targets_.begin(), targets_.end());
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v) || distance(x, v) <= tolerance_[v]) continue;
+    aims_[v] = nearest_allowed(x, v);
+    weights_[v] *= pin_factor;
+  }
+}
+
+// Pulls are multipliers now, of a surface within the tolerance: what each could still gain on the
+// way to the best point of its ball.
+void ToleranceConstraint::finish(double energy, double* x) {
+  double gap = 0, farthest = 0;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    const Eigen::Map<Vec3> p(x + 3 * v);
+    const Vec3 pull = weights_[v] * (targets()[v] - p) - base_[v] * (targets_[v] - p);
+    if (distance(x, v) > tolerance_[v]) {
+      const Vec3 allowed = nearest_allowed(x, v);
+      for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = allowed[Eigen::Index(a)];
+    }
+    gap += 2 * (tolerance_[v] * pull.norm() - pull.dot(targets_[v] - p));
+    farthest = std::max(farthest, distance(x, v) / tolerance_[v]);
+  }
+  take_gap(gap, energy, farthest);
+}
+
+Vec3 ToleranceConstraint::nearest_allowed(const double* x, std::size_t v) const {
   const Vec3& target = targets_[v];
-  return target + (tolerance_ / distance(x, v)) * (point(x, v) - target);
+  return target + (tolerance_[v] / distance(x, v)) * (Eigen::Map<const Vec3>(x + 3 * v) - target);
 }
 
 int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,

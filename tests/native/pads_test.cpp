@@ -8,6 +8,7 @@
 #include "curvature/total_curvature.h"
 #include "fairing/context.h"
 #include "grid/linear.h"
+#include "hold/load_steps.h"
 #include "meshes.h"
 #include "parallel/reductions.h"
 
@@ -133,6 +134,58 @@ TEST(Pads, MassIsThatOfTheHats) {
         unit[c].setZero();
       }
     }
+}
+
+TEST(Pads, SpringsTakeLoadsByThemselves) {
+  const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
+  Workers workers(1);
+  Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+  const GridLevel grid(mesh, 2);
+  pads.set_level(grid);
+  const auto count = std::size_t(mesh.vertex_count());
+  Loads forces(count), loads, product;
+  for (std::size_t v = 0; v < count; ++v) forces[v] = Vec3(std::sin(double(v)), 1, double(v % 3));
+  std::vector<double> give(count);
+  for (std::size_t v = 0; v < count; ++v) give[v] = v % 2 ? 3.0 : 0.5;
+  pads.divide_by_mass<3>(forces, loads, give);
+  pads.multiply_mass<3>(loads, product);
+  for (std::size_t v = 0; v < count; ++v)
+    EXPECT_LT((product[v] + give[v] * pads.total(v) * loads[v] - (1 + give[v]) * forces[v]).norm(),
+              1e-2 * forces[v].norm());
+  // A spring that gives way altogether: the load is the force, whatever the neighbours have.
+  std::fill(give.begin(), give.end(), 1e6);
+  pads.divide_by_mass<3>(forces, loads, give);
+  for (std::size_t v = 0; v < count; ++v)
+    EXPECT_LT((pads.total(v) * loads[v] - forces[v]).norm(), 1e-3 * forces[v].norm());
+}
+
+TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
+  // f <- f + (b - A f) diverges where A has eigenvalues beyond two; mixed, it is GMRES.
+  const std::vector<double> a = {0.1, 0.7, 1.3, 2.6, 4.0}, b = {1, -2, 3, 0.5, 1};
+  LoadSteps<3> steps(nullptr, std::vector<double>(a.size(), 1.0));
+  std::vector<double> f(a.size(), 0.0);
+  double left = 0;
+  for (int round = 0; round < 8; ++round) {
+    Multipliers<3> correction;
+    left = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      correction.bounds.push_back(b[i] - a[i] * f[i]);
+      left += correction.bounds[i] * correction.bounds[i];
+    }
+    Multipliers<3> change = steps.change(correction);
+    for (std::size_t i = 0; i < a.size(); ++i) f[i] += change.bounds[i];
+    steps.took(std::move(change));
+  }
+  EXPECT_LT(std::sqrt(left), 1e-6);
+}
+
+TEST(Pads, AGapThatStaysOpenIsTold) {
+  LevelReport level;
+  level.constraint_gap = 2 * gap_wanted;
+  Report report;
+  warn_unconverged(level, {}, "", report);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].message.find("tolerance is kept"), std::string::npos);
 }
 
 TEST(Pads, NarrowToNothing) {

@@ -199,3 +199,61 @@ def test_a_flat_mesh_with_a_tolerance_has_nothing_to_settle():
 def test_back_leg_interpolates_only():
     with pytest.raises(df.FairingError, match="back_leg"):
         df.fair(*meshes.cube(), 2, method="back_leg", interpolation="approximate", tolerance=0.1)
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
+def test_each_vertex_has_a_tolerance_of_its_own(energy):
+    """Zero: stays to the last bit. Infinity: goes where the surface likes it best."""
+    vertices, faces = meshes.creature()
+    each = np.linspace(0.002, 0.05, len(vertices))
+    each[5:9], each[20] = 0, np.inf
+    distance = moved(approximate((vertices, faces), tolerance=each, energy=energy), vertices)
+    assert (distance <= each).all() and (distance[5:9] == 0).all()
+    bound = np.isfinite(each) & (each > 0)
+    assert np.median(distance[bound] / each[bound]) > 0.99
+    assert distance[20] > 0.05
+
+
+def test_one_number_is_that_number_for_each():
+    vertices, faces = meshes.creature()
+    one = approximate((vertices, faces), tolerance=0.02)
+    each = approximate((vertices, faces), tolerance=np.full(len(vertices), 0.02))
+    assert np.array_equal(one.vertices, each.vertices)
+
+
+def test_an_infinite_tolerance_leaves_a_vertex_to_its_weight():
+    vertices, faces = meshes.creature()
+    weights = np.full(len(vertices), 10.0)
+    alone = approximate((vertices, faces), weights=weights)
+    unbound = np.full(len(vertices), np.inf)
+    both = approximate((vertices, faces), weights=weights, tolerance=unbound)
+    assert np.array_equal(alone.vertices, both.vertices)
+    assert both.report["constraint_rounds"] == 0
+    none = approximate((vertices, faces), weights=weights, tolerance=np.zeros(len(vertices)))
+    assert np.array_equal(none.vertices, df.fair(vertices, faces, 2).vertices)
+
+
+@pytest.mark.parametrize(
+    "each, code",
+    [
+        (np.full(11, 0.1), "BAD_OPTION"),
+        ([0.1], "BAD_SHAPE"),
+        (np.full((12, 1), 0.1), "BAD_SHAPE"),
+        ([[0.1], [0.1, 0.2]], "BAD_SHAPE"),
+        (["a"] * 12, "BAD_SHAPE"),
+    ],
+    ids=str,
+)
+def test_tolerances_of_another_shape_are_refused(each, code):
+    with pytest.raises(df.FairingError, match="tolerance") as caught:
+        approximate(meshes.icosahedron(), tolerance=each)
+    assert caught.value.code == code
+
+
+@pytest.mark.parametrize("bad", [-1e-9, np.nan])
+def test_a_bad_tolerance_is_named(bad):
+    each = np.full(12, 0.1)
+    each[[4, 7]] = bad
+    with pytest.raises(df.FairingError) as caught:
+        approximate(meshes.icosahedron(), tolerance=each)
+    assert caught.value.code == "BAD_OPTION" and caught.value.elements == [4, 7]

@@ -210,7 +210,6 @@ def test_widths_stay_while_vertices_move():
 @pytest.mark.parametrize(
     "options",
     (
-        {"interpolation": "approximate", "tolerance": 0.1},
         {"epsilon": 0.01},
         {"method": "back_leg"},
     ),

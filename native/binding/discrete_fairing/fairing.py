@@ -23,7 +23,7 @@ def fair(
     chart_blend: float = 1.0,
     chart: str = "exponential",
     interpolation: str = "exact",
-    tolerance: float = 0.0,
+    tolerance: float | ArrayLike = 0.0,
     weights: ArrayLike | None = None,
     epsilon: float = 0.0,
     pad_size: float = 0.0,
@@ -81,9 +81,10 @@ def fair(
     interpolation : "exact" or "approximate"
         Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
         against `weights`. Vertices on curves always stay.
-    tolerance : float, mesh units
-        Approximate: the farthest that any control vertex moves; the energy is as low as that
-        allows.
+    tolerance : float or (n,) float, mesh units
+        Approximate: the farthest that any control vertex moves, or each of them; the energy is as
+        low as that allows. One number 0 means none. In an array, 0 interpolates a vertex, and
+        infinity leaves it to its weight.
     weights : (n,) float, dimensionless
         Approximate: the pull of each control vertex on the surface. 0 leaves a vertex free (where
         there is no tolerance), infinity interpolates it.

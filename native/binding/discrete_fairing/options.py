@@ -60,6 +60,19 @@ def region_faces(name: str, region: ArrayLike) -> np.ndarray:
     return faces
 
 
+def lengths(name: str, value: object) -> list[float] | np.ndarray:
+    """One finite number for all vertices, or (n,) float64."""
+    if isinstance(value, str) or not np.iterable(value):
+        return [real(name, value)]
+    array = numbers(value, name, "iuf").astype(float)
+    if array.ndim != 1 or array.size < 2:
+        raise fairing_error(
+            "BAD_SHAPE",
+            f"{name} has shape {array.shape}; it must be a number, or (n,), one for each vertex.",
+        )
+    return array
+
+
 def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
     """(n,) float64."""
     array = numbers(weights, name, "iuf").astype(float)
@@ -123,7 +136,7 @@ SETTINGS = {
     "chart_blend": real,
     "chart": choice(_native.Chart),
     "interpolation": choice(_native.Interpolation),
-    "tolerance": real,
+    "tolerance": lengths,
     "weights": weight_array,
     "epsilon": real,
     "pad_size": real,

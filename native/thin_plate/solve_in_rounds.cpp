@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plate, and what holds its control vertices, in turn. Each round solves for the surface with
+// loads and weights as they are, and corrects these.
+//
+// Loads take what pads leave of the forces (hold/load_steps.h). A control vertex on a spring of
+// weight w gives way: with s the stiffness of the surface there, the correction for a force r is
+// (M + (s / w) T)^-1 (1 + s / w) r, with T the total of each hat.
+//
+// Weights. Those that keep vertices within tolerances are corrected by ToleranceConstraint.
+//
+// Both corrections are accelerated as one: each shifts what the other has to do.
+#include <algorithm>
+#include <cmath>
+
+#include "hold/load_steps.h"
+#include "parallel/reductions.h"
+#include "thin_plate/solver.h"
+#include "thin_plate/tolerance.h"
+
+namespace fairing {
+namespace {
+
+// Each solve but the last leaves so much of the error that it finds, with loads alone and with
+// tolerances: these gain little more.
+constexpr double solve_gain = 0.1, solve_gain_of_bounds = 0.2;
+// What a correction leaves of the forces, before two of them have said it.
+constexpr double first_ratio = 0.3;
+// Of the corrections to the loads: below the finest level they are starts only.
+constexpr double coarse_force_tolerance = 2e-2;
+constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
+constexpr int most_corrections = 16;
+// For tolerances, and where a round costs little: below the finest level, or with a factor.
+constexpr double coarse_gap = 1e-3;  // the duality gap below the finest level
+constexpr int most_rounds = 16, most_cheap_rounds = 60;
+// A spring so many times softer than the surface leaves its load to itself.
+constexpr double most_give = 1e6;
+
+// A force on a control vertex that is one part in a hundred of the needle's leaves one part in a
+// hundred of its spot, which nobody sees; who asks for an exact surface gets exact loads.
+double force_tolerance(double relative_residual) {
+  return std::clamp(10 * std::sqrt(relative_residual), 1e-6, 1e-2);
+}
+
+}  // namespace
+
+// r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
+void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets, const double* x,
+                                       double* r) {
+  if (!pads_) return residual(level, targets, x, r);
+  apply_thin_plate(grid(level), shared_.double_rows, pads_->rows(), {}, workers_,
+                   shared_.double_slots, x, r);
+  for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
+  pads_->add_loads(loads_, r);
+  take_point_forces(targets, x, r);
+}
+
+// What holds a control vertex at its point: of a fixed one the force that its row of K x asks for,
+// of another one its spring's, less what its pad has taken over of it.
+void ThinPlateSolver::take_point_forces(std::span<const Vec3> targets, const double* x, double* r) {
+  const VertexWeights& w = shared_.weights;
+  for (std::size_t v = 0; v < forces_.size(); ++v) {
+    Eigen::Map<Vec3> row(r + 3 * v);
+    if (shared_.unknowns.vertex[v]) {
+      if (w.empty()) continue;
+      Vec3 pull = w[v] * (targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
+      if (pads_->under(v)) forces_[v] = pull -= pads_->total(v) * loads_[v];
+      row += pull;
+    } else if (pads_->under(v)) {
+      forces_[v] = -row;
+      row.setZero();
+    }
+  }
+}
+
+// Loads are densities and hardly change from level to level; what does is the hats' samples.
+void ThinPlateSolver::start_loads(int level) {
+  loads_.resize(std::size_t(mesh_.vertex_count()));
+  if (level == base_) {
+    std::fill(loads_.begin(), loads_.end(), Vec3::Zero());
+    return;
+  }
+  pads_->set_level(grid(level - 1));
+  for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] *= pads_->total(v);
+  pads_->set_level(grid(level));
+  for (std::size_t v = 0; v < loads_.size(); ++v)
+    if (pads_->under(v)) loads_[v] /= pads_->total(v);
+}
+
+// Of each input vertex: what makes changes of its multiplier comparable with changes of its load,
+// tolerance^2 over the hat's total; a vertex without a pad has the mean of the others.
+std::vector<double> ThinPlateSolver::comparable_weights() const {
+  std::vector<double> out;
+  if (!constraint_) return out;
+  double inverse = 0, count = 0;
+  const auto under = [&](std::size_t v) { return pads_ && pads_->under(v); };
+  for (std::size_t v = 0; v < constraint_->size(); ++v)
+    if (under(v)) {
+      inverse += 1 / pads_->total(v);
+      ++count;
+    }
+  const double mean = count > 0 ? inverse / count : 1;
+  for (std::size_t v = 0; v < constraint_->size(); ++v) {
+    const double t = constraint_->bound(v) ? constraint_->tolerance(v) : 0;
+    out.push_back(t * t * (under(v) ? 1 / pads_->total(v) : mean));
+  }
+  return out;
+}
+
+// How much a spring gives way before its load, s / w. Empty where no control vertex moves.
+std::vector<double> ThinPlateSolver::give_of_springs() const {
+  std::vector<double> out;
+  if (stiffness_.empty()) return out;
+  for (std::size_t v = 0; v < stiffness_.size(); ++v)
+    out.push_back(shared_.unknowns.vertex[v] && pads_->under(v)
+                      ? std::min(most_give * shared_.weights[v], stiffness_[v]) / shared_.weights[v]
+                      : 0.0);
+  return out;
+}
+
+// One level's rounds.
+struct ThinPlateSolver::Rounds {
+  ThinPlateSolver& solver;
+  int level;
+  std::span<const Vec3> targets;
+  const PcgLimits& limits;
+  double* x;
+
+  ToleranceConstraint* constraint = solver.constraint_;
+  Pads* pads = solver.pads_.get();
+  LoadSteps<3> steps{pads, solver.comparable_weights()};
+  Multipliers<3> correction{};
+  LevelReport report{};
+  bool whole = false;  // whether the solve goes as far as is asked
+  double left = 0, left_before = 0, ratio = first_ratio, gain = 0;
+
+  double* residual() { return solver.hierarchy_.state().residual.data(); }
+  bool top() const { return level == solver.top(); }
+  double wanted_gap() const { return top() ? gap_wanted : coarse_gap; }
+
+  void solve() {
+    PcgLimits now = limits;
+    now.from_start = !whole && !limits.from_start;
+    if (now.from_start)
+      now.tolerance = std::max(limits.tolerance, constraint ? solve_gain_of_bounds : solve_gain);
+    const LevelSolve solve = solver.hierarchy_.solve(
+        std::size_t(level - solver.base_), now,
+        [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
+        [&](const PcgResult& so_far) {
+          if (whole) solver.report_progress(level, so_far, limits.tolerance);
+        });
+    const int iterations = report.iterations + solve.iterations;
+    static_cast<LevelSolve&>(report) = solve;
+    report.iterations = iterations;
+    if (solve.iterations > 0 && solve.residuals.back() > 0)
+      gain += std::log(solve.residuals.front() / solve.residuals.back());
+    const LevelOperator& op = *solver.operators_[std::size_t(level - solver.base_)];
+    if (pads && !solve.direct && !op.single_precision_suffices())
+      solver.residual_on_pads(level, targets, x, residual());
+  }
+
+  // Whether little enough is left at the points; `correction` has what would take it off.
+  bool loads_settled() {
+    if (!pads) return true;
+    const double wanted =
+        top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
+    const Loads &loads = solver.loads_, &forces = solver.forces_;
+    Loads product;
+    pads->divide_by_mass<3>(forces, correction.loads, solver.give_of_springs());
+    pads->multiply_mass<3>(loads, product);
+    left = std::sqrt(std::max(0.0, dot<3>(correction.loads, forces)));
+    const double size = std::sqrt(std::max(0.0, dot<3>(loads, product)));
+    report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
+    double force_norm = 0;
+    for (const Vec3& f : forces) force_norm += f.squaredNorm();
+    return report.pad_force <= wanted ||
+           std::sqrt(force_norm) <=
+               std::max(limits.noise, limits.tolerance * limits.residual_scale);
+  }
+
+  // Whether one more correction will settle the loads, as the last ones did, or must do.
+  bool loads_nearly_settled() {
+    const double wanted =
+        top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
+    if (left_before > 0 && left > 0) ratio = std::clamp(left / left_before, 0.05, 1.0);
+    left_before = left;
+    return ratio * report.pad_force <= aim * wanted || corrections_left() <= 1;
+  }
+  int corrections_left() const {
+    return most_corrections + report.constraint_rounds - report.pad_corrections;
+  }
+
+  bool bounds_settled() {
+    return !constraint || constraint->settled(solver.energy(level, x), wanted_gap(), x);
+  }
+  int rounds_left() const {
+    return (top() && !report.direct ? most_rounds : most_cheap_rounds) - report.constraint_rounds;
+  }
+
+  void change(bool loads, bool bounds) {
+    correction.bounds.clear();
+    if (constraint) correction.bounds.assign(constraint->size(), 0.0);
+    if (bounds) correction.bounds = constraint->correction(x);
+    const bool guesses = bounds && constraint->far();
+    if (guesses) steps.forget();
+    Multipliers<3> step = guesses ? correction : steps.change(correction);
+    for (std::size_t v = 0; v < solver.loads_.size(); ++v) solver.loads_[v] += step.loads[v];
+    report.pad_corrections += loads;
+    if (bounds) {
+      constraint->change(step.bounds);
+      take_weights();
+    }
+    if (!guesses) steps.took(std::move(step));
+  }
+
+  void take_weights() {
+    ++report.constraint_rounds;
+    solver.set_weights(constraint->weights(), level);
+  }
+
+  LevelReport run() {
+    if (constraint) {
+      constraint->start_level();
+      targets = constraint->targets();
+    }
+    for (;;) {
+      solver.residual_on_pads(level, targets, x, residual());
+      solve();
+      const bool loads = loads_settled();
+      if (whole && (loads || corrections_left() <= 0)) {
+        report.converged = report.converged && loads;
+        break;
+      }
+      const bool nearly = loads_nearly_settled(), was_whole = whole;
+      const bool bounds = was_whole || bounds_settled();
+      const bool may_adapt = constraint && !was_whole && rounds_left() > 0;
+      whole = was_whole || ((bounds || !may_adapt) && (loads || nearly));
+      const bool adapts = may_adapt && !whole;
+      if (adapts && constraint->begin(x))
+        take_weights();
+      else if (!loads || adapts)
+        change(!loads, adapts);
+      if (constraint && whole && !was_whole && top()) {
+        constraint->pin(x);
+        targets = constraint->targets();
+        take_weights();
+      }
+    }
+    if (constraint && top()) constraint->finish(solver.energy(level, x), x);
+    if (constraint) {
+      report.constraint_gap = constraint->gap();
+      report.converged = report.converged && report.constraint_gap <= wanted_gap();
+    }
+    return report;
+  }
+};
+
+LevelReport ThinPlateSolver::solve_in_rounds(int level, std::span<const Vec3> targets,
+                                             const PcgLimits& limits, double* x) {
+  if (pads_) pads_->set_level(grid(level));
+  forces_.assign(loads_.size(), Vec3::Zero());
+  Rounds rounds{*this, level, targets, limits, x};
+  LevelReport report = rounds.run();
+  pace_ = report;
+  if (rounds.gain > 0)
+    pace_.iterations = int(-report.iterations * std::log(limits.tolerance) / rounds.gain);
+  report.level = level;
+  report.points = grid(level).size();
+  report.unknowns = count_unknowns(grid(level), shared_.unknowns);
+  return report;
+}
+
+}  // namespace fairing

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Control vertices on pads that may move: within tolerances or against weights."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import boundary_vertices, output_faces
+
+NAMES = ("icosahedron", "creature", "wavy_patch", "torus_quads", "random_hull", "house")
+PADS = {"pad_size": 0.5}
+
+
+def near(mesh, levels=3, **options):
+    return df.fair(*mesh, levels, interpolation="approximate", **PADS, **options)
+
+
+def moved(result, vertices) -> np.ndarray:
+    return np.linalg.norm(result.vertices[: len(vertices)] - vertices, axis=1)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.03, 0.3])
+def test_the_tolerance_is_kept_and_the_gap_closed(name, tolerance):
+    vertices, faces = meshes.ALL[name]()
+    result = near((vertices, faces), tolerance=tolerance)
+    finest = result.report["levels"][-1]
+    assert moved(result, vertices).max() <= tolerance
+    assert result.report["constraint_gap"] <= 1e-4
+    assert result.report["converged"] and not result.report["warnings"]
+    assert finest["pad_force"] <= 2e-3
+
+
+@pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
+def test_no_force_is_left_at_a_point(option):
+    """Where the vertices have gone, pads hold them: interpolated on pads they give the surface.
+
+    Uniform charts depend on no position, so both runs have the same operator.
+    """
+    vertices, faces = meshes.creature()
+    uniform = {"metric_exponent": 0.0, "relative_residual": 1e-10}
+    loose = near((vertices, faces), 2, **option, **uniform)
+    there = loose.vertices[: len(vertices)]
+    held = df.fair(there, faces, 2, **PADS, **uniform)
+    assert loose.report["pads"]["widths"] == held.report["pads"]["widths"]
+    size = np.ptp(vertices, axis=0).max()
+    assert np.abs(held.vertices - loose.vertices).max() < 1e-5 * size
+    on_points = df.fair(there, faces, 2, **uniform)
+    assert np.abs(on_points.vertices - loose.vertices).max() > 1e-3 * size
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-2])
+@pytest.mark.parametrize("name", ["creature", "torus_quads"])
+def test_near_costs_little_more_than_through(name, tolerance):
+    mesh = meshes.ALL[name]()
+    through = df.fair(*mesh, 4, **PADS).report["levels"][-1]["iterations"]
+    assert near(mesh, 4, tolerance=tolerance).report["levels"][-1]["iterations"] <= 1.5 * through
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_more_weight_is_closer(name):
+    vertices, faces = meshes.ALL[name]()
+    farthest = []
+    for weight in (1.0, 1e2, 1e4, 1e6):
+        result = near((vertices, faces), weights=np.full(len(vertices), weight))
+        assert result.report["converged"]
+        farthest.append(moved(result, vertices).max())
+    assert all(close < 0.9 * far for far, close in zip(farthest, farthest[1:]))
+    exact = df.fair(vertices, faces, 3, **PADS)
+    assert np.abs(result.vertices - exact.vertices).max() < 1e-3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_cannot_move_is_interpolated(name):
+    vertices, faces = meshes.ALL[name]()
+    exact = df.fair(vertices, faces, 2, **PADS).vertices
+    count = len(vertices)
+    for option in (
+        {},
+        {"tolerance": 0},
+        {"tolerance": np.zeros(count)},
+        {"weights": np.full(count, np.inf)},
+    ):
+        assert np.array_equal(near((vertices, faces), 2, **option).vertices, exact)
+
+
+def test_fixed_bound_weighted_and_free_vertices_together():
+    vertices, faces = meshes.creature()
+    each = np.full(len(vertices), 0.02)
+    each[:10], each[20:30] = 0, np.inf
+    weights = np.zeros(len(vertices))
+    weights[20:29] = 50.0
+    result = near((vertices, faces), tolerance=each, weights=weights)
+    distance = moved(result, vertices)
+    assert (distance <= each).all() and (distance[:10] == 0).all() and (distance[20:30] > 0).all()
+    assert result.report["converged"] and result.report["constraint_gap"] <= 1e-4
+    widths = np.array(result.report["pads"]["widths"])
+    assert widths[29] == 0 and (np.delete(widths, 29) == 0.5).all()
+
+
+def test_weights_are_lower_bounds():
+    vertices, faces = meshes.creature()
+    weights = np.linspace(0, 50, len(vertices))
+    both = near((vertices, faces), weights=weights, tolerance=0.05)
+    alone = near((vertices, faces), tolerance=0.05)
+    assert moved(both, vertices).max() <= 0.05
+    assert moved(both, vertices).sum() < moved(alone, vertices).sum()
+    assert both.report["constraint_gap"] <= 1e-4
+
+
+def test_vertices_on_curves_stay():
+    vertices, faces = meshes.wavy_patch()
+    exact = df.fair(vertices, faces, 3)
+    result = near((vertices, faces), tolerance=0.1)
+    rim = boundary_vertices(output_faces(result))
+    assert result.vertices[rim].tobytes() == exact.vertices[rim].tobytes()
+    inside = np.setdiff1d(np.arange(len(vertices)), rim)
+    assert (moved(result, vertices)[inside] > 1e-3).all()
+
+
+def test_only_the_inside_of_a_region_moves():
+    vertices, faces = meshes.wavy_patch()
+    region = [f for f, face in enumerate(faces) if 12 in face]
+    result = near((vertices, faces), tolerance=0.1, region=region)
+    distance = moved(result, vertices)
+    assert 0 < distance[12] <= 0.1 and (np.delete(distance, 12) == 0).all()
+    assert result.report["constraint_gap"] <= 1e-4
+
+
+def test_pads_give_way_here_too():
+    vertices, faces = meshes.rough_ball(roughness=1)
+    result = near((vertices, faces), 2, tolerance=0.02)
+    assert result.report["pads"]["narrower"] + result.report["pads"]["gone"] > 0
+    assert moved(result, vertices).max() <= 0.02
+
+
+@pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
+def test_a_solver_gives_the_surface_that_fair_gives(option):
+    vertices, faces = meshes.creature()
+    options = {"interpolation": "approximate", "relative_residual": 1e-10, **PADS, **option}
+    solver = df.Solver(vertices, faces, 2, **options)
+    solver.solve()
+    there = vertices.copy()
+    there[40] += [0.1, 0.05, -0.1]
+    dragged = solver.solve(there)
+    assert dragged.report["warm"] == ("weights" in option)
+    shape = df.fair(vertices, faces, 2, shapes=[there], **options).shapes[0]
+    size = np.ptp(vertices, axis=0).max()
+    assert np.abs(dragged.vertices - shape).max() < (1e-5 if "weights" in option else 1e-12) * size
+
+
+def test_the_number_of_threads_is_nothing_to_the_bits():
+    mesh = meshes.creature()
+    one, two = (near(mesh, tolerance=0.01, threads=threads) for threads in (1, 2))
+    assert one.vertices.tobytes() == two.vertices.tobytes()
+
+
+def test_a_run_can_be_cancelled():
+    with pytest.raises(df.FairingError) as caught:
+        near(meshes.creature(), 6, tolerance=0.01, progress=lambda *_: False)
+    assert caught.value.code == "CANCELLED"
+
+
+@pytest.mark.parametrize("tolerance", [0.7, 1.5, 3.0])
+def test_a_tolerance_beyond_the_faces_settles_too(tolerance):
+    vertices, faces = meshes.creature()
+    result = near((vertices, faces), 2, tolerance=tolerance)
+    assert moved(result, vertices).max() <= tolerance
+    assert result.report["constraint_gap"] <= 1e-4 and not result.report["warnings"]
