@@ -84,7 +84,8 @@ def fair_arguments(
         "interpolation": settings.interpolation.lower(),
         "tolerance": allowed if shares is None else allowed * shares,
         "pad_size": settings.pad_size,
-        "tension": settings.tension,
+        # the steps of minimum variation would burst under it
+        "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
         "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
         "corner_vertices": corner_vertices(arrays, threshold),
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
@@ -99,16 +100,7 @@ def fair_arguments(
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):
         arguments["shapes"] = shapes
-    return _known_to_the_core(arguments)
-
-
-def _known_to_the_core(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The arguments, without pads and tension where the core at hand has none yet."""
-    if "tension" in module().options.SETTINGS:
-        return arguments
-    arguments = {key: value for key, value in arguments.items() if key != "tension"}
-    plain = arguments["energy"] == "thin_plate" and arguments["interpolation"] == "exact"
-    return arguments if plain else arguments | {"pad_size": 0.0}
+    return arguments
 
 
 def mean_edge_length(arrays: ControlArrays) -> float:

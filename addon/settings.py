@@ -121,14 +121,14 @@ class FairingSettings:
         name="Pad Size",
         description="What holds the vertices. 0: held on needles, which leave marks in the reflections; "
         "above: held on pads, which do not. The larger, the calmer; the surface passes through the vertices all the same",
-        default=0.5,
+        default=1.0,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
     )
     tension: FloatProperty(
         name="Tension",
-        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell",
+        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell. Not for Minimum Variation",
         default=0.0,
         min=0.0,
         max=1.0,

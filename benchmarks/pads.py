@@ -126,7 +126,9 @@ def energies_of_inscribed() -> dict[str, Any]:
         for levels in (2, 3, 4, 5):
             found = {}
             for size in SIZES:
-                surface = df.fair(*getattr(meshes, name)(), levels=levels, pad_size=size)
+                surface = df.fair(
+                    *getattr(meshes, name)(), levels=levels, pad_size=size, measure=True
+                )
                 found[size] = surface.report["energy"]["result"]["total_curvature"] / (8 * np.pi)
             result[f"{name}, {levels}"] = found
             rows.append([name, levels, *(f"{e:.3f}" for e in found.values())])

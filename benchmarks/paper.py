@@ -27,7 +27,7 @@ MESHES = {
 
 def competitors(mesh: Any, levels: int) -> dict[str, Any]:
     """The methods that this build has."""
-    base = {"levels": levels, "measure": False}
+    base = {"levels": levels, "pad_size": 0, "relative_residual": 1e-8}
     bodies = {
         "multigrid": partial(runs.fair, mesh, **base),
         "multigrid, 1 thread": partial(runs.fair, mesh, threads=1, **base),

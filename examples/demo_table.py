@@ -9,15 +9,12 @@ COLUMNS = (
     ("triangles", 11),
     ("iterations", 12),
     ("residual", 10),
-    ("energy: polyhedron → result", 29),
     ("seconds", 9),
 )
 
 
 def table_row(name, control_faces, levels, triangles, report, seconds):
-    """`report`: the core's; iterations and residual are those of the finest level, the energy is the thin plate's."""
-    energy = report["energy"]
-    before, after = (energy[surface]["thin_plate"] for surface in ("polyhedron", "result"))
+    """`report`: the core's; iterations and residual are those of the finest level."""
     values = (
         name,
         control_faces,
@@ -25,7 +22,6 @@ def table_row(name, control_faces, levels, triangles, report, seconds):
         f"{triangles:,}",
         report["iterations"][-1],
         f"{report['residuals'][-1]:.0e}",
-        f"{before:.4g} → {after:.4g}",
         f"{seconds:.2f}",
     )
     return dict(zip((heading for heading, _ in COLUMNS), map(str, values), strict=True))

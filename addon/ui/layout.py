@@ -47,7 +47,9 @@ def draw_shape(
     if is_near(settings):
         _draw_tolerance(layout, settings, tolerance_text, missing_group)
     _draw_pads(layout, settings)
-    layout.prop(settings, "tension")
+    row = layout.row()
+    row.active = settings.energy != "MINIMUM_VARIATION"
+    row.prop(settings, "tension")
     layout.prop(settings, "boundary")
 
 

@@ -96,7 +96,7 @@ ThinPlateSolver& FairingContext::system() {
     options.relative_residual = options_.relative_residual;
     options.max_iterations = options_.max_iterations;
     options.smoother_degree = options_.smoother_degree;
-    options.pad_size = options_.pad_size;
+    options.pad_size = options_.width_of_pads();
     options.star_energies = [this](const GridLevel& grid, const double* x) {
       return total_curvature_of_stars(grid, *workers_, x);
     };
@@ -147,7 +147,9 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
       options_.interpolation == Interpolation::exact
           ? ControlHold(control.working, unknowns_)
           : ControlHold(mesh_, control.working, unknowns_, options_.weights, working_tolerances()),
-      options_.epsilon / frame_.scale, system().pads(), mirrors_of(control), *workers_, monitor_);
+      options_.epsilon / frame_.scale,
+      options_.interpolation == Interpolation::exact ? system().pads() : nullptr,
+      mirrors_of(control), *workers_, monitor_);
 }
 
 void FairingContext::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
@@ -176,8 +178,10 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
 }
 
 void FairingContext::report_pads(Report& report) {
-  const Pads* const pads = gauss_newton_ ? gauss_newton_->pads() : system().pads();
-  if (pads) report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.pad_size);
+  const Pads* const pads =
+      gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : system().pads();
+  if (pads)
+    report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.width_of_pads());
 }
 
 void FairingContext::move_surface(Array<double>& x) {

@@ -87,15 +87,6 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
     refuse(
         "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "
         "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
-  if (o.pad_size > 0) {
-    const auto exclude = [](bool asked, const char* what, const char* instead) {
-      if (asked)
-        refuse(std::string("pad_size holds control vertices exactly and has no ") + what +
-               " yet; " + instead + ", or set pad_size to 0.");
-    };
-    exclude(o.epsilon > 0, "epsilon", "leave epsilon at 0: pads leave no cusps to take off");
-    exclude(o.method == Method::back_leg, "method=\"back_leg\"", "use multigrid");
-  }
   if (o.smoother_degree < 0 || o.smoother_degree > 1000)
     refuse("smoother_degree must be from 0 to 1000.");
   if (o.sweeps < 0 || o.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");

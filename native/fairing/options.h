@@ -64,7 +64,12 @@ struct FairOptions {
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
   // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
-  double pad_size = 0;
+  double pad_size = 1;
+  // The paper's own methods are about point forces, whatever the size: epsilon takes their cusps
+  // off, back_leg solves without loads.
+  double width_of_pads() const {
+    return epsilon > 0 || method == Method::back_leg ? 0.0 : pad_size;
+  }
 
   // A membrane stretched over the mesh, against swelling and overshoots: none at 0, as taut as is of
   // use at 1 (membrane_strength()).
@@ -84,7 +89,7 @@ struct FairOptions {
   Method method = Method::multigrid;
   // Where conjugate gradients end: the residual relative to the control polyhedron's, and the
   // estimated error relative to the solution in the energy norm; 1e-13 to 0.5.
-  double relative_residual = 1e-8;
+  double relative_residual = 1e-4;
   int max_iterations = 200;
   // Of the Chebyshev smoother; 0: chosen from how the coarse levels converge.
   int smoother_degree = 0;
@@ -95,8 +100,8 @@ struct FairOptions {
   int threads = 0;
   // Bytes; 0: three quarters of the machine's memory.
   std::size_t memory_limit = 0;
-  // Whether to measure the total curvature of result, control polyhedron and prediction.
-  bool measure = true;
+  // Whether to measure the energies of result, control polyhedron and prediction.
+  bool measure = false;
 };
 
 // What the membrane's energy is multiplied by, relative to bending over the length of a control edge

@@ -15,7 +15,7 @@ namespace fairing {
 struct ThinPlateOptions {
   int levels = 3;  // of refinement; the finest has edges in 2^levels pieces
   // Of the finest level's residual and error, as in PcgLimits::tolerance.
-  double relative_residual = 1e-8;
+  double relative_residual = 1e-4;
   int max_iterations = 200;  // a level
   int smoother_degree = 0;   // 0: chosen from how the coarse levels converge
   double pad_size = 0;       // of the pads under control vertices (pads.h); 0: point forces

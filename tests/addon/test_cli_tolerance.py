@@ -7,7 +7,7 @@ import pytest
 from cli_files import lopsided, write_obj, write_ply
 from cli_runs import contains, entries, imported, run
 
-from addon import core, vertex_values
+from addon import vertex_values
 from addon.cli import main as command
 
 
@@ -47,9 +47,6 @@ def test_a_property_of_a_ply_file_is_a_tolerance_group():
     assert vertex_values.read(box, box.data, "loose").tolist() == [0.25] * 4 + [1.0] * 4
 
 
-@pytest.mark.skipif(
-    "tension" not in core.module().options.SETTINGS, reason="the core at hand has one tolerance"
-)
 def test_a_group_on_the_command_line():
     write_ply_with("in.ply", "loose", [0] * 4 + [1.0] * 4)
     points = lopsided()

@@ -62,7 +62,7 @@ def test_an_older_file_is_taken_over(old_file):
     bpy.ops.wm.open_mainfile(filepath=old_file)
     check_taken_over(bpy.data.objects["Box"])
     check_settings(bpy.context.scene.discrete_fairing)
-    assert bpy.context.scene.discrete_fairing.pad_size == 0.5, "for new surfaces"
+    assert bpy.context.scene.discrete_fairing.pad_size == 1.0, "for new surfaces"
 
 
 def test_objects_appended_from_an_older_file_are_taken_over(old_file):
@@ -89,7 +89,7 @@ def test_newer_settings_stay(tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "new.blend"))
     kept = bpy.data.objects[name].discrete_fairing
     assert (kept.tolerance_unit, kept.relative_tolerance) == ("RELATIVE", 0.25)
-    assert kept.pad_size == 0.5
+    assert kept.pad_size == 1.0
     assert bpy.context.scene.discrete_fairing.tolerance_unit == "RELATIVE"
 
 

@@ -35,7 +35,7 @@ def test_pads_change_the_surface_and_hold_the_vertices():
     source.hide_set(False)
     activate(source)
     pads = fair(levels=2)
-    assert pads.discrete_fairing.pad_size == 0.5
+    assert pads.discrete_fairing.pad_size == 1.0
     assert not np.array_equal(positions(pads.data), positions(needles.data))
     for surface in (pads, needles):
         assert np.array_equal(positions(surface.data)[:8], positions(source.data))

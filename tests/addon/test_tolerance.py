@@ -9,16 +9,12 @@ import pytest
 from live_scenes import follow, live, move, session, tick_until
 from scenes import CUBE, activate, add, add_attribute, fair, positions
 
-from addon import core, vertex_values
+from addon import vertex_values
 from addon.errors import JobError
 from addon.job import Job
 from addon.memory import recall
 from addon.mesh.read import control_mesh, tolerance_shares
 from addon.settings import FairingSettings, _vertex_values
-
-takes_arrays = pytest.mark.skipif(
-    "tension" not in core.module().options.SETTINGS, reason="the core at hand has one tolerance"
-)
 
 
 def moved(source, result):
@@ -108,7 +104,6 @@ def loose_by_attribute(source):
     add_attribute(source, [1.0, 0.5, *[0.0] * 6])
 
 
-@takes_arrays
 @pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
 @pytest.mark.parametrize("settings", [{}, {"mesh_source": "EVALUATED"}])
 def test_a_group_says_where_the_surface_may_miss(make, settings):
@@ -151,7 +146,6 @@ def test_a_group_is_read_in_edit_mode(make):
         assert tolerance_shares(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
 
 
-@takes_arrays
 def test_recompute_reads_the_group_again():
     source = add("Box", *CUBE)
     loose_by_group(source)
@@ -162,7 +156,6 @@ def test_recompute_reads_the_group_again():
     assert set(np.flatnonzero(moved(source, result))) == {7}
 
 
-@takes_arrays
 def test_shape_keys_are_held_by_the_group_too():
     source = add("Box", *CUBE)
     loose_by_group(source)
@@ -173,7 +166,6 @@ def test_shape_keys_are_held_by_the_group_too():
     assert up[7].co == control[7].co and up[0].co != control[0].co
 
 
-@takes_arrays
 def test_live_follows_the_group():
     source = add("Box", *CUBE)
     loose_by_group(source)

@@ -10,9 +10,9 @@ from functools import cache
 from pathlib import Path
 
 import butterfly
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import creases_of, shared_files
 
@@ -82,8 +82,8 @@ def run(path: Path, creased: bool) -> dict:
         }  # some lists name others
         options = {"crease_edges": [e for e in edges.tolist() if frozenset(e) in there]}
         options["corner_vertices"] = corners
-    plate = df.fair(vertices, faces, levels, **options)
-    result = df.fair(vertices, faces, levels, "total_curvature", **options)
+    plate = tight.fair(vertices, faces, levels, **options)
+    result = tight.fair(vertices, faces, levels, "total_curvature", **options)
     return {
         "finite": bool(np.isfinite(result.vertices).all()),
         "kept": result.vertices[: len(vertices)].tobytes() == vertices.tobytes(),
@@ -130,7 +130,9 @@ def test_linear_solves_are_short(path, creased):
 )
 def test_solves_are_no_longer_on_a_finer_level(path, creased):
     vertices, faces, _ = mesh_of(path)
-    entries = df.fair(vertices, faces, LEVELS, "total_curvature", measure=False).report["curvature"]
+    entries = tight.fair(vertices, faces, LEVELS, "total_curvature", measure=False).report[
+        "curvature"
+    ]
     coarse, fine = (max(step["iterations"] for step in entry["steps"]) for entry in entries[-2:])
     assert coarse > 0 and fine <= 1.25 * coarse + 2
 
@@ -144,7 +146,7 @@ def test_below_the_butterfly(path, creased):
     points = vertices
     for _ in range(levels):
         points, triangles = butterfly.refine(points, triangles)
-    assert run(path, creased)["energy"] < measured(df.fair(points, triangles, 0))
+    assert run(path, creased)["energy"] < measured(tight.fair(points, triangles, 0))
 
 
 def is_closed(triangles: np.ndarray) -> bool:

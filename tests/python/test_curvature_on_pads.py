@@ -2,9 +2,9 @@
 """Total curvature with its control vertices on pads, and minimum variation that starts from it."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 
 
 def energy(result):
@@ -12,7 +12,7 @@ def energy(result):
 
 
 def fair(mesh, **options):
-    return df.fair(*mesh, energy="total_curvature", measure=True, **options)
+    return tight.fair(*mesh, energy="total_curvature", measure=True, **options)
 
 
 @pytest.mark.parametrize("size", (0.5, 1.0))
@@ -47,7 +47,7 @@ def test_crumpled_meshes_settle_too(seed):
 
 def test_the_steps_start_from_the_plate_on_pads():
     mesh = meshes.cube()
-    plate = df.fair(*mesh, levels=2, pad_size=1, measure=True)
+    plate = tight.fair(*mesh, levels=2, pad_size=1, measure=True)
     steps = fair(mesh, levels=2, pad_size=1).report["curvature"][-1]
     assert steps["plate_energy"] / (8 * np.pi) == pytest.approx(energy(plate), rel=0.02)
 
@@ -68,7 +68,7 @@ def test_bits_do_not_depend_on_threads():
 
 def test_minimum_variation_starts_from_there_and_varies_less():
     mesh = meshes.creature()
-    result = df.fair(*mesh, levels=2, energy="minimum_variation", pad_size=0.5)
+    result = tight.fair(*mesh, levels=2, energy="minimum_variation", pad_size=0.5)
     finest = result.report["curvature"][-1]
     assert finest["variation"] < finest["start_variation"]
     assert np.array_equal(result.vertices[: len(mesh[0])], mesh[0])
@@ -82,20 +82,20 @@ def test_a_drag_goes_on_from_the_surface_and_its_loads():
     def difference(size):
         """Between a drag, on the charts of before, and a surface of its own."""
         options = {"levels": 2, "energy": "total_curvature", "pad_size": size}
-        solver = df.Solver(vertices, faces, **options)
+        solver = tight.Solver(vertices, faces, **options)
         solver.solve()
         warm = solver.solve(moved)
         assert warm.report["warm"]
-        return abs(warm.vertices - df.fair(moved, faces, **options).vertices).max()
+        return abs(warm.vertices - tight.fair(moved, faces, **options).vertices).max()
 
     assert difference(0.5) < 2 * difference(0)
 
 
 def test_curves_and_regions_stand_on_pads_too():
     vertices, faces = meshes.wavy_patch()
-    result = df.fair(vertices, faces, levels=2, energy="total_curvature", pad_size=0.5)
+    result = tight.fair(vertices, faces, levels=2, energy="total_curvature", pad_size=0.5)
     assert result.report["curvature"][-1]["converged"]
-    part = df.fair(
+    part = tight.fair(
         vertices, faces, levels=2, energy="total_curvature", pad_size=0.5, region=range(6)
     )
     assert np.isfinite(part.vertices).all()

@@ -2,9 +2,9 @@
 """Boundary and crease curves depend on their own vertices alone."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from surfaces import (
     as_lists,
     boundary_vertices,
@@ -58,7 +58,7 @@ def test_the_same_polyline_gives_the_same_curve(exponent, corners):
             if corners
             else None
         )
-        result = df.fair(vertices, faces, 3, metric_exponent=exponent, corner_vertices=chosen)
+        result = tight.fair(vertices, faces, 3, metric_exponent=exponent, corner_vertices=chosen)
         found.append(rows(boundary_points(result)))
         assert len(found[-1]) == 8 * len(rim)
     assert found[0] == found[1] == found[2]
@@ -68,25 +68,25 @@ def test_the_same_polyline_gives_the_same_curve(exponent, corners):
     "option", [{"corner_angle": 0.75}, {"corner_angle": 10.0}, {"boundary": "linear"}], ids=str
 )
 def test_the_same_polyline_under_other_rules(option):
-    found = [rows(boundary_points(df.fair(*cap, 2, **option))) for cap in caps(polygon())]
+    found = [rows(boundary_points(tight.fair(*cap, 2, **option))) for cap in caps(polygon())]
     assert found[0] == found[1] == found[2]
 
 
 def test_a_crease_and_a_boundary_of_the_same_polyline_are_the_same_curve():
     """The drum's rim as a crease, and as the boundary of its upper half."""
     (vertices, faces), loop, above, _ = meshes.drum()
-    whole = df.fair(vertices, faces, 3, crease_edges=loop)
+    whole = tight.fair(vertices, faces, 3, crease_edges=loop)
     kept = np.append(np.unique(loop), above)
     place = np.full(len(vertices), -1)
     place[kept] = np.arange(len(kept))
     upper = place[faces[np.isin(faces, kept).all(1)]]
-    half = df.fair(vertices[kept], upper, 3)
+    half = tight.fair(vertices[kept], upper, 3)
     assert rows(boundary_points(half)) <= rows(whole.vertices)
 
 
 def test_linear_boundary_is_straight():
     vertices, faces = meshes.wavy_patch()
-    found = boundary_points(df.fair(vertices, faces, 3, boundary="linear"))
+    found = boundary_points(tight.fair(vertices, faces, 3, boundary="linear"))
     rim = boundary_vertices(as_lists(faces))
     edges = {tuple(sorted(e)) for f in as_lists(faces) for e in zip(f, [*f[1:], f[0]])}
     edges = [
@@ -105,7 +105,7 @@ def test_curve_boundary_is_smooth_and_linear_is_not():
     vertices, faces = meshes.fan(8)
 
     def turn(levels, boundary):
-        result = df.fair(vertices, faces, levels, boundary=boundary)
+        result = tight.fair(vertices, faces, levels, boundary=boundary)
         around = [w for f in result.triangles.tolist() if 1 in f for w in f if w != 1]
         a, b = (w for w in set(around) if around.count(w) == 1)
         before, after = (
@@ -122,7 +122,7 @@ def test_curve_boundary_is_smooth_and_linear_is_not():
 
 def test_free_boundary_is_the_surfaces_own():
     vertices, faces = meshes.wavy_patch()
-    curve, linear, free = (df.fair(vertices, faces, 3, boundary=mode) for mode in MODES)
+    curve, linear, free = (tight.fair(vertices, faces, 3, boundary=mode) for mode in MODES)
     for other in (curve, linear):
         assert np.abs(free.vertices - other.vertices).max() > 1e-3 * size_of(vertices)
         assert (
@@ -132,10 +132,10 @@ def test_free_boundary_is_the_surfaces_own():
     assert np.array_equal(free.vertices[: len(vertices)], vertices)
     moved = vertices.copy()
     moved[12] += [0, 0, 0.5]
-    assert rows(boundary_points(df.fair(moved, faces, 3, boundary="free"))) != rows(
+    assert rows(boundary_points(tight.fair(moved, faces, 3, boundary="free"))) != rows(
         boundary_points(free)
     )
-    assert rows(boundary_points(df.fair(moved, faces, 3))) != rows(boundary_points(free))
+    assert rows(boundary_points(tight.fair(moved, faces, 3))) != rows(boundary_points(free))
 
 
 def test_interior_does_not_move_the_boundary():
@@ -143,7 +143,7 @@ def test_interior_does_not_move_the_boundary():
     moved = vertices.copy()
     moved[12] += [0.1, -0.2, 0.5]
     for mode in ("curve", "linear"):
-        still, after = (df.fair(v, faces, 3, boundary=mode) for v in (vertices, moved))
+        still, after = (tight.fair(v, faces, 3, boundary=mode) for v in (vertices, moved))
         rim = boundary_vertices(output_faces(still))
         assert still.vertices[rim].tobytes() == after.vertices[rim].tobytes()
         assert not np.array_equal(still.vertices, after.vertices)
@@ -159,7 +159,7 @@ def test_corners_split_a_curve(ends):
     )
 
     def off_the_square(**options):
-        points = boundary_points(df.fair(vertices, faces, 3, **options))
+        points = boundary_points(tight.fair(vertices, faces, 3, **options))
         return np.abs(np.abs(points[:, :2] - 1.5).max(1) - 1.5).max()
 
     assert off_the_square(**corners) < 1e-12
@@ -172,12 +172,14 @@ def test_a_side_depends_on_nothing_beyond_its_corners():
     corners = [0, 4, 20, 24]
     moved = vertices.copy()
     moved[22] += [0.2, 0.5, 0.3]
-    still, after = (df.fair(v, faces, 3, corner_vertices=corners) for v in (vertices, moved))
+    still, after = (tight.fair(v, faces, 3, corner_vertices=corners) for v in (vertices, moved))
     bottom = [v for v in boundary_vertices(output_faces(still)) if still.vertices[v, 1] < 0.05]
     assert len(bottom) >= 33 - 4
     assert still.vertices[bottom].tobytes() == after.vertices[bottom].tobytes()
-    loop = df.fair(moved, faces, 3)
-    assert loop.vertices[bottom].tobytes() != df.fair(vertices, faces, 3).vertices[bottom].tobytes()
+    loop = tight.fair(moved, faces, 3)
+    assert (
+        loop.vertices[bottom].tobytes() != tight.fair(vertices, faces, 3).vertices[bottom].tobytes()
+    )
 
 
 @pytest.mark.parametrize("flip", [False, True])
@@ -189,7 +191,7 @@ def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
     moved = vertices.copy()
     moved[here[1]] += [0.2, 0.1, 0.15 if not flip else -0.15]
     options = {"crease_edges": loop, "relative_residual": 1e-11}
-    still, after = (df.fair(v, faces, 3, **options) for v in (vertices, moved))
+    still, after = (tight.fair(v, faces, 3, **options) for v in (vertices, moved))
     control = np.append(np.unique(loop), there)
     cells = np.isin(still.triangle_polygon, np.nonzero(np.isin(faces, control).all(1))[0])
     side = np.unique(still.faces[0][cells])
@@ -199,7 +201,7 @@ def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
     curve = np.intersect1d(side, still.faces[0][~cells])
     assert still.vertices[curve].tobytes() == after.vertices[curve].tobytes()
     smooth, other = (
-        df.fair(v, faces, 3, relative_residual=1e-11).vertices for v in (vertices, moved)
+        tight.fair(v, faces, 3, relative_residual=1e-11).vertices for v in (vertices, moved)
     )
     assert np.abs(smooth[side] - other[side]).max() > 1e-4
 
@@ -215,14 +217,14 @@ def test_a_roof_keeps_its_ridge_and_smooths_its_slopes():
     (vertices, faces), ridge = meshes.roof()
     sharp, inside = [], []
     for levels in (2, 3, 4):
-        result = df.fair(vertices, faces, levels, crease_edges=ridge)
+        result = tight.fair(vertices, faces, levels, crease_edges=ridge)
         at_ridge, elsewhere = crease_and_inner_angles(result, lambda p: np.abs(p[..., 0]) < 1e-12)
         assert len(at_ridge) == 4 * 2**levels
         sharp.append(at_ridge.min())
         inside.append(elsewhere.max())
     assert min(sharp) > 1.0 and max(sharp) - min(sharp) < 0.03
     assert all(fine < 0.7 * coarse for coarse, fine in zip(inside, inside[1:]))
-    smooth = df.fair(vertices, faces, 3)
+    smooth = tight.fair(vertices, faces, 3)
     assert crease_and_inner_angles(smooth, lambda p: np.abs(p[..., 0]) < 1e-3)[0].max() < 0.6
 
 
@@ -230,7 +232,7 @@ def test_a_box_with_creases_stays_a_box():
     """Every side is flat, every edge straight: the surface is the box itself."""
     (vertices, faces), creases = meshes.box_with_creases()
     rotation = random_rotation(3)
-    result = df.fair(vertices @ rotation.T, faces, 3, crease_edges=creases)
+    result = tight.fair(vertices @ rotation.T, faces, 3, crease_edges=creases)
     assert np.abs(np.abs(result.vertices @ rotation).max(1) - 1).max() < 1e-9
     assert result.report["energy"]["result"]["thin_plate"] < 1e-9
 
@@ -238,12 +240,15 @@ def test_a_box_with_creases_stays_a_box():
 def test_crease_angle_finds_the_same_creases():
     (vertices, faces), creases = meshes.box_with_creases()
     vertices = vertices + 0.02 * np.random.default_rng(0).normal(size=vertices.shape)
-    given = df.fair(vertices, faces, 2, crease_edges=creases)
-    found = df.fair(vertices, faces, 2, crease_angle=0.8)
+    given = tight.fair(vertices, faces, 2, crease_edges=creases)
+    found = tight.fair(vertices, faces, 2, crease_angle=0.8)
     assert np.array_equal(given.vertices, found.vertices)
-    assert not np.allclose(found.vertices, df.fair(vertices, faces, 2, crease_angle=2.0).vertices)
+    assert not np.allclose(
+        found.vertices, tight.fair(vertices, faces, 2, crease_angle=2.0).vertices
+    )
     assert np.array_equal(
-        df.fair(vertices, faces, 2, crease_angle=2.0).vertices, df.fair(vertices, faces, 2).vertices
+        tight.fair(vertices, faces, 2, crease_angle=2.0).vertices,
+        tight.fair(vertices, faces, 2).vertices,
     )
 
 
@@ -254,7 +259,7 @@ def test_all_vertices_on_creases():
         edges = np.concatenate(
             [faces[:, [k, (k + 1) % faces.shape[1]]] for k in range(faces.shape[1])]
         )
-        result = df.fair(vertices, faces, 3, crease_edges=edges)
+        result = tight.fair(vertices, faces, 3, crease_edges=edges)
         assert np.isfinite(result.vertices).all()
         assert np.array_equal(result.vertices[: len(vertices)], vertices)
         assert result.report["converged"]
@@ -263,7 +268,7 @@ def test_all_vertices_on_creases():
 def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
     """The surface may come to a point there, at lower energy, and elsewhere it does not."""
     vertices, faces = meshes.closed_pole(12)
-    smooth, tip = (df.fair(vertices, faces, 3, corner_vertices=c) for c in (None, [12]))
+    smooth, tip = (tight.fair(vertices, faces, 3, corner_vertices=c) for c in (None, [12]))
     assert (
         tip.report["energy"]["result"]["thin_plate"]
         < smooth.report["energy"]["result"]["thin_plate"]
@@ -275,7 +280,7 @@ def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
 @pytest.mark.parametrize("levels", [0, 1, 2, 3])
 def test_a_single_triangle(boundary, levels):
     vertices, faces = meshes.single_triangle()
-    result = df.fair(vertices, faces, levels, boundary=boundary)
+    result = tight.fair(vertices, faces, levels, boundary=boundary)
     assert len(result.triangles) == 4**levels
     assert result.vertices[:3].tobytes() == vertices.tobytes()
     normal = np.cross(*(vertices[1:] - vertices[0]))
@@ -294,6 +299,6 @@ def test_a_single_triangle(boundary, levels):
 
 def test_creases_come_back_by_whatever_rule():
     vertices, faces = meshes.cube()
-    result = df.fair(vertices, faces, 2, crease_angle=1.0)
+    result = tight.fair(vertices, faces, 2, crease_angle=1.0)
     assert len(result.crease_edges) == 12
-    assert not len(df.fair(vertices, faces, 2).crease_edges)
+    assert not len(tight.fair(vertices, faces, 2).crease_edges)

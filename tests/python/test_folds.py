@@ -2,9 +2,9 @@
 """Total curvature leaves no folds that the control mesh does not have."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import shared_files
 
@@ -35,7 +35,7 @@ def polygons_of(result):
 def own_folds(result, mesh) -> int:
     """How many folds are in no polygon of the control mesh that has a vertex at one of its own
     folds."""
-    control = df.fair(*mesh, 0)
+    control = tight.fair(*mesh, 0)
     ends, _ = folds(control.vertices, control.triangles)
     touched = np.isin(control.triangles, ends).any(1)
     excused = np.unique(polygons_of(control)[touched])
@@ -44,7 +44,7 @@ def own_folds(result, mesh) -> int:
 
 
 def fair(mesh, levels=2, **options):
-    return df.fair(*mesh, levels, energy="total_curvature", **options)
+    return tight.fair(*mesh, levels, energy="total_curvature", **options)
 
 
 @pytest.mark.parametrize("seed, levels", [(3, 2), (9, 2), (11, 2), (4, 3)])

@@ -2,9 +2,9 @@
 """Fairing commutes with rigid motion, scaling, relabelling and mirroring, to 1e-9 of the size."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from surfaces import as_lists, assert_same_points, random_rotation, size_of
 
 TOLERANCE = 1e-9
@@ -41,8 +41,8 @@ def assert_same_surface(found, expected, size):
 def test_rigid_motion(name, exponent):
     vertices, faces = meshes.ALL[name]()
     rotation, shift = random_rotation(1), np.array([0.3, -5.0, 2.0])
-    still = df.fair(vertices, faces, 2, metric_exponent=exponent)
-    moved = df.fair(vertices @ rotation.T + shift, faces, 2, metric_exponent=exponent)
+    still = tight.fair(vertices, faces, 2, metric_exponent=exponent)
+    moved = tight.fair(vertices @ rotation.T + shift, faces, 2, metric_exponent=exponent)
     difference = np.abs(moved.vertices - (still.vertices @ rotation.T + shift)).max()
     assert difference <= TOLERANCE * size_of(vertices)
 
@@ -51,8 +51,8 @@ def test_rigid_motion(name, exponent):
 @pytest.mark.parametrize("scale", [1e-6, 0.37, 1e6])
 def test_scaling(name, exponent, scale):
     vertices, faces = meshes.ALL[name]()
-    plain = df.fair(vertices, faces, 2, metric_exponent=exponent)
-    scaled = df.fair(scale * vertices, faces, 2, metric_exponent=exponent)
+    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
+    scaled = tight.fair(scale * vertices, faces, 2, metric_exponent=exponent)
     assert np.abs(scaled.vertices / scale - plain.vertices).max() <= TOLERANCE * size_of(vertices)
 
 
@@ -61,7 +61,8 @@ def test_energies_scale_as_documented(exponent):
     """The thin-plate energy has unit length**(2 - 2 exponent); total curvature is a pure number."""
     vertices, faces = meshes.creature()
     one, two = (
-        df.fair(s * vertices, faces, 2, metric_exponent=exponent).report["energy"] for s in (1, 1e3)
+        tight.fair(s * vertices, faces, 2, metric_exponent=exponent).report["energy"]
+        for s in (1, 1e3)
     )
     for surface in ("result", "polyhedron", "prediction"):
         expected = one[surface]["thin_plate"] * 1e3 ** (2 - 2 * exponent)
@@ -74,17 +75,17 @@ def test_energies_scale_as_documented(exponent):
 @pytest.mark.parametrize("name, exponent", CASES)
 def test_relabelling(name, exponent):
     vertices, faces = meshes.ALL[name]()
-    plain = df.fair(vertices, faces, 2, metric_exponent=exponent)
+    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
     moved, turned, _ = relabelled(vertices, faces)
-    other = df.fair(moved, turned, 2, metric_exponent=exponent)
+    other = tight.fair(moved, turned, 2, metric_exponent=exponent)
     assert_same_surface(other.vertices, plain.vertices, size_of(vertices))
 
 
 @pytest.mark.parametrize("name, exponent", CASES)
 def test_mirroring(name, exponent):
     vertices, faces = meshes.ALL[name]()
-    plain = df.fair(vertices, faces, 2, metric_exponent=exponent)
-    mirrored = df.fair(
+    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
+    mirrored = tight.fair(
         vertices * [-1, 1, 1], [f[::-1] for f in as_lists(faces)], 2, metric_exponent=exponent
     )
     assert_same_surface(mirrored.vertices * [-1, 1, 1], plain.vertices, size_of(vertices))
@@ -95,23 +96,23 @@ def test_mirroring(name, exponent):
 def test_every_option_commutes_too(name, option):
     vertices, faces = meshes.ALL[name]()
     size = size_of(vertices)
-    plain = df.fair(vertices, faces, 2, **option).vertices
+    plain = tight.fair(vertices, faces, 2, **option).vertices
     rotation = random_rotation(4)
-    rotated = df.fair(7.0 * vertices @ rotation.T, faces, 2, **option).vertices
+    rotated = tight.fair(7.0 * vertices @ rotation.T, faces, 2, **option).vertices
     assert np.abs(rotated / 7.0 @ rotation - plain).max() <= TOLERANCE * size
     moved, turned, _ = relabelled(vertices, faces, 2)
-    assert_same_surface(df.fair(moved, turned, 2, **option).vertices, plain, size)
+    assert_same_surface(tight.fair(moved, turned, 2, **option).vertices, plain, size)
     reversed_faces = [f[::-1] for f in as_lists(faces)]
-    mirrored = df.fair(vertices * [1, -1, 1], reversed_faces, 2, **option).vertices
+    mirrored = tight.fair(vertices * [1, -1, 1], reversed_faces, 2, **option).vertices
     assert_same_surface(mirrored * [1, -1, 1], plain, size)
 
 
 def test_creases_and_corners_are_relabelled_along():
     (vertices, faces), creases = meshes.box_with_creases()
-    plain = df.fair(vertices, faces, 2, crease_edges=creases, corner_vertices=[9, 20])
+    plain = tight.fair(vertices, faces, 2, crease_edges=creases, corner_vertices=[9, 20])
     moved, turned, place = relabelled(vertices, faces)
     swapped = place[creases][::-1, ::-1]
-    other = df.fair(moved, turned, 2, crease_edges=swapped, corner_vertices=place[[20, 9]])
+    other = tight.fair(moved, turned, 2, crease_edges=swapped, corner_vertices=place[[20, 9]])
     assert_same_surface(other.vertices, plain.vertices, size_of(vertices))
 
 
@@ -124,7 +125,8 @@ def test_weights_and_tolerance_commute_with_scaling():
     ]
     for option in options:
         plain, scaled = (
-            df.fair(s * vertices, faces, 2, interpolation="approximate", **option(s)).vertices / s
+            tight.fair(s * vertices, faces, 2, interpolation="approximate", **option(s)).vertices
+            / s
             for s in (1, 1e4)
         )
         assert np.abs(scaled - plain).max() <= TOLERANCE * size_of(vertices)

@@ -4,13 +4,16 @@
 import control_meshes as meshes
 import discrete_fairing as df
 import pytest
+import tight
 
 
 def test_levels_quadruple_memory():
     """A triangle costs no more on a finer level; what the coarse levels cost shows less and
     less."""
     peaks = [
-        df.fair(*meshes.cube(), levels, measure=False, relative_residual=1e-2).report["peak_bytes"]
+        tight.fair(*meshes.cube(), levels, measure=False, relative_residual=1e-2).report[
+            "peak_bytes"
+        ]
         for levels in (6, 7, 8)
     ]
     assert all(3.0 < fine / coarse < 4.2 for coarse, fine in zip(peaks, peaks[1:]))
@@ -21,7 +24,7 @@ def test_levels_quadruple_memory():
     "name", ["icosahedron", "random_hull", "torus_quads", "wavy_patch", "creature", "dodecahedron"]
 )
 def test_prediction_bounds_the_peak(name, levels):
-    report = df.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
+    report = tight.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
 
 
@@ -29,14 +32,14 @@ def test_prediction_bounds_the_peak(name, levels):
     "option", [{"tolerance": 0.02}, {"weights": [1.0] * 98}], ids=["tolerance", "weights"]
 )
 def test_prediction_bounds_the_peak_of_approximation(option):
-    report = df.fair(*meshes.creature(), 3, interpolation="approximate", **option).report
+    report = tight.fair(*meshes.creature(), 3, interpolation="approximate", **option).report
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
 
 
 @pytest.mark.parametrize("name", sorted(meshes.OPEN))
 def test_predicted_size_counts_the_boundary(name):
     vertices, faces = meshes.OPEN[name]()
-    result = df.fair(vertices, faces, 2)
+    result = tight.fair(vertices, faces, 2)
     assert len(result.vertices) <= df.predicted_size(len(vertices), faces, 2)["vertices"]
 
 
@@ -45,7 +48,7 @@ def test_predicted_size_counts_the_boundary(name):
 def test_prediction_bounds_the_peak_of_steps(name, energy):
     """Not tightly: a level that proves hard is factored, and nobody knows before."""
     vertices, faces = meshes.ALL[name]()
-    report = df.fair(vertices, faces, 3, energy, threads=1).report
+    report = tight.fair(vertices, faces, 3, energy, threads=1).report
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 8 * report["peak_bytes"]
     assert (
         df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]

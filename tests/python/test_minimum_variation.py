@@ -2,9 +2,9 @@
 """The variation of curvature: spheres have none, and no peak is left at the control vertices."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 
 
 def on_unit_sphere(mesh):
@@ -22,7 +22,7 @@ def finest(result):
     "name", ["tetrahedron", "octahedron", "icosahedron", "cube", "random_hull"]
 )
 def test_inscribed_meshes_become_spheres(name, levels):
-    result = df.fair(*on_unit_sphere(meshes.ALL[name]()), levels, "minimum_variation")
+    result = tight.fair(*on_unit_sphere(meshes.ALL[name]()), levels, "minimum_variation")
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-5
     assert finest(result)["converged"]
 
@@ -30,7 +30,7 @@ def test_inscribed_meshes_become_spheres(name, levels):
 @pytest.mark.parametrize("name", ["creature", "torus_quads", "wavy_patch"])
 def test_variation_falls_and_total_curvature_started_it(name):
     vertices, faces = meshes.ALL[name]()
-    result = df.fair(vertices, faces, 2, "minimum_variation")
+    result = tight.fair(vertices, faces, 2, "minimum_variation")
     report = finest(result)
     assert 0 < report["variation"] < report["start_variation"]
     assert np.isfinite(result.vertices).all()
@@ -49,7 +49,7 @@ def test_a_patch_of_a_sphere_is_found():
     ]
 
     def error(energy):
-        points = df.fair(vertices, faces, 3, energy).vertices
+        points = tight.fair(vertices, faces, 3, energy).vertices
         middle = points[(np.abs(points[:, :2]) < 0.31).all(axis=1)]
         return np.abs(np.linalg.norm(middle, axis=1) - 1).max()
 
@@ -58,12 +58,12 @@ def test_a_patch_of_a_sphere_is_found():
 
 def test_threads_leave_no_trace():
     one, two = (
-        df.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2)
+        tight.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2)
     )
     assert np.array_equal(one, two)
 
 
 def test_a_flat_mesh_stays_flat():
     vertices, faces = meshes.flat_patch()
-    result = df.fair(vertices, faces, 2, "minimum_variation")
+    result = tight.fair(vertices, faces, 2, "minimum_variation")
     assert np.abs(result.vertices[:, 2] - result.vertices[0, 2]).max() < 1e-12

@@ -5,6 +5,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from surfaces import boundary_vertices, output_faces
 
 NAMES = ("icosahedron", "creature", "wavy_patch", "torus_quads", "random_hull", "house")
@@ -12,7 +13,7 @@ PADS = {"pad_size": 0.5}
 
 
 def near(mesh, levels=3, **options):
-    return df.fair(*mesh, levels, interpolation="approximate", **PADS, **options)
+    return tight.fair(*mesh, levels, interpolation="approximate", **PADS, **options)
 
 
 def moved(result, vertices) -> np.ndarray:
@@ -41,11 +42,11 @@ def test_no_force_is_left_at_a_point(option):
     uniform = {"metric_exponent": 0.0, "relative_residual": 1e-10}
     loose = near((vertices, faces), 2, **option, **uniform)
     there = loose.vertices[: len(vertices)]
-    held = df.fair(there, faces, 2, **PADS, **uniform)
+    held = tight.fair(there, faces, 2, **PADS, **uniform)
     assert loose.report["pads"]["widths"] == held.report["pads"]["widths"]
     size = np.ptp(vertices, axis=0).max()
     assert np.abs(held.vertices - loose.vertices).max() < 1e-5 * size
-    on_points = df.fair(there, faces, 2, **uniform)
+    on_points = tight.fair(there, faces, 2, **uniform)
     assert np.abs(on_points.vertices - loose.vertices).max() > 1e-3 * size
 
 
@@ -53,7 +54,7 @@ def test_no_force_is_left_at_a_point(option):
 @pytest.mark.parametrize("name", ["creature", "torus_quads"])
 def test_near_costs_little_more_than_through(name, tolerance):
     mesh = meshes.ALL[name]()
-    through = df.fair(*mesh, 4, **PADS).report["levels"][-1]["iterations"]
+    through = tight.fair(*mesh, 4, **PADS).report["levels"][-1]["iterations"]
     assert near(mesh, 4, tolerance=tolerance).report["levels"][-1]["iterations"] <= 1.5 * through
 
 
@@ -66,14 +67,14 @@ def test_more_weight_is_closer(name):
         assert result.report["converged"]
         farthest.append(moved(result, vertices).max())
     assert all(close < 0.9 * far for far, close in zip(farthest, farthest[1:]))
-    exact = df.fair(vertices, faces, 3, **PADS)
+    exact = tight.fair(vertices, faces, 3, **PADS)
     assert np.abs(result.vertices - exact.vertices).max() < 1e-3
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_what_cannot_move_is_interpolated(name):
     vertices, faces = meshes.ALL[name]()
-    exact = df.fair(vertices, faces, 2, **PADS).vertices
+    exact = tight.fair(vertices, faces, 2, **PADS).vertices
     count = len(vertices)
     for option in (
         {},
@@ -110,7 +111,7 @@ def test_weights_are_lower_bounds():
 
 def test_vertices_on_curves_stay():
     vertices, faces = meshes.wavy_patch()
-    exact = df.fair(vertices, faces, 3)
+    exact = tight.fair(vertices, faces, 3)
     result = near((vertices, faces), tolerance=0.1)
     rim = boundary_vertices(output_faces(result))
     assert result.vertices[rim].tobytes() == exact.vertices[rim].tobytes()
@@ -138,13 +139,13 @@ def test_pads_give_way_here_too():
 def test_a_solver_gives_the_surface_that_fair_gives(option):
     vertices, faces = meshes.creature()
     options = {"interpolation": "approximate", "relative_residual": 1e-10, **PADS, **option}
-    solver = df.Solver(vertices, faces, 2, **options)
+    solver = tight.Solver(vertices, faces, 2, **options)
     solver.solve()
     there = vertices.copy()
     there[40] += [0.1, 0.05, -0.1]
     dragged = solver.solve(there)
     assert dragged.report["warm"] == ("weights" in option)
-    shape = df.fair(vertices, faces, 2, shapes=[there], **options).shapes[0]
+    shape = tight.fair(vertices, faces, 2, shapes=[there], **options).shapes[0]
     size = np.ptp(vertices, axis=0).max()
     assert np.abs(dragged.vertices - shape).max() < (1e-5 if "weights" in option else 1e-12) * size
 

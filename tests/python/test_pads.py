@@ -5,6 +5,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 
 MESHES = {
     "octahedron": {},
@@ -26,18 +27,27 @@ def energy(result):
 @pytest.mark.parametrize("name", MESHES)
 def test_the_surface_passes_through_every_vertex(name, size):
     vertices, faces = getattr(meshes, name)()
-    result = df.fair(vertices, faces, levels=2, pad_size=size)
+    result = tight.fair(vertices, faces, levels=2, pad_size=size)
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     assert result.report["converged"]
     finest = result.report["levels"][-1]
     assert finest["pad_force"] <= 1e-3
 
 
-def test_no_pads_are_the_default_and_take_no_corrections():
+def test_pads_are_the_default():
     mesh = meshes.creature()
-    plain, none = df.fair(*mesh, levels=2), df.fair(*mesh, levels=2, pad_size=0)
-    assert np.array_equal(plain.vertices, none.vertices)
+    plain, pads, none = df.fair(*mesh), df.fair(*mesh, pad_size=1), df.fair(*mesh, pad_size=0)
+    assert np.array_equal(plain.vertices, pads.vertices)
+    assert plain.report["levels"][-1]["pad_corrections"] > 0
     assert all(level["pad_corrections"] == 0 for level in none.report["levels"])
+
+
+@pytest.mark.parametrize("options", ({"epsilon": 0.01}, {"method": "back_leg"}))
+def test_the_papers_own_methods_have_point_forces(options):
+    mesh = meshes.cube()
+    pads, none = (df.fair(*mesh, pad_size=size, **options) for size in (1, 0))
+    assert np.array_equal(pads.vertices, none.vertices)
+    assert pads.report["pads"]["widths"] == []
 
 
 @pytest.mark.parametrize(
@@ -45,7 +55,7 @@ def test_no_pads_are_the_default_and_take_no_corrections():
 )
 def test_inscribed_meshes_are_nearer_to_the_sphere(name, most):
     mesh = getattr(meshes, name)()
-    found = [energy(df.fair(*mesh, levels=3, pad_size=size)) for size in (0, 0.25, 0.5, 1)]
+    found = [energy(tight.fair(*mesh, levels=3, pad_size=size)) for size in (0, 0.25, 0.5, 1)]
     assert found == sorted(found, reverse=True)
     assert found[-1] < most
 
@@ -55,7 +65,7 @@ def test_the_surface_is_a_linear_map_of_the_positions():
     rng = np.random.default_rng(2)
     first, second = (vertices + 0.1 * rng.standard_normal(vertices.shape) for _ in range(2))
     mixed = 0.3 * first - 0.5 * second + 1.2 * vertices + [3, -4, 5]
-    result = df.fair(
+    result = tight.fair(
         vertices,
         faces,
         levels=2,
@@ -71,21 +81,21 @@ def test_the_surface_is_a_linear_map_of_the_positions():
 @pytest.mark.parametrize("size", (0.5, 1.0))
 def test_threads_leave_no_trace(size):
     mesh = meshes.creature()
-    one, two, five = (df.fair(*mesh, levels=3, pad_size=size, threads=t) for t in (1, 2, 5))
+    one, two, five = (tight.fair(*mesh, levels=3, pad_size=size, threads=t) for t in (1, 2, 5))
     assert np.array_equal(one.vertices, two.vertices)
     assert np.array_equal(one.vertices, five.vertices)
 
 
 def test_a_plane_stays_one():
     vertices, faces = meshes.flat_patch()
-    result = df.fair(vertices, faces, levels=3, pad_size=0.5)
+    result = tight.fair(vertices, faces, levels=3, pad_size=0.5)
     assert np.abs(result.vertices[:, 2]).max() < 1e-9
     assert result.report["converged"]
 
 
 def test_a_symmetric_mesh_stays_symmetric():
     vertices, faces = meshes.cube()
-    points = df.fair(vertices, faces, levels=3, pad_size=0.5, relative_residual=1e-11).vertices
+    points = tight.fair(vertices, faces, levels=3, pad_size=0.5, relative_residual=1e-11).vertices
     for axis in range(3):
         image = points.copy()
         image[:, axis] *= -1
@@ -104,7 +114,7 @@ def test_regions_leave_the_rest_alone(joint):
         < 0.3 * np.ptp(vertices[:, 0])
     ]
     needles, pads = (
-        df.fair(vertices, faces, levels=2, region=region, joint=joint, pad_size=size)
+        tight.fair(vertices, faces, levels=2, region=region, joint=joint, pad_size=size)
         for size in (0, 0.5)
     )
     assert pads.report["converged"]
@@ -120,7 +130,8 @@ def test_curves_depend_on_their_own_vertices_alone():
     vertices, faces = meshes.wavy_patch(6, 5)
     for boundary in ("curve", "linear"):
         needles, pads = (
-            df.fair(vertices, faces, levels=2, boundary=boundary, pad_size=size) for size in (0, 1)
+            tight.fair(vertices, faces, levels=2, boundary=boundary, pad_size=size)
+            for size in (0, 1)
         )
         _, quads = pads.faces
         edges = np.sort(quads[:, [0, 1, 1, 2, 2, 3, 3, 0]].reshape(-1, 2), 1)
@@ -132,15 +143,15 @@ def test_curves_depend_on_their_own_vertices_alone():
 
 def test_a_solver_follows_moved_vertices():
     vertices, faces = meshes.creature()
-    solver = df.Solver(vertices, faces, levels=3, pad_size=0.5)
+    solver = tight.Solver(vertices, faces, levels=3, pad_size=0.5)
     assert np.array_equal(
-        solver.solve().vertices, df.fair(vertices, faces, levels=3, pad_size=0.5).vertices
+        solver.solve().vertices, tight.fair(vertices, faces, levels=3, pad_size=0.5).vertices
     )
     moved = vertices.copy()
     for _ in range(4):
         moved[10] += [0.02, 0.01, 0]
         result = solver.solve(moved)
-        alone = df.fair(vertices, faces, levels=3, pad_size=0.5, shapes=moved[None]).shapes[0]
+        alone = tight.fair(vertices, faces, levels=3, pad_size=0.5, shapes=moved[None]).shapes[0]
         assert result.report["warm"] and result.report["converged"]
         assert np.array_equal(result.vertices[: len(moved)], moved)
         assert np.abs(result.vertices - alone).max() < 5e-5 * np.ptp(vertices)
@@ -158,7 +169,7 @@ def ball_and_its_images():
 @pytest.mark.parametrize("size", (0.5, 1.0))
 def test_pads_give_way_where_a_mesh_is_crumpled(seed, size):
     mesh = meshes.rough_ball(seed, 1)
-    needles, pads = (df.fair(*mesh, levels=2, pad_size=s) for s in (0, size))
+    needles, pads = (tight.fair(*mesh, levels=2, pad_size=s) for s in (0, size))
     assert energy(pads) < 1.1 * energy(needles)
     assert pads.report["converged"]
     found = pads.report["pads"]
@@ -172,13 +183,13 @@ def test_pads_give_way_where_a_mesh_is_crumpled(seed, size):
 
 @pytest.mark.parametrize("name", ("creature", "icosahedron", "torus", "three_handles"))
 def test_smooth_meshes_keep_all_widths(name):
-    report = df.fair(*getattr(meshes, name)(), levels=3, pad_size=0.5).report
+    report = tight.fair(*getattr(meshes, name)(), levels=3, pad_size=0.5).report
     assert set(report["pads"]["widths"]) == {0.5}
     assert report["pads"]["narrower"] == report["pads"]["gone"] == 0
 
 
 def test_without_pads_there_are_no_widths():
-    report = df.fair(*meshes.cube(), levels=1).report
+    report = tight.fair(*meshes.cube(), levels=1).report
     assert report["pads"] == {"narrower": 0, "gone": 0, "widths": []}
 
 
@@ -188,7 +199,7 @@ def test_widths_depend_neither_on_threads_nor_on_the_side():
     right = vertices[:, 0] > 1e-12
     vertices[right] = rough[right]
     vertices[image[right]] = rough[right] * [-1, 1, 1]
-    one, two = (df.fair(vertices, faces, levels=3, pad_size=0.5, threads=t) for t in (1, 2))
+    one, two = (tight.fair(vertices, faces, levels=3, pad_size=0.5, threads=t) for t in (1, 2))
     assert one.report["pads"] == two.report["pads"]
     assert np.array_equal(one.vertices, two.vertices)
     widths = np.array(one.report["pads"]["widths"])
@@ -198,7 +209,7 @@ def test_widths_depend_neither_on_threads_nor_on_the_side():
 
 def test_widths_stay_while_vertices_move():
     vertices, faces = meshes.rough_ball(roughness=1)
-    solver = df.Solver(vertices, faces, levels=2, pad_size=0.5)
+    solver = tight.Solver(vertices, faces, levels=2, pad_size=0.5)
     first = solver.solve().report["pads"]
     assert first["narrower"] > 0
     round_ball, _ = meshes.rough_ball(roughness=0)
@@ -207,27 +218,13 @@ def test_widths_stay_while_vertices_move():
     assert set(solver.solve(round_ball).report["pads"]["widths"]) == {0.5}
 
 
-@pytest.mark.parametrize(
-    "options",
-    (
-        {"epsilon": 0.01},
-        {"method": "back_leg"},
-    ),
-)
-def test_what_has_no_pads_is_refused(options):
-    with pytest.raises(df.FairingError) as caught:
-        df.fair(*meshes.cube(), pad_size=0.5, **options)
-    assert caught.value.code == "BAD_OPTION"
-    assert "pad_size" in str(caught.value)
-
-
 @pytest.mark.parametrize("size", (-0.1, 1.5))
 def test_sizes_beyond_the_faces_are_refused(size):
     with pytest.raises(df.FairingError, match="pad_size"):
-        df.fair(*meshes.cube(), pad_size=size)
+        tight.fair(*meshes.cube(), pad_size=size)
 
 
 def test_a_run_on_pads_can_be_cancelled():
     with pytest.raises(df.FairingError) as caught:
-        df.fair(*meshes.creature(), levels=6, pad_size=0.5, progress=lambda *_: False)
+        tight.fair(*meshes.creature(), levels=6, pad_size=0.5, progress=lambda *_: False)
     assert caught.value.code == "CANCELLED"

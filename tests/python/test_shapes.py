@@ -6,6 +6,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from surfaces import as_lists, size_of
 
 SAMPLES = ["icosahedron", "cube", "dodecahedron", "house", "creature", "wavy_patch", "roof"]
@@ -24,8 +25,8 @@ def sample(name):
 def test_control_rows_are_exact_and_the_basis_is_the_first_surface(name):
     vertices, faces = sample(name)
     shape = shaken(vertices, 1)
-    result = df.fair(vertices, faces, 3, shapes=[shape, vertices, shape])
-    plain = df.fair(vertices, faces, 3)
+    result = tight.fair(vertices, faces, 3, shapes=[shape, vertices, shape])
+    plain = tight.fair(vertices, faces, 3)
     assert np.array_equal(result.vertices, plain.vertices)
     assert [s.shape for s in result.shapes] == 3 * [result.vertices.shape]
     assert np.array_equal(result.shapes[0][: len(vertices)], shape)
@@ -41,7 +42,7 @@ def test_control_rows_are_exact_and_the_basis_is_the_first_surface(name):
 def test_mixes_are_linear(name, boundary):
     vertices, faces = sample(name)
     a, b = shaken(vertices, 1), shaken(vertices, 2, 0.5) * [1, -2, 1] + [3, 0, 0]
-    result = df.fair(
+    result = tight.fair(
         vertices,
         faces,
         3,
@@ -59,7 +60,7 @@ def test_mixes_are_linear(name, boundary):
 def test_an_affine_image_has_the_affine_surface(name):
     vertices, faces = sample(name)
     matrix = np.array([[1, 0.4, 0], [-0.2, 3, 0.1], [0, 0, 0.5]])
-    result = df.fair(vertices, faces, 3, shapes=[vertices @ matrix + [4, 5, 6]])
+    result = tight.fair(vertices, faces, 3, shapes=[vertices @ matrix + [4, 5, 6]])
     assert np.abs(result.shapes[0] - (result.vertices @ matrix + [4, 5, 6])).max() < 1e-6 * size_of(
         vertices
     )
@@ -69,24 +70,24 @@ def test_a_shape_is_not_the_mesh_of_its_own():
     """Its charts are those of the basis: what a separate run makes of it is another surface."""
     vertices, faces = sample("creature")
     shape = vertices * [1, 1, 6.0]
-    together = df.fair(vertices, faces, 2, shapes=[shape]).shapes[0]
-    assert np.abs(together - df.fair(shape, faces, 2).vertices).max() > 1e-3
+    together = tight.fair(vertices, faces, 2, shapes=[shape]).shapes[0]
+    assert np.abs(together - tight.fair(shape, faces, 2).vertices).max() > 1e-3
 
 
 def test_a_surface_depends_on_its_own_shape_alone():
     vertices, faces = sample("creature")
     a, b, c = (shaken(vertices, k) for k in range(3))
-    first = df.fair(vertices, faces, 3, shapes=[a, b, c]).shapes
-    other = df.fair(vertices, faces, 3, shapes=[c, a]).shapes
+    first = tight.fair(vertices, faces, 3, shapes=[a, b, c]).shapes
+    other = tight.fair(vertices, faces, 3, shapes=[c, a]).shapes
     assert np.array_equal(first[0], other[1]) and np.array_equal(first[2], other[0])
-    threads = df.fair(vertices, faces, 3, shapes=np.array([a, b]), threads=3).shapes
+    threads = tight.fair(vertices, faces, 3, shapes=np.array([a, b]), threads=3).shapes
     assert np.array_equal(first[0], threads[0]) and np.array_equal(first[1], threads[1])
 
 
 def test_creases_use_the_parameters_of_the_basis():
     (vertices, faces), ridge = meshes.roof()
     a, b = shaken(vertices, 1), shaken(vertices, 2)
-    result = df.fair(vertices, faces, 3, shapes=[a, b, (a + b) / 2], crease_edges=ridge)
+    result = tight.fair(vertices, faces, 3, shapes=[a, b, (a + b) / 2], crease_edges=ridge)
     on_ridge = np.abs(result.vertices[:, 0]) < 1e-12
     of_a, of_b, mix = (s[on_ridge] for s in result.shapes)
     assert on_ridge.sum() > 8 * len(ridge)
@@ -95,7 +96,7 @@ def test_creases_use_the_parameters_of_the_basis():
 
 def test_it_takes_few_iterations():
     vertices, faces = sample("creature")
-    result = df.fair(vertices, faces, 4, shapes=[shaken(vertices, k, 0.1) for k in range(3)])
+    result = tight.fair(vertices, faces, 4, shapes=[shaken(vertices, k, 0.1) for k in range(3)])
     own = result.report["iterations"][-1]
     for entry in result.report["shapes"]:
         assert 0 < entry["iterations"] <= own + 8  # the smoother no longer adapts
@@ -105,7 +106,7 @@ def test_it_takes_few_iterations():
 def test_with_a_region(joint):
     vertices, faces = sample("dodecahedron")
     a, b = shaken(vertices, 1), shaken(vertices, 2)
-    result = df.fair(
+    result = tight.fair(
         vertices, faces, 3, shapes=[a, b, a + b - vertices], region=[0, 1, 2], joint=joint
     )
     of_a, of_b, mix = result.shapes
@@ -120,7 +121,7 @@ def test_weights_are_linear_too():
     vertices, faces = sample("creature")
     a, b = shaken(vertices, 1), shaken(vertices, 2)
     weights = np.random.default_rng(3).uniform(0.5, 20, len(vertices))
-    result = df.fair(
+    result = tight.fair(
         vertices, faces, 2, interpolation="approximate", weights=weights, shapes=[a, b, (a + b) / 2]
     )
     of_a, of_b, mix = result.shapes
@@ -131,8 +132,10 @@ def test_weights_are_linear_too():
 def test_every_shape_keeps_the_tolerance_about_its_own_places():
     vertices, faces = sample("creature")
     shapes = [shaken(vertices, k, 0.1) for k in range(3)]
-    result = df.fair(vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes)
-    reverse = df.fair(
+    result = tight.fair(
+        vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes
+    )
+    reverse = tight.fair(
         vertices, faces, 2, interpolation="approximate", tolerance=0.04, shapes=shapes[::-1]
     )
     for k, shape in enumerate(shapes):
@@ -146,7 +149,7 @@ def test_every_shape_keeps_the_tolerance_about_its_own_places():
 def test_epsilon_lets_go_around_each_shape_s_own_places():
     vertices, faces = sample("icosahedron")
     shape = shaken(vertices, 1) + [0, 0, 9]
-    result = df.fair(vertices, faces, 3, epsilon=0.02, shapes=[shape])
+    result = tight.fair(vertices, faces, 3, epsilon=0.02, shapes=[shape])
     away = np.linalg.norm(result.shapes[0][: len(vertices)] - shape, axis=1)
     assert 0 < away.max() <= 0.02
 
@@ -154,7 +157,7 @@ def test_epsilon_lets_go_around_each_shape_s_own_places():
 def test_back_leg():
     vertices, faces = sample("icosahedron")
     a = shaken(vertices, 1)
-    result = df.fair(vertices, faces, 3, method="back_leg", shapes=[a, 2 * a - vertices])
+    result = tight.fair(vertices, faces, 3, method="back_leg", shapes=[a, 2 * a - vertices])
     assert np.abs(result.shapes[1] - (2 * result.shapes[0] - result.vertices)).max() < 1e-9
 
 
@@ -162,7 +165,7 @@ def test_isolated_vertices_follow_their_shape():
     vertices, faces = sample("icosahedron")
     vertices = np.concatenate([vertices, [[5, 5, 5]]])
     shape = vertices + [1, 0, 0]
-    result = df.fair(vertices, faces, 2, shapes=[shape])
+    result = tight.fair(vertices, faces, 2, shapes=[shape])
     assert np.array_equal(result.shapes[0][:13], shape)
 
 
@@ -172,12 +175,12 @@ def test_memory_is_predicted_and_kept():
     size = df.predicted_size(len(vertices), faces, 6)
     more = df.predicted_size(len(vertices), faces, 6, shapes=4)
     assert more["bytes"] - size["bytes"] == 4 * 24 * size["vertices"]
-    report = df.fair(vertices, faces, 6, shapes=shapes, measure=False).report
+    report = tight.fair(vertices, faces, 6, shapes=shapes, measure=False).report
     assert report["predicted_bytes"] == more["bytes"]
     assert report["peak_bytes"] <= report["predicted_bytes"]
     assert report["peak_bytes"] > 0.6 * report["predicted_bytes"]
     with pytest.raises(df.FairingError) as caught:
-        df.fair(
+        tight.fair(
             vertices, faces, 6, shapes=shapes, memory_limit=(size["bytes"] + more["bytes"]) // 2
         )
     assert caught.value.code == "TOO_LARGE"
@@ -187,17 +190,19 @@ def test_progress_never_goes_back_and_cancel_works_in_a_shape():
     vertices, faces = meshes.icosahedron()
     shapes = [shaken(vertices, k) for k in range(5)]
     seen = []
-    df.fair(vertices, faces, 6, shapes=shapes, progress=lambda f, _: seen.append(f), measure=False)
+    tight.fair(
+        vertices, faces, 6, shapes=shapes, progress=lambda f, _: seen.append(f), measure=False
+    )
     assert seen == sorted(seen) and seen[-1] == 1 and len({round(f, 3) for f in seen}) > 3
     with pytest.raises(df.FairingError) as caught:
-        df.fair(vertices, faces, 7, shapes=shapes, progress=lambda f, _: f < 0.4, measure=False)
+        tight.fair(vertices, faces, 7, shapes=shapes, progress=lambda f, _: f < 0.4, measure=False)
     assert caught.value.code == "CANCELLED"
 
 
 def test_no_shapes():
     vertices, faces = meshes.icosahedron()
     for none in (None, [], np.empty((0, 12, 3))):
-        result = df.fair(vertices, faces, 1, shapes=none)
+        result = tight.fair(vertices, faces, 1, shapes=none)
         assert result.shapes == [] and result.report["shapes"] == []
 
 
@@ -207,7 +212,7 @@ def test_no_shapes():
 )
 def test_wrong_shapes(shapes):
     with pytest.raises(df.FairingError) as caught:
-        df.fair(*meshes.icosahedron(), 1, shapes=shapes)
+        tight.fair(*meshes.icosahedron(), 1, shapes=shapes)
     assert caught.value.code == "BAD_SHAPE"
 
 
@@ -216,7 +221,7 @@ def test_shapes_that_are_not_finite():
     bad = vertices.copy()
     bad[[3, 7], 1] = np.nan, np.inf
     with pytest.raises(df.FairingError) as caught:
-        df.fair(vertices, faces, 1, shapes=[vertices, bad])
+        tight.fair(vertices, faces, 1, shapes=[vertices, bad])
     error = caught.value
     assert (error.code, error.elements, error.kind) == ("NON_FINITE", [3, 7], "vertex")
     assert "shape 1" in str(error)

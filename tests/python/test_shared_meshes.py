@@ -4,6 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import creases_of, shared_files
 
@@ -48,7 +49,7 @@ def test_good_meshes_converge(path):
     if len(edges) + len(corners):
         options.append({"crease_edges": edges, "corner_vertices": corners})
     for option in options:
-        result = df.fair(vertices, faces, 2, threads=1, **option)
+        result = tight.fair(vertices, faces, 2, threads=1, **option)
         assert_sound(result, vertices)
         assert result.report["converged"]
         assert max(result.report["iterations"]) <= 40
@@ -62,7 +63,7 @@ def test_bad_meshes_end_well(path, repair):
     except ValueError as error:
         pytest.skip(f"the reader refuses it: {error}")
     try:
-        result = df.fair(vertices, faces, 1, repair_orientation=repair)
+        result = tight.fair(vertices, faces, 1, repair_orientation=repair)
     except df.FairingError as error:
         assert error.code in CODES and len(str(error)) > 15
         assert error.elements or error.code in ("EMPTY_MESH", "NO_FACES")

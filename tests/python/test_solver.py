@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solver: which surface comes out, the first time and after the vertices have moved."""
 
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from moving import icosphere, moved, sample, slid
 from surfaces import size_of
 
@@ -33,8 +33,8 @@ LINEAR = ["plain", "free boundary", "linear boundary", "creases", "region"]
 @pytest.mark.parametrize("name", SAMPLES)
 def test_the_first_surface_is_that_of_fair(name, kind):
     vertices, faces = sample(name)
-    expected = df.fair(vertices, faces, 2, **SETTINGS[kind])
-    result = df.Solver(vertices, faces, 2, **SETTINGS[kind]).solve()
+    expected = tight.fair(vertices, faces, 2, **SETTINGS[kind])
+    result = tight.Solver(vertices, faces, 2, **SETTINGS[kind]).solve()
     assert np.array_equal(result.vertices, expected.vertices)
     for own, other in zip(result.faces, expected.faces, strict=True):
         assert np.array_equal(own, other)
@@ -49,9 +49,9 @@ def test_the_first_surface_is_that_of_fair(name, kind):
 def test_the_first_surface_with_weights():
     vertices, faces = sample("creature")
     settings = {"interpolation": "approximate", "weights": np.linspace(1, 9, len(vertices))}
-    expected = df.fair(vertices, faces, 2, **settings).vertices
+    expected = tight.fair(vertices, faces, 2, **settings).vertices
     assert np.array_equal(
-        df.Solver(vertices, faces, 2, **settings).solve(vertices).vertices, expected
+        tight.Solver(vertices, faces, 2, **settings).solve(vertices).vertices, expected
     )
 
 
@@ -61,8 +61,8 @@ def test_moved_surfaces_are_those_of_shapes(name, kind):
     """One linear map of the positions, however the solver came there."""
     vertices, faces = sample(name)
     way = [moved(vertices, 0.05, k) for k in range(3)] + [vertices, vertices * [1, 2, 0.5] + 3]
-    expected = df.fair(vertices, faces, 3, shapes=way, **SETTINGS[kind]).shapes
-    solver = df.Solver(vertices, faces, 3, **SETTINGS[kind])
+    expected = tight.fair(vertices, faces, 3, shapes=way, **SETTINGS[kind]).shapes
+    solver = tight.Solver(vertices, faces, 3, **SETTINGS[kind])
     solver.solve()
     for positions, surface in zip(way, expected, strict=True):
         result = solver.solve(positions)
@@ -76,8 +76,8 @@ def test_moved_surfaces_with_weights():
     vertices, faces = sample("creature")
     way = [moved(vertices, 0.1, k) for k in range(3)]
     settings = {"interpolation": "approximate", "weights": np.linspace(1, 9, len(vertices))}
-    expected = df.fair(vertices, faces, 3, shapes=way, **settings).shapes
-    solver = df.Solver(vertices, faces, 3, **settings)
+    expected = tight.fair(vertices, faces, 3, shapes=way, **settings).shapes
+    solver = tight.Solver(vertices, faces, 3, **settings)
     solver.solve()
     for positions, surface in zip(way, expected, strict=True):
         result = solver.solve(positions)
@@ -89,21 +89,21 @@ def test_starting_elsewhere():
     """The first positions need not be those of the charts."""
     vertices, faces = sample("creature")
     shape = moved(vertices)
-    expected = df.fair(vertices, faces, 3, shapes=[shape]).shapes[0]
-    result = df.Solver(vertices, faces, 3).solve(shape)
+    expected = tight.fair(vertices, faces, 3, shapes=[shape]).shapes[0]
+    result = tight.Solver(vertices, faces, 3).solve(shape)
     assert not result.report["warm"]
     assert np.abs(result.vertices - expected).max() < 1e-6
 
 
 def test_a_tolerance_is_kept_wherever_vertices_go():
     vertices, faces = sample("creature")
-    solver = df.Solver(vertices, faces, 2, interpolation="approximate", tolerance=0.04)
+    solver = tight.Solver(vertices, faces, 2, interpolation="approximate", tolerance=0.04)
     solver.solve()
     shape = moved(vertices, 0.1)
     result = solver.solve(shape)
     away = np.linalg.norm(result.vertices[: len(vertices)] - shape, axis=1)
     assert 0.03 < away.max() <= 0.04
-    expected = df.fair(
+    expected = tight.fair(
         vertices, faces, 2, shapes=[shape], interpolation="approximate", tolerance=0.04
     ).shapes[0]
     assert np.abs(result.vertices - expected).max() < 1e-6
@@ -111,13 +111,13 @@ def test_a_tolerance_is_kept_wherever_vertices_go():
 
 def test_epsilon_lets_go_around_the_new_places():
     vertices, faces = sample("icosahedron")
-    solver = df.Solver(vertices, faces, 3, epsilon=0.02)
+    solver = tight.Solver(vertices, faces, 3, epsilon=0.02)
     solver.solve()
     shape = moved(vertices)
     result = solver.solve(shape)
     away = np.linalg.norm(result.vertices[: len(vertices)] - shape, axis=1)
     assert 0 < away.max() <= 0.02
-    expected = df.fair(vertices, faces, 3, epsilon=0.02, shapes=[shape]).shapes[0]
+    expected = tight.fair(vertices, faces, 3, epsilon=0.02, shapes=[shape]).shapes[0]
     assert np.abs(result.vertices - expected).max() < 1e-6
 
 
@@ -125,7 +125,7 @@ def test_a_drag_is_extrapolated():
     """Once part of a mesh has begun to go somewhere, hardly an iteration is left."""
     vertices, faces = icosphere(2)
     pulled = np.exp(-6 * np.linalg.norm(vertices - vertices[0], axis=1) ** 2)[:, None]
-    solver = df.Solver(vertices, faces, 3)
+    solver = tight.Solver(vertices, faces, 3)
     fresh = solver.solve().report["iterations"][-1]
     solver.solve(vertices + 0.05 * pulled * [0.2, 0.3, 1])
     for k in range(2, 6):
@@ -137,7 +137,7 @@ def test_a_drag_is_extrapolated():
 def test_affine_images_need_no_iteration():
     vertices, faces = icosphere(2)
     matrix = np.array([[1, 0.4, 0], [-0.2, 3, 0.1], [0, 0, 0.5]])
-    solver = df.Solver(vertices, faces, 3)
+    solver = tight.Solver(vertices, faces, 3)
     first = solver.solve()
     result = solver.solve(vertices @ matrix + [4, 5, 6])
     assert result.report["iterations"] == [0]
@@ -146,7 +146,7 @@ def test_affine_images_need_no_iteration():
 
 def test_the_same_positions_again_move_nothing():
     vertices, faces = sample("creature")
-    solver = df.Solver(vertices, faces, 3)
+    solver = tight.Solver(vertices, faces, 3)
     first = solver.solve()
     assert np.abs(solver.solve().vertices - first.vertices).max() < 1e-8
 
@@ -154,7 +154,7 @@ def test_the_same_positions_again_move_nothing():
 @pytest.mark.parametrize("energy", CURVED)
 def test_a_sphere_stays_that_sphere(energy):
     vertices, faces = icosphere(1)
-    solver = df.Solver(vertices, faces, 3, energy)
+    solver = tight.Solver(vertices, faces, 3, energy)
     solver.solve()
     for k in range(1, 5):
         positions = slid(vertices, 0.03, k)
@@ -167,7 +167,7 @@ def test_a_sphere_stays_that_sphere(energy):
 
 def test_steps_on_the_finest_level_alone():
     vertices, faces = icosphere(1)
-    solver = df.Solver(vertices, faces, 3, "total_curvature")
+    solver = tight.Solver(vertices, faces, 3, "total_curvature")
     fresh = solver.solve().report["curvature"]
     moved_on = solver.solve(slid(vertices, 0.01, 1)).report["curvature"]
     assert [level["level"] for level in fresh] == [1, 2, 3]
@@ -182,11 +182,11 @@ def test_a_dragged_cage_comes_to_the_least_energy(energy):
     vertices = vertices * [1, 1.4, 0.8]
     pulled = np.exp(-6 * np.linalg.norm(vertices - vertices[0], axis=1) ** 2)[:, None]
     dragged = vertices + 0.1 * pulled * [0.2, 0.3, 0.5]
-    solver = df.Solver(vertices, faces, 3, energy, measure=True)
+    solver = tight.Solver(vertices, faces, 3, energy, measure=True)
     solver.solve()
     for share in (0.25, 0.5, 0.75, 1):
         result = solver.solve(vertices + share * (dragged - vertices))
-    fresh = df.fair(dragged, faces, 3, energy)
+    fresh = tight.fair(dragged, faces, 3, energy)
     assert result.report["warm"] and result.report["converged"]
     own, other = (r.report["energy"]["result"]["total_curvature"] for r in (result, fresh))
     assert own == pytest.approx(other, rel=2e-3)
@@ -196,11 +196,11 @@ def test_a_dragged_cage_comes_to_the_least_energy(energy):
 @pytest.mark.parametrize("energy", CURVED)
 def test_far_moves_start_level_by_level(energy):
     vertices, faces = icosphere(1)
-    solver = df.Solver(vertices, faces, 2, energy)
+    solver = tight.Solver(vertices, faces, 2, energy)
     solver.solve()
     far = vertices * np.where(np.arange(len(vertices)) % 2, 1.0, 2.0)[:, None]
     result = solver.solve(far)
-    expected = df.fair(vertices, faces, 2, energy, shapes=[far]).shapes[0]
+    expected = tight.fair(vertices, faces, 2, energy, shapes=[far]).shapes[0]
     assert not result.report["warm"]
     assert np.array_equal(result.vertices[: len(vertices)], far)
     assert np.abs(result.vertices - expected).max() < 1e-3
@@ -209,7 +209,7 @@ def test_far_moves_start_level_by_level(energy):
 @pytest.mark.parametrize("energy", CURVED)
 def test_symmetry_is_kept_on_the_way(energy):
     vertices, faces = icosphere(1)
-    solver = df.Solver(vertices, faces, 2, energy)
+    solver = tight.Solver(vertices, faces, 2, energy)
     solver.solve()
     image = [int(np.argmin(np.linalg.norm(vertices - p * [-1, 1, 1], axis=1))) for p in vertices]
     for k in range(1, 4):

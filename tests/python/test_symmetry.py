@@ -2,9 +2,9 @@
 """What is flat stays flat; what is mirror-symmetric stays so."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from mesh_files import read_mesh, weld
 from shared_data import shared_files
 from surfaces import assert_same_points, assert_same_positions, random_rotation, size_of
@@ -26,7 +26,7 @@ MODES = [
 def test_planar_stays_planar(mesh, mode):
     vertices, faces = mesh()
     rotation, shift = random_rotation(7), np.array([1.0, 2.0, 3.0])
-    result = df.fair(vertices @ rotation.T + shift, faces, 3, **mode)
+    result = tight.fair(vertices @ rotation.T + shift, faces, 3, **mode)
     height = (result.vertices - shift) @ rotation[:, 2]
     assert np.abs(height).max() <= 1e-9 * size_of(vertices)
 
@@ -35,14 +35,14 @@ def test_planar_stays_planar(mesh, mode):
 def test_a_coordinate_that_is_zero_stays_zero(mode):
     """No rotation, no rounding: x and y do not leak into z."""
     vertices, faces = meshes.flat_patch()
-    assert not df.fair(vertices, faces, 3, **mode).vertices[:, 2].any()
+    assert not tight.fair(vertices, faces, 3, **mode).vertices[:, 2].any()
 
 
 @pytest.mark.parametrize("mode", [*MODES, {"crease_angle": 0.8}], ids=str)
 @pytest.mark.parametrize("levels", [1, 2, 3])
 def test_mirror_symmetric_stays_so(levels, mode):
     vertices, faces = meshes.creature()
-    result = df.fair(vertices, faces, levels, **mode)
+    result = tight.fair(vertices, faces, levels, **mode)
     assert_same_points(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size_of(vertices))
 
 
@@ -51,7 +51,7 @@ def test_mirror_symmetric_stays_so(levels, mode):
 def test_platonic_symmetry(name, exponent):
     """The three coordinate planes mirror each of these."""
     vertices, faces = meshes.ALL[name]()
-    result = df.fair(vertices, faces, 3, metric_exponent=exponent)
+    result = tight.fair(vertices, faces, 3, metric_exponent=exponent)
     for axis in range(3):
         flip = np.ones(3)
         flip[axis] = -1
@@ -67,5 +67,5 @@ def test_welded_suzanne_stays_symmetric(path):
     points, faces = weld(vertices, faces, 5)
     size = size_of(points)
     assert_same_positions(points * [-1, 1, 1], points, 1e-9 * size)
-    result = df.fair(points, faces, 2)
+    result = tight.fair(points, faces, 2)
     assert_same_positions(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size)

@@ -3,9 +3,9 @@
 is."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from mesh_files import read_mesh, weld
 from shared_data import shared_files
 from surfaces import assert_same_points, assert_same_positions, random_rotation, size_of
@@ -55,7 +55,7 @@ def assert_symmetric(points, axis=0, tolerance=TO_ROUNDING):
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_stays_symmetric(energy, kind, levels):
     vertices, faces = crumpled(kind)
-    result = df.fair(vertices, faces, levels, energy)
+    result = tight.fair(vertices, faces, levels, energy)
     assert_symmetric(result.vertices)
     assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
 
@@ -64,7 +64,7 @@ def test_stays_symmetric(energy, kind, levels):
 @pytest.mark.parametrize("kind", FACES)
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_in_every_mode(energy, kind, mode):
-    assert_symmetric(df.fair(*crumpled(kind), 2, energy, **mode).vertices)
+    assert_symmetric(tight.fair(*crumpled(kind), 2, energy, **mode).vertices)
 
 
 @pytest.mark.parametrize("kind", FACES)
@@ -73,7 +73,7 @@ def test_anywhere_and_turned(energy, kind):
     vertices, faces = crumpled(kind)
     rotation, shift = random_rotation(4), np.array([30.0, -20, 7])
     for turn in (np.eye(3), rotation):
-        moved = df.fair(vertices @ turn.T + shift, faces, 2, energy).vertices
+        moved = tight.fair(vertices @ turn.T + shift, faces, 2, energy).vertices
         assert_symmetric((moved - shift) @ turn, tolerance=1e-12)
 
 
@@ -81,14 +81,14 @@ def test_anywhere_and_turned(energy, kind):
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_three_planes_at_once(energy, name):
     vertices, faces = meshes.ALL[name]()
-    points = df.fair(vertices * [1, 1.5, 0.3], faces, 3, energy).vertices
+    points = tight.fair(vertices * [1, 1.5, 0.3], faces, 3, energy).vertices
     for axis in range(3):
         assert_symmetric(points, axis)
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_number_of_threads(energy):
-    one, two = (df.fair(*crumpled("both"), 2, energy, threads=t).vertices for t in (1, 2))
+    one, two = (tight.fair(*crumpled("both"), 2, energy, threads=t).vertices for t in (1, 2))
     assert one.tobytes() == two.tobytes()
 
 
@@ -96,7 +96,7 @@ def test_number_of_threads(energy):
 def test_shapes_that_are_symmetric_stay_so(energy):
     vertices, faces = crumpled("both")
     taller, leaning = vertices * [1, 1, 1.3], vertices + vertices[:, [2, 0, 0]] * [0.2, 0, 0]
-    shapes = df.fair(vertices, faces, 2, energy, shapes=[taller, leaning]).shapes
+    shapes = tight.fair(vertices, faces, 2, energy, shapes=[taller, leaning]).shapes
     assert_symmetric(shapes[0])
     assert shapes[1][: len(vertices)].tobytes() == leaning.tobytes()
 
@@ -128,7 +128,7 @@ def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
     off = vertices.copy()
     off[at[1, 1], 2] += 1e-9
     one, other = (
-        df.fair(v, faces, 2, "total_curvature", **settled).vertices for v in (vertices, off)
+        tight.fair(v, faces, 2, "total_curvature", **settled).vertices for v in (vertices, off)
     )
     assert np.abs(one - other).max() <= 1e-7
     with pytest.raises(AssertionError):
@@ -144,6 +144,6 @@ def test_welded_suzanne_stays_symmetric(path, energy, levels):
     if "suzanne" not in path.name:
         pytest.skip("not Suzanne")
     points, faces = weld(*read_mesh(path), 5)
-    result = df.fair(points, faces, levels, energy)
+    result = tight.fair(points, faces, levels, energy)
     size = size_of(points)
     assert_same_positions(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size)

@@ -5,6 +5,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+import tight
 from shared_data import SHARED, read_obj
 from surfaces import boundary_vertices, size_of
 
@@ -42,7 +43,7 @@ def energies(result):
 @pytest.mark.parametrize("energy", (*ENERGIES, "minimum_variation"))
 def test_none_is_the_default(energy):
     mesh = meshes.creature()
-    plain, none = (df.fair(*mesh, levels=2, energy=energy, **t) for t in ({}, {"tension": 0}))
+    plain, none = (tight.fair(*mesh, levels=2, energy=energy, **t) for t in ({}, {"tension": 0}))
     assert np.array_equal(plain.vertices, none.vertices)
 
 
@@ -51,7 +52,7 @@ def test_none_is_the_default(energy):
 def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
     vertices, faces = mesh_of(name)
     found = [
-        df.fair(vertices, faces, levels=2, energy=energy, tension=tension)
+        tight.fair(vertices, faces, levels=2, energy=energy, tension=tension)
         for tension in (0, 0.25, 0.5, 0.75, 1)
     ]
     areas = [area(result) for result in found]
@@ -65,11 +66,11 @@ def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
 def test_reported_energies_are_of_bending_alone(name):
     mesh = mesh_of(name)
     bending = [
-        energies(df.fair(*mesh, levels=2, tension=tension))["thin_plate"]
+        energies(tight.fair(*mesh, levels=2, tension=tension))["thin_plate"]
         for tension in (0, 0.3, 0.6, 1)
     ]
     assert bending == sorted(bending)  # the first is the least there is
-    result = df.fair(*mesh, levels=2, tension=0.5, energy="total_curvature")
+    result = tight.fair(*mesh, levels=2, tension=0.5, energy="total_curvature")
     steps = result.report["curvature"][-1]
     measured = energies(result)["total_curvature"]
     assert steps["energy"] == pytest.approx(measured, rel=0.05)
@@ -92,7 +93,8 @@ def test_equal_steps_take_about_equal_volumes(name, energy, uneven):
         pytest.skip("no shared meshes")
     vertices, faces = read_obj(path)
     volumes = [
-        volume(df.fair(vertices, faces, levels=2, energy=energy, tension=t / 4)) for t in range(5)
+        volume(tight.fair(vertices, faces, levels=2, energy=energy, tension=t / 4))
+        for t in range(5)
     ]
     steps = -np.diff(volumes)
     assert steps.min() > 0
@@ -104,7 +106,9 @@ def test_equal_steps_take_about_equal_volumes(name, energy, uneven):
 def test_the_solver_takes_hardly_more_iterations(name, pad_size):
     mesh = mesh_of(name)
     none, half, full = (
-        df.fair(*mesh, levels=5, pad_size=pad_size, tension=t, measure=False).report["levels"][-1]
+        tight.fair(*mesh, levels=5, pad_size=pad_size, tension=t, measure=False).report["levels"][
+            -1
+        ]
         for t in (0, 0.5, 1)
     )
     assert max(half["iterations"], full["iterations"]) <= 1.5 * none["iterations"]
@@ -117,7 +121,7 @@ def test_the_plate_is_a_linear_map_of_the_positions(pad_size):
     rng = np.random.default_rng(2)
     first, second = (vertices + 0.1 * rng.standard_normal(vertices.shape) for _ in range(2))
     mixed = 0.3 * first - 0.5 * second + 1.2 * vertices + [3, -4, 5]
-    result = df.fair(
+    result = tight.fair(
         vertices,
         faces,
         levels=2,
@@ -134,7 +138,7 @@ def test_the_plate_is_a_linear_map_of_the_positions(pad_size):
 @pytest.mark.parametrize("name", ("octahedron", "cube", "creature", "wavy_patch"))
 def test_pads_hold_every_vertex_under_tension(name):
     vertices, faces = mesh_of(name)
-    result = df.fair(vertices, faces, levels=3, pad_size=0.5, tension=0.8)
+    result = tight.fair(vertices, faces, levels=3, pad_size=0.5, tension=0.8)
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     assert result.report["converged"]
     assert result.report["levels"][-1]["pad_force"] <= 1e-3
@@ -144,7 +148,7 @@ def test_pads_hold_every_vertex_under_tension(name):
 def test_a_scaled_mesh_has_the_scaled_surface(energy):
     vertices, faces = meshes.creature()
     options = {"levels": 2, "energy": energy, "tension": 0.6, "relative_residual": 1e-11}
-    one, large = (df.fair(scale * vertices, faces, **options).vertices for scale in (1, 1000))
+    one, large = (tight.fair(scale * vertices, faces, **options).vertices for scale in (1, 1000))
     assert np.abs(large / 1000 - one).max() < 1e-5 * size_of(vertices)
 
 
@@ -152,7 +156,7 @@ def test_a_scaled_mesh_has_the_scaled_surface(energy):
 @pytest.mark.parametrize("boundary", ("curve", "linear", "free"))
 def test_a_plane_stays_one(boundary, energy):
     vertices, faces = meshes.flat_patch()
-    result = df.fair(vertices, faces, levels=3, boundary=boundary, energy=energy, tension=0.5)
+    result = tight.fair(vertices, faces, levels=3, boundary=boundary, energy=energy, tension=0.5)
     assert np.abs(result.vertices[:, 2]).max() < 1e-9
     assert result.report["converged"]
 
@@ -160,7 +164,7 @@ def test_a_plane_stays_one(boundary, energy):
 def test_curves_depend_on_their_own_vertices_alone():
     mesh = meshes.wavy_patch(6, 5)
     for boundary in ("curve", "linear"):
-        slack, taut = (df.fair(*mesh, levels=2, boundary=boundary, tension=t) for t in (0, 1))
+        slack, taut = (tight.fair(*mesh, levels=2, boundary=boundary, tension=t) for t in (0, 1))
         rim = boundary_vertices(taut.triangles)
         assert len(rim) == 4 * 2 * (6 + 5)
         assert np.array_equal(slack.vertices[rim], taut.vertices[rim])
@@ -181,15 +185,15 @@ def test_a_region_knows_nothing_of_the_rest(joint, energy):
     options = {"levels": 2, "region": region, "joint": "position", "energy": energy}
     points = {}
     for key, positions in (("one", vertices), ("other", moved)):
-        result = df.fair(positions, faces, tension=0.8, **options)
+        result = tight.fair(positions, faces, tension=0.8, **options)
         inside = np.unique(result.triangles[np.isin(result.triangle_polygon, region)])
         points[key] = result.vertices[inside]
-        slack = df.fair(positions, faces, **options).vertices
+        slack = tight.fair(positions, faces, **options).vertices
         kept = np.setdiff1d(np.arange(len(slack)), inside)
         assert np.array_equal(slack[kept], result.vertices[kept])
         assert np.abs(slack - result.vertices).max() > 1e-4
     assert np.abs(points["one"] - points["other"]).max() < 1e-5
-    result = df.fair(vertices, faces, tension=0.8, **{**options, "joint": joint})
+    result = tight.fair(vertices, faces, tension=0.8, **{**options, "joint": joint})
     assert result.report["converged"]
 
 
@@ -197,7 +201,7 @@ def test_a_region_knows_nothing_of_the_rest(joint, energy):
 def test_threads_leave_no_trace(energy):
     mesh = meshes.creature()
     one, two, five = (
-        df.fair(*mesh, levels=3, energy=energy, tension=0.5, threads=t) for t in (1, 2, 5)
+        tight.fair(*mesh, levels=3, energy=energy, tension=0.5, threads=t) for t in (1, 2, 5)
     )
     assert np.array_equal(one.vertices, two.vertices)
     assert np.array_equal(one.vertices, five.vertices)
@@ -206,26 +210,26 @@ def test_threads_leave_no_trace(energy):
 def test_a_solver_follows_moved_vertices():
     vertices, faces = meshes.creature()
     options = {"levels": 3, "tension": 0.6}
-    solver = df.Solver(vertices, faces, **options)
-    assert np.array_equal(solver.solve().vertices, df.fair(vertices, faces, **options).vertices)
+    solver = tight.Solver(vertices, faces, **options)
+    assert np.array_equal(solver.solve().vertices, tight.fair(vertices, faces, **options).vertices)
     moved = vertices.copy()
     for _ in range(3):
         moved[0] += 0.02 * size_of(vertices)
         followed = solver.solve(moved)
         assert followed.report["warm"]
-        alone = df.fair(vertices, faces, shapes=moved[None], **options).shapes[0]
+        alone = tight.fair(vertices, faces, shapes=moved[None], **options).shapes[0]
         assert np.abs(followed.vertices - alone).max() < 1e-4 * size_of(vertices)
 
 
 def test_a_solver_follows_by_steps():
     vertices, faces = meshes.creature()
     options = {"levels": 3, "energy": "total_curvature", "tension": 0.3}
-    solver = df.Solver(vertices, faces, **options)
-    assert np.array_equal(solver.solve().vertices, df.fair(vertices, faces, **options).vertices)
+    solver = tight.Solver(vertices, faces, **options)
+    assert np.array_equal(solver.solve().vertices, tight.fair(vertices, faces, **options).vertices)
     moved = vertices.copy()
     for _ in range(2):
         moved[0] += 0.01 * size_of(vertices)
-        followed, anew = solver.solve(moved), df.Solver(vertices, faces, **options).solve(moved)
+        followed, anew = solver.solve(moved), tight.Solver(vertices, faces, **options).solve(moved)
         assert followed.report["warm"] and not anew.report["warm"]
         found, expected = (r.report["curvature"][-1]["energy"] for r in (followed, anew))
         assert found == pytest.approx(expected, rel=0.01)
@@ -234,15 +238,15 @@ def test_a_solver_follows_by_steps():
 
 def test_back_leg_comes_to_the_same_surface():
     mesh = meshes.cube()
-    swept = df.fair(*mesh, levels=2, tension=0.5, method="back_leg", sweeps=2000).vertices
-    solved = df.fair(*mesh, levels=2, tension=0.5, relative_residual=1e-11).vertices
+    swept = tight.fair(*mesh, levels=2, tension=0.5, method="back_leg", sweeps=2000).vertices
+    solved = tight.fair(*mesh, levels=2, tension=0.5, relative_residual=1e-11).vertices
     assert np.abs(swept - solved).max() < 1e-8
 
 
 def test_tolerance_and_epsilon_go_with_tension():
     vertices, faces = meshes.creature()
     for energy in ("thin_plate", "total_curvature"):
-        held = df.fair(
+        held = tight.fair(
             vertices,
             faces,
             levels=2,
@@ -252,7 +256,7 @@ def test_tolerance_and_epsilon_go_with_tension():
             tolerance=0.05,
         )
         assert 0 < held.report["largest_deviation"] <= 0.05
-        released = df.fair(vertices, faces, levels=2, energy=energy, tension=0.5, epsilon=0.02)
+        released = tight.fair(vertices, faces, levels=2, energy=energy, tension=0.5, epsilon=0.02)
         assert 0 < released.report["largest_deviation"] <= 0.02
 
 
@@ -261,28 +265,28 @@ def test_spheres_flatten_towards_their_hulls(name):
     vertices, faces = mesh_of(name)
     vertices = vertices / np.linalg.norm(vertices, axis=1)[:, None]
     round_, taut = (
-        df.fair(vertices, faces, levels=3, energy="total_curvature", tension=t) for t in (0, 0.5)
+        tight.fair(vertices, faces, levels=3, energy="total_curvature", tension=t) for t in (0, 0.5)
     )
     assert np.array_equal(taut.vertices[: len(vertices)], vertices)
     assert taut.report["converged"]
     assert np.abs(np.linalg.norm(round_.vertices, axis=1) - 1).max() < 1e-4
-    assert volume(df.fair(vertices, faces, levels=0)) < volume(taut) < volume(round_)
+    assert volume(tight.fair(vertices, faces, levels=0)) < volume(taut) < volume(round_)
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_prediction_bounds_the_peak(energy):
-    report = df.fair(*meshes.creature(), levels=3, energy=energy, tension=0.5).report
+    report = tight.fair(*meshes.creature(), levels=3, energy=energy, tension=0.5).report
     assert report["peak_bytes"] <= report["predicted_bytes"]
 
 
 @pytest.mark.parametrize("tension", (-0.1, 1.1, float("nan")))
 def test_other_values_are_refused(tension):
     with pytest.raises(df.FairingError, match="tension") as caught:
-        df.fair(*meshes.cube(), tension=tension)
+        tight.fair(*meshes.cube(), tension=tension)
     assert caught.value.code == "BAD_OPTION"
 
 
 def test_minimum_variation_has_none():
     with pytest.raises(df.FairingError, match="minimum variation") as caught:
-        df.fair(*meshes.cube(), energy="minimum_variation", tension=0.5)
+        tight.fair(*meshes.cube(), energy="minimum_variation", tension=0.5)
     assert caught.value.code == "BAD_OPTION"

@@ -9,6 +9,7 @@ import discrete_fairing as df
 import inscribed
 import numpy as np
 import pytest
+import tight
 from surfaces import (
     assert_same_points,
     assert_same_positions,
@@ -40,7 +41,7 @@ QUICK = [name for name in CURVED if name != "three_handles"]
 
 
 def fair(mesh, levels, **options):
-    return df.fair(*mesh, levels, energy="total_curvature", **options)
+    return tight.fair(*mesh, levels, energy="total_curvature", **options)
 
 
 def radius_error(mesh, levels, **options) -> float:
@@ -122,7 +123,7 @@ def test_energy_is_below_the_thin_plates(name, levels):
     assert last["converged"] and last["level"] == levels
     assert last["energy"] <= last["plate_energy"]
     assert last["energy"] == pytest.approx(measured, rel=1e-9)
-    plate = df.fair(*mesh, levels).report["energy"]["result"]["total_curvature"]
+    plate = tight.fair(*mesh, levels).report["energy"]["result"]["total_curvature"]
     assert last["plate_energy"] == pytest.approx(plate, rel=1e-6)
     assert measured <= plate
 
@@ -133,7 +134,7 @@ def test_reports_its_steps():
     assert level["steps"][0]["energy"] == level["start_energy"]
     assert all(step["decrement"] > 0 and 0 <= step["length"] <= 1 for step in level["steps"])
     assert fair(meshes.creature(), 2, max_steps=1).report["curvature"][-1]["converged"] is False
-    assert df.fair(*meshes.creature(), 1).report["curvature"] == []
+    assert tight.fair(*meshes.creature(), 1).report["curvature"] == []
 
 
 @pytest.mark.parametrize("name", sorted(meshes.ALL))
@@ -198,7 +199,7 @@ def test_numbering_does_not_matter(name):
 def test_boundaries_are_the_thin_plates(name, boundary):
     """To the last bit."""
     mesh = meshes.ALL[name]()
-    curved, plate = fair(mesh, 3, boundary=boundary), df.fair(*mesh, 3, boundary=boundary)
+    curved, plate = fair(mesh, 3, boundary=boundary), tight.fair(*mesh, 3, boundary=boundary)
     rim = boundary_vertices(output_faces(curved))
     assert curved.vertices[rim].tobytes() == plate.vertices[rim].tobytes()
     assert (curved.vertices != plate.vertices).any()
@@ -207,7 +208,7 @@ def test_boundaries_are_the_thin_plates(name, boundary):
 @pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8"])
 def test_a_free_boundary_is_lower(name):
     mesh = meshes.ALL[name]()
-    free, plate = fair(mesh, 2, boundary="free"), df.fair(*mesh, 2, boundary="free")
+    free, plate = fair(mesh, 2, boundary="free"), tight.fair(*mesh, 2, boundary="free")
     last = free.report["curvature"][-1]
     assert last["converged"] and last["energy"] < last["plate_energy"]
     assert not np.array_equal(free.vertices, plate.vertices)
@@ -219,7 +220,7 @@ def test_creases_are_the_thin_plates():
     slopes, ridge = meshes.roof()
     for mesh, edges in (((vertices, faces), loop), (slopes, ridge)):
         curved = fair(mesh, 3, crease_edges=edges)
-        plate = df.fair(*mesh, 3, crease_edges=edges)
+        plate = tight.fair(*mesh, 3, crease_edges=edges)
         same = (curved.vertices == plate.vertices).all(1)
         assert (
             curved.report["curvature"][-1]["energy"]
@@ -228,7 +229,7 @@ def test_creases_are_the_thin_plates():
         assert same[: len(mesh[0])].all()
         assert 8 * len(edges) <= same.sum() < len(same) / 2
     ring = np.arange(len(loop))
-    curve = {p.tobytes() for p in df.fair(*caps(vertices[ring]), 3).vertices}
+    curve = {p.tobytes() for p in tight.fair(*caps(vertices[ring]), 3).vertices}
     found = {p.tobytes() for p in fair((vertices, faces), 3, crease_edges=loop).vertices}
     assert len(curve & found) >= 8 * len(loop)
 
@@ -245,7 +246,7 @@ def test_a_region_leaves_the_rest():
     vertices, faces = meshes.creature()
     region = list(range(40))
     curved = fair((vertices, faces), 3, region=region)
-    plate = df.fair(vertices, faces, 3, region=region)
+    plate = tight.fair(vertices, faces, 3, region=region)
     last = curved.report["curvature"][-1]
     assert last["converged"] and last["energy"] < last["plate_energy"]
     triangles, quads = curved.faces
@@ -271,7 +272,7 @@ def test_planar_stays_planar(mesh):
 def test_control_vertices_that_may_move_lower_the_energy(name, option):
     mesh = meshes.ALL[name]()
     loose = fair(mesh, 2, **option).report
-    others = (fair(mesh, 2), df.fair(*mesh, 2, **option))
+    others = (fair(mesh, 2), tight.fair(*mesh, 2, **option))
     assert 0.01 <= loose["largest_deviation"] <= 0.05
     for other in others:
         least = other.report["energy"]["result"]["total_curvature"]
