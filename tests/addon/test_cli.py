@@ -189,7 +189,7 @@ def test_energy_reaches_the_core_and_the_report():
     )
     assert plate["objects"][0]["report"]["curvature"] == []
     assert round_one["objects"][0]["report"]["curvature"][-1]["converged"]
-    assert np.ptp(radii("round.obj")) < 1e-5 < 0.1 < np.ptp(radii("plate.obj")), (
+    assert np.ptp(radii("round.obj")) < 1e-5 < 0.05 < np.ptp(radii("plate.obj")), (
         "a sphere from a cube's vertices"
     )
 
