@@ -9,12 +9,8 @@
 namespace fairing {
 namespace {
 
-// A star's energy on pads may be so many times that on point forces, and so many mean stars'
-// energies above: what hardly bends may bend a little more, and rounding decides nothing.
-constexpr double most_of_star = 1.2, slack = 0.5;
-// The whole surface's may be so many times that on point forces; while it is more, stars are judged
-// by this in place of both.
-constexpr double most_of_all = 1.1, most_when_strict = 1.05;
+constexpr double slack = 0.5;  // of a mean star's energy: what hardly bends may bend a little more
+constexpr double crumpled = 2.0;   // a star of so many times the energy, and the slack
 constexpr int patient_rounds = 4;  // afterwards pads go at once, without halves
 constexpr int farthest = 4;        // rings around a star, in which pads may be why it bends
 
@@ -41,14 +37,23 @@ std::vector<Index> nearest_pads(const GridLevel& control, const Pads& pads, Inde
 }  // namespace
 
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
-                                  const std::vector<double>& energy,
+                                  const PadLimits& limits, const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round) {
   double sum = 0, sum_of_needles = 0;
   for (const double e : energy) sum += e;
   for (const double e : of_needles) sum_of_needles += e;
-  const bool strict = sum > most_of_all * sum_of_needles;
-  const double most = strict ? most_when_strict : most_of_star,
-               above = strict ? 0 : slack * sum_of_needles / double(of_needles.size());
+  const double mean_slack = slack * sum_of_needles / double(of_needles.size());
+  const bool over = sum > limits.whole * sum_of_needles;
+  bool is_crumpled = false;
+  for (std::size_t v = 0; v < energy.size(); ++v)
+    is_crumpled |= energy[v] > crumpled * of_needles[v] + mean_slack;
+  if (over && !is_crumpled && round < patient_rounds) {
+    // Nothing is thrown about: all pads are somewhat too wide.
+    std::vector<int> all(energy.size(), 0);
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = pads.under(v) ? 1 : 0;
+    return all;
+  }
+  const double most = over ? limits.strict : limits.star, above = over ? 0 : mean_slack;
   std::vector<int> halvings(energy.size(), 0);
   for (std::size_t v = 0; v < energy.size(); ++v) {
     const double excess = energy[v] / (most * of_needles[v] + above);

@@ -14,12 +14,22 @@ constexpr int widths_level = 2;
 
 constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
+// What a surface on pads may bend more than one on point forces.
+struct PadLimits {
+  double star;    // the energy of a star, times that on point forces; half a mean star's is added
+  double whole;   // that of all stars. While it is more, the mesh is crumpled, or all pads too wide
+  double strict;  // on a crumpled mesh: of a star, in place of both
+};
+// The plate's own energy is another, so that pads cost little total curvature or gain some. That of
+// least total curvature can only lose it: what bends the least between the vertices is marked there.
+constexpr PadLimits plate_limits{1.2, 1.1, 1.05}, curvature_limits{1.5, 1.2, 1.1};
+
 // How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
 // curvatures of the star of each control vertex, of the surface on pads and of that on point
 // forces; `round` counts earlier answers. `control` is level 0. All stars are judged before any pad
 // changes, so that the order of vertices does not matter.
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
-                                  const std::vector<double>& energy,
+                                  const PadLimits& limits, const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round);
 
 // Halves them. Loads keep the whole force about the same.

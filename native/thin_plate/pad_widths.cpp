@@ -40,8 +40,9 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
     report = solve_level(level, targets, now, x.data());
   };
   for (int round = 0;; ++round) {
-    const std::vector<int> halvings = halvings_of_pads(
-        grid(0), *pads_, options_.star_energies(grid(level), x.data()), of_needles, round);
+    const std::vector<int> halvings =
+        halvings_of_pads(grid(0), *pads_, plate_limits,
+                         options_.star_energies(grid(level), x.data()), of_needles, round);
     if (halvings.empty()) break;
     narrow_pads<3>(halvings, *pads_, loads_);
     again(rough);
