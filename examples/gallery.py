@@ -24,6 +24,8 @@ import discrete_fairing as df  # noqa: E402
 from gallery_picture import Column, draw  # noqa: E402
 from gallery_shapes import SHAPES, Absent  # noqa: E402
 
+import addon  # noqa: E402
+
 IMAGES = ROOT / "docs" / "images"
 ENERGIES = {
     "thin_plate": "thin plate",
@@ -56,6 +58,7 @@ def main():
     if unknown:
         parser.error(f"no such picture: {', '.join(sorted(unknown))}")
     (IMAGES / "gallery").mkdir(parents=True, exist_ok=True)
+    addon.register()  # curvature colours are kept in its properties
     for name in options.names or [HERO, *SHAPES]:
         picture(name, options)
 
