@@ -24,6 +24,7 @@ import scaling
 import shared
 import side_by_side
 import sizes
+import subdivision
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -38,6 +39,7 @@ BENCHMARKS = {
     "memory": memory.run,
     "shared": shared.run,
     "side_by_side": side_by_side.run,
+    "subdivision": subdivision.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "clean": clean_meshes.run,

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Beside Blender's Subdivision Surface, on organic cages: ours passes every vertex within half of the
+largest distance at which the other misses one. Which bends less, and has the smaller folds?"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import discrete_fairing as df
+import from_tests
+import numpy as np
+import rivals
+import side_by_side
+import surface_measures as measures
+import table
+
+LEVELS = 3
+SHARE = 0.5  # of the other's largest deviation
+COLLECTED = (
+    "spot_control_mesh.obj",
+    "spot_low_resolution.obj",
+    "fox.ply",
+    "bob_small.ply",
+    "cat_head.obj",
+    "hand_lowres.obj",
+    "fish_low_resolution.obj",
+    "fish_control_mesh.obj",
+    "penguin_control_mesh.obj",
+    "catmark_helmet.obj",
+    "catmark_pawn.obj",
+    "loop_toroidal_tet.obj",
+)
+SETTINGS = {
+    "thin plate": {"energy": "thin_plate"},
+    "thin plate, tension ½": {"energy": "thin_plate", "tension": 0.5},
+    "total curvature": {"energy": "total_curvature"},
+}
+FIGURES = ("E / 8π", "99 %", "99.9 %", "largest")
+
+
+def cages() -> Iterator[tuple[str, np.ndarray, list[list[int]]]]:
+    """Name, vertices, polygons."""
+    yield "Suzanne", *side_by_side.suzanne()
+    yield "creature", *from_tests.small_meshes().creature()
+    mesh_files, shared_data = from_tests.readers()
+    for file in COLLECTED:
+        paths = sorted((shared_data.SHARED / "good" / "cages").glob(f"*{file}"))
+        if paths:
+            yield file.split(".")[0], *mesh_files.read_mesh(paths[0])
+        else:
+            print(f"subdivision: {file} is not here.")
+
+
+def figures(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
+    """Total curvature, and dihedral angles in degrees."""
+    angles = measures.dihedrals(points, triangles)
+    found = (
+        measures.total_curvature(points, triangles) / (8 * np.pi),
+        *np.quantile(angles, (0.99, 0.999)),
+        angles.max(),
+    )
+    return dict(zip(FIGURES, map(float, found), strict=True))
+
+
+def run() -> dict[str, Any]:
+    """All cages."""
+    result: dict[str, Any] = {}
+    rows = []
+    for name, vertices, faces in cages():
+        polygons = [list(map(int, face)) for face in faces]
+        points, triangles = rivals.catmull_clark(vertices, polygons, LEVELS)
+        deviation = np.linalg.norm(points[: len(vertices)] - vertices, axis=1).max()
+        entry = {"Subdivision Surface": figures(points, triangles)}
+        for setting, options in SETTINGS.items():
+            ours = df.fair(
+                vertices,
+                polygons,
+                levels=LEVELS,
+                interpolation="approximate",
+                tolerance=SHARE * deviation,
+                repair_orientation=True,
+                **options,
+            )
+            entry[setting] = figures(ours.vertices, ours.triangles.astype(np.int64))
+        result[name] = {"deviation": float(deviation), **entry}
+        other = entry["Subdivision Surface"]
+        for setting, own in entry.items():
+            better = sum(own[figure] < other[figure] for figure in FIGURES)
+            rows.append([name, setting, *own.values(), "" if own is other else f"{better} of 4"])
+    table.show(
+        "Near, at half the largest deviation of Subdivision Surface",
+        ["cage", "surface", *FIGURES, "smaller"],
+        rows,
+    )
+    return result
