@@ -47,9 +47,8 @@ void dilate_vertices(const ControlMesh& mesh, std::vector<std::uint8_t>& marks) 
   }
 }
 
-bool has_settled(const CurvatureLevelReport& report) {
-  return report.converged && report.energy <= report.plate_energy;
-}
+// On pads the least total curvature is another's least: it may be a little above the plate's.
+constexpr double most_over_plate = 1.2;
 
 }  // namespace
 
@@ -101,7 +100,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
   const bool doubtful = is_accurate && stepping_ == Stepping::damped;
   const StepEnd end = is_accurate ? accurate_end() : StepEnd{plain_decrement, 0};
   steps_.run_plain(end, doubtful ? short_patience : long_patience, report);
-  if (has_settled(report) && stepping_ == Stepping::plain) return;
+  if (is_settled(report) && stepping_ == Stepping::plain) return;
   LinearizedSurface plain = iterate_.current;
   const CurvatureLevelReport plain_report = std::exchange(report, start.report);
   iterate_.current.points = start.points;
@@ -110,7 +109,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
   steps_.run_damped(damping, report);
   if (is_accurate) steps_.polish_damped(report);
   const bool plain_is_as_good =
-      has_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
+      is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
   stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
   if (!plain_is_as_good) return;
   iterate_.current = std::move(plain);
@@ -149,9 +148,18 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
         energy[v] = std::max(energy[v], price_of_folds * (of_needles[v] + mean));
     const std::vector<int> halvings = halvings_of_pads(system_.grid(0), *system_.pads(),
                                                        curvature_limits, energy, of_needles, round);
-    if (halvings.empty()) return;
+    if (halvings.empty()) break;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
   }
+  if (report.energy <= curvature_limits.whole * energy_of_needles) return;
+  // No widths will do.
+  const std::vector<int> all(of_needles.size(), to_nothing);
+  narrow_pads<1>(all, *system_.pads(), iterate_.current.loads);
+  surface() = needles;
+  iterate_.is_linearized = false;
+  const StepStart again{needles, iterate_.current.loads, start.report};
+  report = again.report;
+  minimize(again, is_finest(), report);
 }
 
 void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport& report) {
@@ -183,7 +191,7 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
   unfolding_.run(start, report);
   if (hold_.any()) fix_held(iterate_, hold_, steps_, report);
   if (epsilon_ > 0) release_by_epsilon(iterate_, epsilon_, steps_, report);
-  if (!(report.energy <= report.plate_energy)) fall_back(plate, report);
+  if (!(report.energy <= energy_bound(report))) fall_back(plate, report);
   if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
   solved_folds_ = report.folds = unfolding_.find().count();
   solved_energy_ = report.energy;
@@ -210,6 +218,10 @@ void GaussNewtonSolver::fall_back(const Array<double>& plate, CurvatureLevelRepo
   iterate_.linearize();
   report.energy = iterate_.op().fairness();
   report.converged = report.accurate = false;
+}
+
+double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
+  return (system_.pads() ? most_over_plate : 1.0) * report.plate_energy;
 }
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.

@@ -49,6 +49,11 @@ class GaussNewtonSolver {
   // On the finest level: pads beside folds are gone, and the surface follows.
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
+  // What the surface of a level may have of total curvature.
+  double energy_bound(const CurvatureLevelReport& report);
+  bool is_settled(const CurvatureLevelReport& report) {
+    return report.converged && report.energy <= energy_bound(report);
+  }
   void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
   double tension_of(const Array<double>& x);
   void leave_out_tension(const StepStart& start, const Array<double>& plate,
