@@ -6,8 +6,8 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-import tight
 from surfaces import as_lists, assert_same_points, dihedral_angles
+from tight import fair
 
 JOINTS = ("position", "tangent", "curvature")
 
@@ -71,7 +71,7 @@ def test_outside_and_joint_are_linear_to_the_last_bit(name, joint):
     vertices, faces = meshes.ALL[name]()
     faces = as_lists(faces)
     region = np.arange(0, len(faces), 3)
-    result = tight.fair(vertices, faces, 2, region=region, joint=joint, measure=False)
+    result = fair(vertices, faces, 2, region=region, joint=joint, measure=False)
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     outside = np.setdiff1d(np.arange(len(faces)), region)
     for f in outside:
@@ -103,12 +103,10 @@ def test_flat_stays_flat(joint, cut):
     mesh = meshes.grid(5, 5)
     vertices, faces = meshes.cut_quads(mesh) if cut else mesh
     region = np.nonzero(np.abs(vertices[faces].mean(1)[:, :2] - 2.5).max(1) < 1.6)[0]
-    result = tight.fair(vertices, faces, 3, region=region, joint=joint)
+    result = fair(vertices, faces, 3, region=region, joint=joint)
     assert np.abs(result.vertices[:, 2]).max() < 1e-12
     # and uniform: the polyhedron is the minimizer
-    linear = tight.fair(
-        vertices, faces, 3, region=[0], joint="position", boundary="linear"
-    ).vertices
+    linear = fair(vertices, faces, 3, region=[0], joint="position", boundary="linear").vertices
     assert np.abs(result.vertices - linear).max() < 1e-7
 
 
@@ -119,9 +117,7 @@ def slopes_and_curvatures(gap, joint, levels, **options):
     for level in levels:
         mesh, region, (low, _) = ramp(6 if gap == 2 else 7, gap)
         line = profile(
-            tight.fair(*mesh, level, region=region, joint=joint, measure=False, **options),
-            low,
-            level,
+            fair(*mesh, level, region=region, joint=joint, measure=False, **options), low, level
         )
         step = line[1] - line[0]
         turns.append(np.arctan2(step[2], step[0]))
@@ -155,7 +151,7 @@ def test_folds_at_the_joint_close(mesh):
     for joint in JOINTS:
         for level in (3, 4):
             (vertices, faces), region, (low, high) = ramp(6, 2, mesh == "triangles")
-            result = tight.fair(vertices, faces, level, region=region, joint=joint, measure=False)
+            result = fair(vertices, faces, level, region=region, joint=joint, measure=False)
             edges, angles = dihedral_angles(result.vertices, result.faces[mesh == "quads"])
             x, y = result.vertices[edges, 0], result.vertices[edges, 1]
             # away from the sheet's own boundary, which is a curve
@@ -175,9 +171,7 @@ def test_iterations_stay_bounded(joint, triangles):
     counts = []
     for level in (5, 6, 7):
         mesh, region, _ = ramp(3, 1, triangles)
-        result = tight.fair(
-            *mesh, level, region=region, joint=joint, measure=False, smoother_degree=6
-        )
+        result = fair(*mesh, level, region=region, joint=joint, measure=False, smoother_degree=6)
         finest = result.report["levels"][-1]
         assert finest["converged"] and not finest["direct"]
         counts.append(finest["iterations"])
@@ -189,7 +183,7 @@ def test_iterations_stay_bounded(joint, triangles):
 def test_polygons(name, joint):
     vertices, faces = meshes.ALL[name]()
     region = [0, 1, 2]
-    result = tight.fair(vertices, faces, 4, region=region, joint=joint)
+    result = fair(vertices, faces, 4, region=region, joint=joint)
     assert result.report["converged"]
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     for f in range(3, len(faces)):  # flat faces stay in their planes
@@ -207,8 +201,8 @@ def test_polygons(name, joint):
 @pytest.mark.parametrize("joint", JOINTS)
 def test_region_of_all_faces_is_none(joint):
     vertices, faces = meshes.creature()
-    whole = tight.fair(vertices, faces, 2, region=np.arange(len(faces))[::-1], joint=joint)
-    plain = tight.fair(vertices, faces, 2)
+    whole = fair(vertices, faces, 2, region=np.arange(len(faces))[::-1], joint=joint)
+    plain = fair(vertices, faces, 2)
     assert np.array_equal(whole.vertices, plain.vertices)
     assert whole.report["energy"] == plain.report["energy"]
 
@@ -218,23 +212,23 @@ def test_symmetric_in_symmetric_out(joint):
     vertices, faces = meshes.creature()
     centre = np.array([vertices[f].mean(0) for f in faces])
     region = np.nonzero(centre[:, 1] > 0.2)[0]  # the mirror is x
-    result = tight.fair(vertices, faces, 3, region=region, joint=joint)
+    result = fair(vertices, faces, 3, region=region, joint=joint)
     assert_same_points(result.vertices * [-1, 1, 1], result.vertices, 1e-9)
 
 
 @pytest.mark.parametrize("joint", JOINTS)
 def test_a_turned_mesh_gives_the_turned_surface(joint):
     (vertices, faces), region, _ = ramp(6, 2, True)
-    before = tight.fair(vertices, faces, 3, region=region, joint=joint).vertices
+    before = fair(vertices, faces, 3, region=region, joint=joint).vertices
     moved = 30 * vertices[:, [2, 0, 1]] + [5, 7, -9]
-    after = tight.fair(moved, faces, 3, region=region, joint=joint).vertices
+    after = fair(moved, faces, 3, region=region, joint=joint).vertices
     assert np.abs(after - (30 * before[:, [2, 0, 1]] + [5, 7, -9])).max() < 30 * 1e-7
 
 
 def test_same_bits_for_any_number_of_threads():
     vertices, faces = meshes.creature()
     one, three = (
-        tight.fair(vertices, faces, 3, region=range(30), joint="curvature", threads=t).vertices
+        fair(vertices, faces, 3, region=range(30), joint="curvature", threads=t).vertices
         for t in (1, 3)
     )
     assert np.array_equal(one, three)
@@ -249,7 +243,7 @@ def test_bad_faces_outside_do_no_harm(joint):
     thin = vertices.copy()
     corner = np.nonzero((vertices[:, 0] == 0) & (vertices[:, 1] == 0))[0]
     thin[corner, :2] = [0.9999999, 0.9999998]  # all but on a neighbour: two needles
-    good, bad = (tight.fair(v, faces, 4, region=region, joint=joint) for v in (vertices, thin))
+    good, bad = (fair(v, faces, 4, region=region, joint=joint) for v in (vertices, thin))
     assert (
         bad.report["converged"]
         and bad.report["iterations"][-1] <= good.report["iterations"][-1] + 1
@@ -262,7 +256,7 @@ def test_a_crease_on_the_joint_makes_it_a_line():
     (vertices, faces), region, (low, high) = ramp()
     on = np.nonzero(vertices[:, 0] == low)[0]
     crease = np.stack([on[:-1], on[1:]], -1)
-    result = tight.fair(vertices, faces, 4, region=region, crease_edges=crease)
+    result = fair(vertices, faces, 4, region=region, crease_edges=crease)
     line = profile(result, low, 4)
     assert np.arctan2(*(line[1] - line[0])[[2, 0]]) > 0.35  # 0.04 at the other end
     end = profile(result, high, 4)[0]
@@ -277,7 +271,7 @@ def test_creases_are_curves_inside_and_straight_outside():
     vertices = vertices.copy()
     vertices[ridge, 2] += 0.1 * np.sin(2 * vertices[ridge, 1])
     region = np.nonzero(vertices[faces].mean(1)[:, 1] < 2)[0]
-    result = tight.fair(vertices, faces, 3, region=region, crease_edges=ridge)
+    result = fair(vertices, faces, 3, region=region, crease_edges=ridge)
     inside, outside = [], []
     for a, b in ridge.tolist():
         line = np.array([((8 - k) * vertices[a] + k * vertices[b]) / 8 for k in range(1, 8)])
@@ -296,7 +290,7 @@ def test_only_inside_vertices_move():
         {"interpolation": "approximate", "weights": np.ones(len(vertices))},
         {"epsilon": 0.05},
     ):
-        result = tight.fair(vertices, faces, 2, region=region, **options)
+        result = fair(vertices, faces, 2, region=region, **options)
         moved = (result.vertices[: len(vertices)] != vertices).any(1)
         assert np.array_equal(moved, inside), options
         if "weights" not in options:
@@ -307,7 +301,7 @@ def test_only_inside_vertices_move():
 @pytest.mark.parametrize("method", ["multigrid", "back_leg"])
 def test_boundary_modes_and_methods(boundary, method):
     (vertices, faces), region, (low, high) = ramp()
-    result = tight.fair(vertices, faces, 3, region=region, boundary=boundary, method=method)
+    result = fair(vertices, faces, 3, region=region, boundary=boundary, method=method)
     assert np.isfinite(result.vertices).all()
     out = (result.vertices[:, 0] <= low) | (result.vertices[:, 0] >= high)
     assert set(np.unique(result.vertices[out][:, 2])) == {0.0, 1.0}
@@ -315,10 +309,10 @@ def test_boundary_modes_and_methods(boundary, method):
 
 def test_the_energy_is_the_region_s():
     (vertices, faces), region, _ = ramp()
-    flat = tight.fair(vertices, faces, 3, region=region).report["energy"]
+    flat = fair(vertices, faces, 3, region=region).report["energy"]
     vertices = vertices.copy()
     vertices[(vertices[:, 0] == 0) & (vertices[:, 1] == 2), 2] = 1  # a spike far outside
-    spiked = tight.fair(vertices, faces, 3, region=region).report["energy"]
+    spiked = fair(vertices, faces, 3, region=region).report["energy"]
     for surface in flat:
         for kind in flat[surface]:
             assert spiked[surface][kind] == pytest.approx(flat[surface][kind], rel=1e-6, abs=1e-9)
@@ -328,7 +322,7 @@ def test_a_region_of_one_face():
     vertices, faces = meshes.icosahedron()
     for level in (0, 1, 2, 3):
         for joint in JOINTS:
-            result = tight.fair(vertices, faces, level, region=[4], joint=joint)
+            result = fair(vertices, faces, level, region=[4], joint=joint)
             assert result.report["converged"]
 
 
@@ -344,7 +338,7 @@ def test_a_region_of_one_face():
 def test_bad_regions(region, code, elements):
     vertices, faces = meshes.icosahedron()
     with pytest.raises(df.FairingError) as caught:
-        tight.fair(vertices, faces, 1, region=region)
+        fair(vertices, faces, 1, region=region)
     error = caught.value
     assert (error.code, error.elements) == (code, elements)
     assert error.kind == ("face" if elements else "mesh")
@@ -352,5 +346,5 @@ def test_bad_regions(region, code, elements):
 
 def test_bad_joint():
     with pytest.raises(df.FairingError) as caught:
-        tight.fair(*meshes.icosahedron(), 1, region=[0], joint="smooth")
+        fair(*meshes.icosahedron(), 1, region=[0], joint="smooth")
     assert caught.value.code == "BAD_OPTION" and '"curvature"' in str(caught.value)
