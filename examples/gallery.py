@@ -4,6 +4,7 @@
     .venv/bin/python examples/gallery.py                      all of them, to docs/images/gallery/
     .venv/bin/python examples/gallery.py octahedron hull      only those named
     .venv/bin/python examples/gallery.py sphere_from_four_points    the README's first picture
+    .venv/bin/python examples/gallery.py pads                 Bob on point forces and on pads
 
 Bob, the cat's head, the hand, Spot and the fish are not part of the project: `--meshes FOLDER` says where `bob_small.ply`,
 `cat_head.obj`, `hand_lowres.obj`, `spot_control_mesh.obj` and `fish_control_mesh.obj` are; those that are missing are
@@ -32,7 +33,24 @@ ENERGIES = {
     "total_curvature": "total curvature",
     "minimum_variation": "minimum variation",
 }
-HERO = "sphere_from_four_points"
+HERO, PADS = "sphere_from_four_points", "pads"
+# Of the pictures that are not a shape with every energy: the shape, the looks, and the columns.
+SPECIAL = {
+    HERO: (
+        "tetrahedron",
+        ("clay", "zebra"),
+        {"thin plate": {}, "total curvature": {"energy": "total_curvature"}},
+    ),
+    PADS: (
+        "bob",
+        ("zebra", "curvature"),
+        {
+            "on needles": {"pad_size": 0.0},
+            "on pads of ½": {"pad_size": 0.5},
+            "on pads of 1": {"pad_size": 1.0},
+        },
+    ),
+}
 
 
 def main():
@@ -54,19 +72,20 @@ def main():
         "--samples", type=float, default=1.0, help="of each picture, times the usual"
     )
     options = parser.parse_args()
-    unknown = {*options.names} - {HERO, *SHAPES}
+    unknown = {*options.names} - {*SPECIAL, *SHAPES}
     if unknown:
         parser.error(f"no such picture: {', '.join(sorted(unknown))}")
     (IMAGES / "gallery").mkdir(parents=True, exist_ok=True)
     addon.register()  # curvature colours are kept in its properties
-    for name in options.names or [HERO, *SHAPES]:
+    for name in options.names or [*SPECIAL, *SHAPES]:
         picture(name, options)
 
 
 def picture(name, options):
     """One picture; left out, with a word, where its mesh is not here."""
-    hero = name == HERO
-    shape = SHAPES["tetrahedron" if hero else name]
+    every_energy = {ENERGIES[energy]: {"energy": energy} for energy in options.energies}
+    shape_name, looks, surfaces = SPECIAL.get(name, (name, None, every_energy))
+    shape = SHAPES[shape_name]
     try:
         control = shape.make(options.meshes)
     except Absent as why:
@@ -78,45 +97,35 @@ def picture(name, options):
             "control mesh", control.vertices, control.faces, control.crease_edges, is_control=True
         )
     ]
-    for energy in options.energies:
-        if hero and energy == "minimum_variation":
-            continue
-        result = fair(control, shape.levels, energy)
+    for label, settings in surfaces.items():
+        result = fair(control, shape.levels, settings)
         if result is not None:
             triangles, quads = result.faces
             faces = triangles.tolist() + quads.tolist()
             columns.append(
-                Column(
-                    ENERGIES[energy],
-                    result.vertices,
-                    faces,
-                    creased=bool(len(control.crease_edges)),
-                )
+                Column(label, result.vertices, faces, creased=bool(len(control.crease_edges)))
             )
-    path = IMAGES / (f"{name}.png" if hero else f"gallery/{name}.png")
+    path = IMAGES / (f"{name}.png" if name in SPECIAL else f"gallery/{name}.png")
     with TemporaryDirectory() as folder:
-        draw(
-            path, folder, columns, shape.view, ("clay", "zebra") if hero else None, options.samples
-        )
+        draw(path, folder, columns, shape.view, looks, options.samples)
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
 
 
-def fair(control, levels, energy):
-    """The surface, or None where this build does not have that energy."""
+def fair(control, levels, settings):
+    """The surface, or None where total curvature or its variation cannot be had."""
     creases = control.crease_edges if len(control.crease_edges) else None
     try:
         return df.fair(
             control.vertices,
             control.faces,
             levels=levels,
-            energy=energy,
             crease_edges=creases,
-            measure=False,
+            **settings,
         )
     except (ValueError, df.FairingError) as error:
-        if energy == "thin_plate":
+        if "energy" not in settings:
             raise
-        print(f"no {energy} here: {error}")
+        print(f"no {settings['energy']} here: {error}")
         return None
 
 
