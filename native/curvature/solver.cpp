@@ -151,7 +151,7 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     if (halvings.empty()) break;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
   }
-  if (report.energy <= curvature_limits.whole * energy_of_needles) return;
+  if (report.energy <= crumpled * energy_of_needles) return;
   // No widths will do.
   const std::vector<int> all(of_needles.size(), to_nothing);
   narrow_pads<1>(all, *system_.pads(), iterate_.current.loads);

@@ -9,8 +9,6 @@
 namespace fairing {
 namespace {
 
-constexpr double slack = 0.5;  // of a mean star's energy: what hardly bends may bend a little more
-constexpr double crumpled = 2.0;   // a star of so many times the energy, and the slack
 constexpr int patient_rounds = 4;  // afterwards pads go at once, without halves
 constexpr int farthest = 4;        // rings around a star, in which pads may be why it bends
 
@@ -42,14 +40,14 @@ std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
   double sum = 0, sum_of_needles = 0;
   for (const double e : energy) sum += e;
   for (const double e : of_needles) sum_of_needles += e;
-  const double mean_slack = slack * sum_of_needles / double(of_needles.size());
+  const double mean_slack = limits.slack * sum_of_needles / double(of_needles.size());
   const bool over = sum > limits.whole * sum_of_needles;
   bool is_crumpled = false;
   for (std::size_t v = 0; v < energy.size(); ++v)
     is_crumpled |= energy[v] > crumpled * of_needles[v] + mean_slack;
-  if (over && !is_crumpled && round < patient_rounds) {
+  if (over && !is_crumpled) {
     // Nothing is thrown about: all pads are somewhat too wide.
-    std::vector<int> all(energy.size(), 0);
+    std::vector<int> all(round < limits.calm_rounds ? energy.size() : 0);
     for (std::size_t v = 0; v < all.size(); ++v) all[v] = pads.under(v) ? 1 : 0;
     return all;
   }

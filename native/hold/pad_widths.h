@@ -12,17 +12,23 @@ namespace fairing {
 // Where widths are chosen: the coarsest level that shows how a pad bends its faces.
 constexpr int widths_level = 2;
 
+// A star, or a surface, that bends so many times as much as on point forces is thrown about.
+constexpr double crumpled = 2.0;
+
 constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
 // What a surface on pads may bend more than one on point forces.
 struct PadLimits {
-  double star;    // the energy of a star, times that on point forces; half a mean star's is added
+  double star;    // the energy of a star, times that on point forces,
+  double slack;   // and so many mean stars' above: what hardly bends may bend a little more
   double whole;   // that of all stars. While it is more, the mesh is crumpled, or all pads too wide
-  double strict;  // on a crumpled mesh: of a star, in place of both
+  double strict;  // on a crumpled mesh: of a star, in place of the first two
+  int calm_rounds;  // in which all pads are halved where the mesh is not crumpled
 };
-// The plate's own energy is another, so that pads cost little total curvature or gain some. That of
-// least total curvature can only lose it: what bends the least between the vertices is marked there.
-constexpr PadLimits plate_limits{1.2, 1.1, 1.05}, curvature_limits{1.5, 1.2, 1.1};
+// The plate's own energy is another, so that pads cost little total curvature or gain some. The
+// surface of least total curvature can only lose by them: on a nearly flat hull it would soon be
+// marked again, for the sake of hardly any energy.
+constexpr PadLimits plate_limits{1.2, 0.5, 1.1, 1.05, 4}, curvature_limits{2, 2, 1.2, 1.1, 1};
 
 // How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
 // curvatures of the star of each control vertex, of the surface on pads and of that on point
