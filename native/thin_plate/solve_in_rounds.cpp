@@ -25,6 +25,8 @@ namespace {
 constexpr double solve_gain = 0.1, solve_gain_of_bounds = 0.2;
 // What a correction leaves of the forces, before two of them have said it.
 constexpr double first_ratio = 0.3;
+// Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
+constexpr double left_by_iteration = 0.9;
 // Of the corrections to the loads: below the finest level they are starts only.
 constexpr double coarse_force_tolerance = 2e-2;
 constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
@@ -147,7 +149,8 @@ struct ThinPlateSolver::Rounds {
         std::size_t(level - solver.base_), now,
         [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
         [&](const PcgResult& so_far) {
-          if (whole) solver.report_progress(level, so_far, limits.tolerance);
+          solver.report_done(
+              level, 1 - std::pow(left_by_iteration, report.iterations + so_far.iterations));
         });
     const int iterations = report.iterations + solve.iterations;
     static_cast<LevelSolve&>(report) = solve;

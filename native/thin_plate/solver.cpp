@@ -180,13 +180,17 @@ LevelReport ThinPlateSolver::solve_level(int level, std::span<const Vec3> target
   return report;
 }
 
-// On the finest level the iterations are most of the run.
 void ThinPlateSolver::report_progress(int level, const PcgResult& so_far, double tolerance) {
-  if (level != top()) return;
   const double start = so_far.history.front();
   const double done = start > tolerance && so_far.residual > 0
                           ? std::log(start / so_far.residual) / std::log(start / tolerance)
                           : 1.0;
+  report_done(level, done);
+}
+
+// On the finest level the iterations are most of the run.
+void ThinPlateSolver::report_done(int level, double done) {
+  if (level != top()) return;
   const double end = options_.starts_steps ? begin_of_steps : solve_end;
   monitor_.report(Phase::solve, solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
 }

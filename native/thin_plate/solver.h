@@ -123,6 +123,7 @@ class ThinPlateSolver {
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                             Array<double>& x);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
+  void report_done(int level, double done);  // of the finest level's solve, from 0 to 1
   void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
                       std::vector<LevelReport>& reports);
 
