@@ -5,7 +5,7 @@ import bpy
 op = bpy.context.active_operator
 
 op.levels = 3
-op.energy = "TOTAL_CURVATURE"
+op.energy = "THIN_PLATE"
 op.interpolation = "EXACT"
 op.tolerance = 0.01
 op.relative_tolerance = 0.02
