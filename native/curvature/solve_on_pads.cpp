@@ -3,6 +3,7 @@
 // vertices, where nothing but the loads is to hold them: the force that is left there vanishes. The
 // loads f act along the normals. Steps correct them, as hold/load_steps.h says.
 #include <cmath>
+#include <utility>
 
 #include "curvature/system.h"
 #include "hold/load_steps.h"
@@ -11,9 +12,9 @@
 namespace fairing {
 namespace {
 
-// Each solve but the last leaves so much of the residual that it finds, and the last one so much of
-// what the first one found.
-constexpr double solve_gain = 0.1, inner_accuracy = 1e-2;
+// Each solve but the last leaves so much of the residual that it finds. The last one is to leave as
+// much of what the first one found as a step without pads does, and gains so much at the least.
+constexpr double solve_gain = 0.1, least_gain = 0.5;
 // A step's loads are corrected until so much of the force is left that it began with, or of the
 // loads; the next step begins with other loads anyway.
 constexpr double force_gain = 0.1, force_tolerance = 1e-4;
@@ -61,7 +62,8 @@ LevelSolve GaussNewtonSystem::solve_on_pads(int level, const Linearization& abou
   const Residual residual = [&](const double* x, double* r) {
     op(level).apply_on(pads_->rows(), x, r);
     for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
-    take_forces<1>(*pads_, -1, r, forces);
+    for (std::size_t v = 0; v < forces.size(); ++v)
+      if (pads_->under(v)) forces[v][0] = -std::exchange(r[v], 0.0);
   };
   LoadSteps<1> steps(*pads_);
   Array<double>& r = hierarchy_.state().residual;
@@ -74,13 +76,14 @@ LevelSolve GaussNewtonSystem::solve_on_pads(int level, const Linearization& abou
   };
   bool last = false;
   load();
+  residual(h.data(), r.data());
   for (;;) {
-    residual(h.data(), r.data());
     const double now = norm(workers(), points, r.data());
     if (first_residual == 0) first_residual = now;
     PcgLimits goal = limits();
     goal.tolerance =
-        last ? std::clamp(inner_accuracy * first_residual / now, inner_accuracy, 0.5) : solve_gain;
+        last ? std::clamp(goal.tolerance * first_residual / now, goal.tolerance, least_gain)
+             : solve_gain;
     const LevelSolve solved = hierarchy_.solve(std::size_t(level - base_), goal, residual, h.data(),
                                                [](const PcgResult&) {});
     report.iterations += solved.iterations;
@@ -99,6 +102,7 @@ LevelSolve GaussNewtonSystem::solve_on_pads(int level, const Linearization& abou
     for (std::size_t v = 0; v < loads.size(); ++v) loads[v] += change[v];
     ++report.pad_corrections;
     load();
+    residual(h.data(), r.data());
   }
 }
 

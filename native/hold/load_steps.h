@@ -21,19 +21,6 @@ double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
   return sum;
 }
 
-// Takes the forces off the rows of the control vertices on pads, where K x - Omega Phi f has left
-// them: forces_v <- sign r_v, and r_v <- 0.
-template <int N>
-void take_forces(const Pads& pads, double sign, double* r, LoadsOf<N>& forces) {
-  for (std::size_t v = 0; v < forces.size(); ++v) {
-    if (!pads.under(v)) continue;
-    for (std::size_t a = 0; a < N; ++a) {
-      forces[v][Eigen::Index(a)] = sign * r[N * v + a];
-      r[N * v + a] = 0;
-    }
-  }
-}
-
 // What holds control vertices: the loads on their pads, and multipliers of what bounds them, one an
 // input vertex. Either may be empty.
 template <int N>
