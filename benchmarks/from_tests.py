@@ -2,6 +2,7 @@
 """Modules of the tests that benchmarks use: small control meshes, and readers of the collection
 beside the project."""
 
+import importlib
 import importlib.util
 import sys
 from pathlib import Path
@@ -19,6 +20,20 @@ def small_meshes() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def inscribed() -> ModuleType:
+    """tests/python/inscribed.py, which imports those control meshes by their own name."""
+    ours = sys.modules.pop("control_meshes", None)
+    sys.modules["control_meshes"] = small_meshes()
+    sys.path.insert(0, str(TESTS))
+    try:
+        return importlib.import_module("inscribed")
+    finally:
+        sys.path.remove(str(TESTS))
+        sys.modules.pop("control_meshes")
+        if ours:
+            sys.modules["control_meshes"] = ours
 
 
 def readers() -> tuple[ModuleType, ModuleType]:

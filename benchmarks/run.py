@@ -14,6 +14,7 @@ import charts
 import cholesky
 import clean_meshes
 import curvature_peaks
+import exactness
 import live
 import memory
 import million
@@ -42,6 +43,7 @@ BENCHMARKS = {
     "subdivision": subdivision.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
+    "exact": exactness.run,
     "clean": clean_meshes.run,
     "live": live.run,
 }
