@@ -5,6 +5,7 @@
 python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
 python3 build_tools/dev.py test           all tests; the last line counts them
 python3 build_tools/dev.py setup          system packages, .venv and the native build
+python3 build_tools/dev.py fuzz --minutes N   random meshes and options until time is up; failures under out/fuzz/
 python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
 python3 build_tools/dev.py extension      the extension's zips under out/extension/
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
@@ -67,6 +68,14 @@ def test(names: list[str]) -> int:
     return suites.run_all(names)
 
 
+def fuzz(minutes: float) -> int:
+    """Random calls of the package."""
+    import fuzzing
+
+    setup_tools()
+    return fuzzing.fuzz(minutes)
+
+
 def extension(wheels: Path | None) -> int:
     """One zip for each wheel in a folder; without a folder, for each Python that is at hand."""
     import extension as packing
@@ -92,7 +101,7 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "bench", "extension", "format"]
+        "command", choices=["setup", "test", "demo", "fuzz", "bench", "extension", "format"]
     )
     parser.add_argument(
         "names",
@@ -101,6 +110,9 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument(
         "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"
+    )
+    parser.add_argument(
+        "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
     )
     return parser.parse_args()
 
@@ -114,6 +126,7 @@ def main() -> int:
         "setup": setup,
         "test": lambda: test(given.names),
         "demo": lambda: demo(given.names),
+        "fuzz": lambda: fuzz(given.minutes),
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels),
         "format": format_sources,

@@ -10,6 +10,7 @@ from pathlib import Path
 from time import monotonic
 
 import blender_suite
+import fuzzing
 import native_wheel
 import style
 from layout import BUILD, VENV_PYTHON
@@ -58,14 +59,23 @@ def native_suite(preset: str) -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
-def pytest_suite(name: str) -> Tally:
+def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
     """pytest on one folder below tests/."""
     native_wheel.install()
     report = fresh_report(name)
-    code = run(
-        VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}", check=False
-    )
+    command = [VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}"]
+    code = run(*command, *options, check=False, **environment)
     return with_exit_code(read_junit(report), code)
+
+
+def fuzz_suite() -> dict[str, Tally]:
+    """A fixed budget of random calls, and the corpus, twice."""
+    return {
+        "as built": pytest_suite("fuzz"),
+        "sanitized": pytest_suite(
+            "fuzz", "--hypothesis-profile=few", **fuzzing.sanitized_environment()
+        ),
+    }
 
 
 def addon_suite() -> Tally:
@@ -90,6 +100,7 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "native": lambda: native_suite("release"),
     "sanitizers": lambda: native_suite("asan-ubsan"),
     "python": lambda: pytest_suite("python"),
+    "fuzz": fuzz_suite,
     "addon": addon_suite,
     "build_tools": lambda: pytest_suite("build_tools"),
     "blender": blender_suite.run_suite,

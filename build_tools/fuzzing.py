@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random calls of the package, as built and under the sanitizers."""
+
+import shutil
+from pathlib import Path
+
+import native_wheel
+from layout import BUILD, ROOT, VENV_PYTHON
+from shell import DevError, output, run
+
+TESTS = ROOT / "tests" / "fuzz"
+PRESET = "asan-ubsan"
+
+
+def fuzz(minutes: float) -> int:
+    """Until time is up; the exit code is 1 if anything failed."""
+    native_wheel.install()
+    return run(VENV_PYTHON, TESTS / "run.py", "--minutes", str(minutes), check=False)
+
+
+def sanitized_package() -> Path:
+    """A folder to import discrete_fairing from, built with the sanitizers."""
+    code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
+    if code:
+        raise DevError("pybind11 is not in .venv: run `dev.py setup`.")
+    run(
+        "cmake",
+        "--preset",
+        PRESET,
+        "-DDF_BUILD_PYTHON=ON",
+        f"-Dpybind11_DIR={pybind11.strip()}",
+        f"-DPython_EXECUTABLE={VENV_PYTHON}",
+    )
+    run("cmake", "--build", "--preset", PRESET, "--target", "_native")
+    folder = BUILD / PRESET / "package"
+    shutil.rmtree(folder, ignore_errors=True)
+    package = folder / "discrete_fairing"
+    shutil.copytree(ROOT / "native" / "binding" / "discrete_fairing", package)
+    for module in (BUILD / PRESET).rglob("_native*.so"):
+        shutil.copy(module, package)
+    return folder
+
+
+def sanitized_environment() -> dict[str, str]:
+    """What makes a plain Python load and obey the sanitizers."""
+    libraries = [
+        output("g++", f"-print-file-name={name}")[1].strip()
+        for name in ("libasan.so", "libubsan.so")
+    ]
+    return {
+        "PYTHONPATH": str(sanitized_package()),
+        "LD_PRELOAD": " ".join(libraries),
+        # Python leaves much behind at exit; a refused allocation is for us to answer
+        "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1",
+        "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
+        "PYTHONMALLOC": "malloc",
+    }

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One call of fair() as a value: it can be drawn by chance, kept in a file, and run again."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from hypothesis import strategies as st
+
+CORPUS = Path(__file__).resolve().parent / "corpus"
+FAR = (1e3, 1e6, 1e6, 1e9, 1e60, 1e120, float("inf"))
+
+
+@dataclass
+class Case:
+    """Arguments of fair(): numbers and lists alone."""
+
+    vertices: list[list[float]]
+    faces: list[list[int]]
+    options: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def points(self) -> np.ndarray:
+        """(n, 3) float64."""
+        return np.array(self.vertices, float).reshape(-1, 3)
+
+    def write(self, path: Path) -> None:
+        """As JSON, not-a-number and infinity by their names."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(vars(self)) + "\n")
+
+    @classmethod
+    def read(cls, path: Path) -> "Case":
+        """What write() has written."""
+        return cls(**json.loads(path.read_text()))
+
+
+def grid(columns: int, rows: int) -> Case:
+    """A sheet of quads in z = 0."""
+    points = [[float(x), float(y), 0.0] for y in range(rows + 1) for x in range(columns + 1)]
+    first = [y * (columns + 1) + x for y in range(rows) for x in range(columns)]
+    return Case(points, [[k, k + 1, k + columns + 2, k + columns + 1] for k in first])
+
+
+def torus(around: int, across: int) -> Case:
+    """Quads on a torus."""
+    points = [
+        [
+            float((2 + np.cos(b)) * np.cos(a)),
+            float((2 + np.cos(b)) * np.sin(a)),
+            float(np.sin(b)),
+        ]
+        for a in 2 * np.pi * np.arange(around) / around
+        for b in 2 * np.pi * np.arange(across) / across
+    ]
+    at = lambda u, v: u % around * across + v % across  # noqa: E731
+    faces = [
+        [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)]
+        for u in range(around)
+        for v in range(across)
+    ]
+    return Case(points, faces)
+
+
+def fan(count: int, closed: bool) -> Case:
+    """Triangles about a vertex."""
+    turn = 2 * np.pi * np.arange(count) / count
+    rim = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
+    faces = [[0, 1 + k, 1 + (k + 1) % count] for k in range(count if closed else count - 1)]
+    return Case([[0.0, 0.0, 0.4], *rim.tolist()], faces)
+
+
+def prism(count: int) -> Case:
+    """Two polygons and a band of quads between."""
+    turn = 2 * np.pi * np.arange(count) / count
+    ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
+    after = [(k + 1) % count for k in range(count)]
+    band = [[k, after[k], count + after[k], count + k] for k in range(count)]
+    caps = [list(range(count))[::-1], list(range(count, 2 * count))]
+    return Case([*ring.tolist(), *(ring + [0, 0, 1]).tolist()], band + caps)
+
+
+def book(pages: int) -> Case:
+    """Sheets of two quads that meet along a spine of two edges."""
+    points = [[0.0, 0.0, float(k)] for k in range(3)]
+    faces = []
+    for page in range(pages):
+        turn = 2 * np.pi * page / pages
+        first = len(points)
+        points += [[float(np.cos(turn)), float(np.sin(turn)), float(k)] for k in range(3)]
+        faces += [[k, k + 1, first + k + 1, first + k] for k in range(2)]
+    return Case(points, faces)
+
+
+TETRAHEDRON = Case(
+    [[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]],
+    [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+)
+
+SOUND = st.one_of(
+    st.just(TETRAHEDRON),
+    st.builds(grid, st.integers(1, 4), st.integers(1, 4)),
+    st.builds(torus, st.integers(3, 6), st.integers(3, 5)),
+    st.builds(fan, st.integers(3, 40), st.booleans()),
+    st.builds(prism, st.integers(3, 9)),
+    st.builds(book, st.integers(2, 4)),
+)
+
+
+@st.composite
+def damaged(draw: st.DrawFn) -> Case:
+    """A mesh of some shape, with up to four things done to it that real files have."""
+    mesh = draw(SOUND)
+    points, faces = mesh.points, [list(face) for face in mesh.faces]
+    shake = draw(st.sampled_from((0.0, 0.1, 1.0)))
+    seed = draw(st.integers(0, 2**16))
+    points = points + shake * np.random.default_rng(seed).uniform(-1, 1, points.shape)
+    points = points * draw(st.sampled_from((1.0, 1.0, 1e-9, 1e9, 1e-150, 1e90)))
+    for _ in range(draw(st.sampled_from((0, 0, 1, 1, 2, 4)))):
+        v = draw(st.integers(0, len(points) - 1))
+        f = draw(st.integers(0, len(faces) - 1))
+        other = draw(st.integers(0, len(points) - 1))
+        match draw(st.sampled_from(DAMAGES)):
+            case "far":
+                points[v] = (1 + points[v]) * draw(st.sampled_from(FAR))
+            case "coincide":
+                points[v] = points[other]
+            case "flat":
+                points[:, draw(st.integers(0, 2))] = 0
+            case "stretch":
+                points[:, draw(st.integers(0, 2))] *= draw(st.sampled_from((1e-6, 1e3)))
+            case "turn":
+                faces[f].reverse()
+            case "twice":
+                faces.append(list(faces[f]))
+            case "lose" if len(faces) > 1:
+                faces.pop(f)
+            case "merge":
+                faces = [[other if k == v else k for k in face] for face in faces]
+            case "fin":
+                a, b = faces[f][:2]
+                faces.append([a, b, other])
+            case "wild":
+                faces[f][0] = draw(st.sampled_from((-1, len(points), 2**31, other)))
+    return Case(points.tolist(), faces)
+
+
+DAMAGES = (
+    "far",
+    "far",
+    "far",
+    "coincide",
+    "flat",
+    "stretch",
+    "turn",
+    "twice",
+    "lose",
+    "merge",
+    "fin",
+    "wild",
+)
+
+
+@st.composite
+def options(draw: st.DrawFn, mesh: Case) -> dict[str, Any]:
+    """Options of fair() that go together, mostly."""
+    count = len(mesh.vertices)
+    vertex = st.integers(0, count - 1)
+    share = st.sampled_from((0.0, 0.25, 1.0))
+    some: dict[str, st.SearchStrategy[Any]] = {
+        "energy": st.sampled_from(("thin_plate", "total_curvature", "minimum_variation")),
+        "pad_size": share,
+        "tension": share,
+        "metric_exponent": st.sampled_from((0.0, 0.5, 1.0)),
+        "chart": st.sampled_from(("exponential", "tangent")),
+        "boundary": st.sampled_from(("curve", "linear", "free")),
+        "crease_edges": st.lists(st.tuples(vertex, vertex).map(list), max_size=2),
+        "crease_angle": st.sampled_from((0.1, 1.0)),
+        "corner_vertices": st.lists(vertex, max_size=3),
+        "corner_angle": st.sampled_from((0.1, 1.0)),
+        "region": st.lists(st.integers(0, len(mesh.faces) - 1), min_size=1, max_size=4),
+        "joint": st.sampled_from(("position", "tangent", "curvature")),
+        "epsilon": st.sampled_from((0.0, 1e-3)),
+        "method": st.sampled_from(("multigrid", "back_leg")),
+        "measure": st.booleans(),
+        "repair_orientation": st.booleans(),
+        "threads": st.integers(0, 3),
+        "interpolation": st.just("approximate"),
+    }
+    chosen = draw(st.sets(st.sampled_from(sorted(some)), max_size=4)) | {"energy", "pad_size"}
+    found = {name: draw(some[name]) for name in sorted(chosen)}
+    found["levels"] = draw(st.integers(0, 3 if count < 20 else 2))
+    if "interpolation" in found:
+        held = st.sampled_from((0.0, 1e-3, 0.1, float("inf")))
+        found |= draw(
+            st.one_of(
+                st.builds(lambda t: {"tolerance": t}, st.sampled_from((0.0, 1e-3, 0.3))),
+                st.builds(
+                    lambda t: {"tolerance": t}, st.lists(held, min_size=count, max_size=count)
+                ),
+                st.builds(lambda w: {"weights": w}, st.lists(held, min_size=count, max_size=count)),
+            )
+        )
+    return found
+
+
+@st.composite
+def cases(draw: st.DrawFn) -> Case:
+    """Any mesh with any options."""
+    mesh = draw(damaged())
+    return Case(mesh.vertices, mesh.faces, draw(options(mesh)))

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What holds for every call of fair(), whatever goes in."""
+
+import math
+from typing import Any
+
+import discrete_fairing as df
+import numpy as np
+from cases import Case
+
+
+def check(case: Case) -> str:
+    """A refusal in words, or a surface that is whole, the same twice. Returns which."""
+    points, faces = case.points, [list(face) for face in case.faces]
+    first = outcome(points, faces, case.options)
+    assert points.tobytes() == case.points.tobytes(), "the vertices have changed"
+    assert faces == case.faces, "the faces have changed"
+    if isinstance(first, df.FairingError):
+        check_refusal(first, case)
+        return first.code
+    check_surface(first, case)
+    again = outcome(points, faces, case.options | {"threads": 1})
+    assert isinstance(again, df.Result), f"refused at the second time: {again}"
+    assert again.vertices.tobytes() == first.vertices.tobytes(), "other bits on one thread"
+    return "surfaces"
+
+
+def outcome(
+    points: np.ndarray, faces: list, options: dict[str, Any]
+) -> df.Result | df.FairingError:
+    """A surface or a refusal; any other exception is a defect."""
+    try:
+        return df.fair(points, faces, **options)
+    except df.FairingError as error:
+        return error
+
+
+def check_refusal(error: df.FairingError, case: Case) -> None:
+    """A code, a sentence, elements that exist."""
+    assert error.code.isupper()
+    text = str(error)
+    assert len(text) > 15 and text[-1] in ".)", text
+    assert "std::" not in text and "bad_alloc" not in text, text
+    most = max(len(case.vertices), len(case.faces))
+    assert all(0 <= element < max(most, 2) for element in error.elements), error.elements
+
+
+def check_surface(result: df.Result, case: Case) -> None:
+    """Finite; of the right size; through its control vertices; an honest report."""
+    count = len(case.vertices)
+    assert np.isfinite(result.vertices).all(), "the surface is not finite"
+    for fine in result.faces:
+        assert fine.size == 0 or (fine.min() >= 0 and fine.max() < len(result.vertices))
+        used = np.sort(fine, axis=1)
+        assert (used[:, 1:] != used[:, :-1]).all(), "a face has a vertex twice"
+    control = result.vertices[:count]
+    moves = case.options.get("interpolation") == "approximate" or case.options.get("epsilon")
+    if not moves and case.options.get("repair") != "mend":
+        assert control.tobytes() == case.points.tobytes(), "a control vertex has moved"
+    bound = largest_move(case)
+    if math.isfinite(bound):
+        moved = np.linalg.norm(control - case.points, axis=1).max()
+        size = np.ptp(case.points, axis=0).max()
+        assert moved <= bound + 0.02 * bound + 1e-3 * size, f"moved by {moved}, tolerance {bound}"
+    for level in result.report["levels"]:
+        assert not level["converged"] or math.isfinite(level["residual"])
+
+
+def largest_move(case: Case) -> float:
+    """The most that any control vertex may move; infinity: no bound."""
+    if case.options.get("interpolation") != "approximate" or "weights" in case.options:
+        return math.inf
+    tolerance = np.asarray(case.options.get("tolerance", 0.0), float)
+    if tolerance.ndim == 0 and tolerance == 0:
+        return math.inf
+    return float(tolerance.max()) + float(case.options.get("epsilon", 0.0))
