@@ -238,8 +238,7 @@ void FairSolver::rebase(const PolygonMesh& input) {
     context_.check(input, watch, report);
     guarded([&] {
       recent_.forget();
-      context_.rebase(input.coordinates, watch);
-      control_ = context_.basis();
+      context_.rebase(input.coordinates, watch, control_);
     });
   }
   report.seconds.clear();

@@ -41,7 +41,8 @@ class FairSolver {
   // After an error the next one starts from nothing.
   Report solve(std::span<const double> coordinates, double* out);
 
-  // Builds anew about these positions. `input` has the same faces as ever.
+  // Builds anew about these positions. `input` has the same faces as ever. After an error it is
+  // about the positions before, and the next surface starts from nothing.
   void rebase(const PolygonMesh& input);
 
   OutputFaces faces() { return make_faces(context_.finest(), context_.workers()); }
