@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "curvature/total_curvature.h"
+#include "fairing/extremes.h"
 #include "fairing/memory_plan.h"
 #include "fairing/output.h"
 #include "fairing/unknowns.h"
@@ -241,6 +242,7 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   }
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), frame_, *workers_, x, world);
+  require_finite(mesh_, control, *workers_, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
 }
 
