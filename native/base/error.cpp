@@ -36,8 +36,11 @@ const char* name(ErrorCode code) {
     case ErrorCode::bad_feature_edge: return "BAD_FEATURE_EDGE";
     case ErrorCode::bad_option: return "BAD_OPTION";
     case ErrorCode::underdetermined: return "UNDERDETERMINED";
+    case ErrorCode::too_extreme: return "TOO_EXTREME";
     case ErrorCode::too_large: return "TOO_LARGE";
     case ErrorCode::out_of_memory: return "OUT_OF_MEMORY";
+    case ErrorCode::no_thread: return "NO_THREAD";
+    case ErrorCode::forked: return "FORKED";
     case ErrorCode::cancelled: return "CANCELLED";
   }
   return "UNKNOWN";
@@ -68,12 +71,15 @@ ElementKind usual_kind(ErrorCode code) {
     case ErrorCode::coincident_vertices:
     case ErrorCode::isolated_vertices:
     case ErrorCode::bad_option:
+    case ErrorCode::too_extreme:
     case ErrorCode::underdetermined: return ElementKind::vertex;
     case ErrorCode::nonmanifold_edge:
     case ErrorCode::bad_feature_edge: return ElementKind::edge;
     case ErrorCode::empty_mesh:
     case ErrorCode::no_faces:
     case ErrorCode::out_of_memory:
+    case ErrorCode::no_thread:
+    case ErrorCode::forked:
     case ErrorCode::cancelled: return ElementKind::mesh;
   }
   return ElementKind::mesh;

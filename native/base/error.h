@@ -30,8 +30,11 @@ enum class ErrorCode {
   bad_feature_edge,
   bad_option,
   underdetermined,
+  too_extreme,
   too_large,
   out_of_memory,
+  no_thread,
+  forked,
   cancelled,
 };
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays from NumPy and to it, without copies.
+// Arrays from NumPy, copied, and to it, without copies.
 #pragma once
 
 #include <pybind11/numpy.h>
 
+#include <cstring>
 #include <memory>
-#include <span>
+#include <vector>
 
+#include "mesh/polygon_mesh.h"
 #include "parallel/memory.h"
 
 namespace fairing {
@@ -14,9 +16,19 @@ namespace fairing {
 template <class T>
 using Contiguous = pybind11::array_t<T, pybind11::array::c_style>;
 
+// While Python's lock is held: what other threads write into the caller's array from then on does
+// not reach a run. The array may be misaligned.
 template <class T>
-std::span<const T> as_span(const Contiguous<T>& a) {
-  return {a.data(), std::size_t(a.size())};
+std::vector<T> copy_of(const Contiguous<T>& a) {
+  std::vector<T> out(std::size_t(a.size()));
+  if (!out.empty()) std::memcpy(out.data(), a.request().ptr, out.size() * sizeof(T));
+  return out;
+}
+
+inline OwnedPolygonMesh copy_of(const Contiguous<double>& vertices,
+                                const Contiguous<std::int64_t>& corners,
+                                const Contiguous<std::int64_t>& offsets) {
+  return {copy_of(vertices), copy_of(corners), copy_of(offsets)};
 }
 
 // Hands an Array over.

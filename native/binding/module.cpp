@@ -5,13 +5,17 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <new>
+
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/report.h"
 #include "binding/runner.h"
+#include "binding/running.h"
 #include "fairing/fair.h"
 #include "fairing/memory_plan.h"
 #include "mesh/validate/check.h"
+#include "parallel/cancel.h"
 
 namespace py = pybind11;
 using namespace fairing;
@@ -45,6 +49,8 @@ void bind_errors(py::module_& m) {
       if (p) std::rethrow_exception(p);
     } catch (const FairingError& error) {
       set_python_error(error);
+    } catch (const std::bad_alloc&) {
+      set_python_error(out_of_memory());
     }
   });
 }
@@ -63,10 +69,11 @@ void bind_monitor(py::module_& m) {
 py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                      const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
                      FairOptions options, Monitor& monitor, const py::object& progress) {
-  const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
-  options.shapes = as_span(shapes);
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  const std::vector<double> positions = copy_of(shapes);
+  options.shapes = positions;
   FairResult result;
-  Runner().run([&] { result = fair(mesh, options, monitor); }, monitor, nullptr, progress);
+  Runner().run([&] { result = fair(mesh.view(), options, monitor); }, monitor, nullptr, progress);
   py::dict d;
   d["vertices"] = to_numpy(std::move(result.vertices), 3);
   py::list surfaces;
@@ -77,35 +84,37 @@ py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
   return d;
 }
 
+// What a short call returns that needs no progress, on this thread and without Python's lock.
+template <class Call>
+auto beside_python(Call&& call) {
+  Monitor monitor;
+  const RunningScope running(monitor);
+  const CancelScope scope(&monitor);
+  const py::gil_scoped_release release;
+  return call();
+}
+
 py::list check_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                       const Contiguous<std::int64_t>& offsets, bool repair_orientation) {
-  const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
-  Findings findings;
-  {
-    py::gil_scoped_release release;
-    findings = find_defects(mesh, {.repair_orientation = repair_orientation});
-  }
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  const Findings findings = beside_python(
+      [&] { return find_defects(mesh.view(), {.repair_orientation = repair_orientation}); });
   return to_python(findings.defects);
 }
 
 py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                         const Contiguous<std::int64_t>& offsets) {
-  const PolygonMesh mesh{as_span(vertices), as_span(corners), as_span(offsets)};
-  std::vector<std::int64_t> faces;
-  {
-    py::gil_scoped_release release;
-    faces = faces_to_flip(mesh);
-  }
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  const std::vector<std::int64_t> faces = beside_python([&] { return faces_to_flip(mesh.view()); });
   return py::array_t<std::int64_t>(py::ssize_t(faces.size()), faces.data());
 }
 
 py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
                         const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes,
                         Energy energy) {
-  // The size depends on how many vertices there are, not on where they are.
-  const std::vector<double> coordinates(3 * std::size_t(vertices));
-  return to_python(predict_size(PolygonMesh{coordinates, as_span(corners), as_span(offsets)},
-                                levels, shapes, energy));
+  const OwnedPolygonMesh faces = copy_of({}, corners, offsets);
+  require_faces(faces.corners, faces.offsets);
+  return to_python(predict_size(vertices, faces.corners, faces.offsets, levels, shapes, energy));
 }
 
 }  // namespace
@@ -130,6 +139,7 @@ PYBIND11_MODULE(_native, m) {
         py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");
   bind_solver(m);
+  bind_end();
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;
 #else

@@ -3,10 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
-#include <thread>
+#include <memory>
 
 #include "parallel/monitor.h"
 
@@ -22,9 +20,16 @@ class Runner {
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
+  // False where the system has started none: jobs run on the caller's thread then, without progress
+  // on the way.
+  bool has_thread() const { return thread_ != nullptr; }
+  // Whether this is a forked process, in which the thread does not exist.
+  bool is_left_behind() const;
+
   // Returns when the job is over, and throws what it has thrown, or what `progress`, a callable or
   // None, has. `monitor` is what the job reports to. `watcher`, null or the caller's own, is told
-  // the same and passes cancels on. Call it with Python's lock held.
+  // the same and passes cancels on. Call it with Python's lock held. Throws FairingError(forked) in
+  // a forked process, and FairingError(cancelled) where the interpreter is ending.
   void run(const std::function<void()>& job, Monitor& monitor, Monitor* watcher,
            const pybind11::object& progress);
 
@@ -32,15 +37,11 @@ class Runner {
   void run_quietly(const std::function<void()>& job);
 
  private:
-  void serve();
-  void start(const std::function<void()>& job);
+  class Thread;
+  void require_own_process() const;
 
-  std::mutex mutex_;
-  std::condition_variable wanted_, finished_;
-  const std::function<void()>* job_ = nullptr;
-  std::exception_ptr failure_;
-  bool stop_ = false;
-  std::thread thread_;
+  long process_;
+  std::unique_ptr<Thread> thread_;
 };
 
 }  // namespace fairing

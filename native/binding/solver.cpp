@@ -15,14 +15,21 @@ namespace {
 // A FairSolver and the thread that all its calls run on.
 class Solver {
  public:
-  Solver(const Contiguous<double>& vertices, Contiguous<std::int64_t> corners,
-         Contiguous<std::int64_t> offsets, const FairOptions& options)
-      : corners_(std::move(corners)), offsets_(std::move(offsets)) {
-    const PolygonMesh mesh = mesh_of(vertices);
-    call([&] { solver_ = std::make_unique<FairSolver>(mesh, options, monitor_); });
+  Solver(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+         const Contiguous<std::int64_t>& offsets, const FairOptions& options)
+      : corners_(copy_of(corners)), offsets_(copy_of(offsets)) {
+    if (!runner_.has_thread())
+      throw FairingError(ErrorCode::no_thread,
+                         "The system starts no further thread, and a solver needs one. End other "
+                         "programs, or use fair(), which can do without.");
+    const std::vector<double> coordinates = copy_of(vertices);
+    call([&] { solver_ = std::make_unique<FairSolver>(mesh_of(coordinates), options, monitor_); });
   }
   ~Solver() {
-    runner_.run_quietly([&] { solver_.reset(); });
+    if (runner_.is_left_behind())
+      static_cast<void>(solver_.release());  // its threads are not here to be joined
+    else
+      runner_.run_quietly([&] { solver_.reset(); });
   }
 
   // The faces, which are the same for all surfaces; read-only arrays.
@@ -42,7 +49,7 @@ class Solver {
   py::dict solve(const Contiguous<double>& vertices, Monitor* watcher, const py::object& progress) {
     py::array_t<double> out({py::ssize_t(points_), py::ssize_t(3)});
     double* const to = out.mutable_data();
-    const std::span<const double> coordinates = as_span(vertices);
+    const std::vector<double> coordinates = copy_of(vertices);
     Report report;
     call([&] { report = solver_->solve(coordinates, to); }, watcher, progress);
     py::dict d;
@@ -52,15 +59,15 @@ class Solver {
   }
 
   void rebase(const Contiguous<double>& vertices) {
-    const PolygonMesh mesh = mesh_of(vertices);
-    call([&] { solver_->rebase(mesh); });
+    const std::vector<double> coordinates = copy_of(vertices);
+    call([&] { solver_->rebase(mesh_of(coordinates)); });
   }
 
   std::size_t bytes() const { return bytes_; }
 
  private:
-  PolygonMesh mesh_of(const Contiguous<double>& vertices) const {
-    return {as_span(vertices), as_span(corners_), as_span(offsets_)};
+  PolygonMesh mesh_of(const std::vector<double>& coordinates) const {
+    return {coordinates, corners_, offsets_};
   }
   // A monitor serves one call: it never goes back, and stays cancelled once it is.
   template <class Job>
@@ -76,7 +83,7 @@ class Solver {
         monitor_, watcher, progress);
   }
 
-  Contiguous<std::int64_t> corners_, offsets_;
+  std::vector<std::int64_t> corners_, offsets_;
   Monitor monitor_;
   std::size_t points_ = 0, bytes_ = 0;
   Runner runner_;
@@ -87,8 +94,8 @@ class Solver {
 
 void bind_solver(py::module_& m) {
   py::class_<Solver>(m, "Solver", "discrete_fairing.Solver on plain arrays.")
-      .def(py::init<const Contiguous<double>&, Contiguous<std::int64_t>, Contiguous<std::int64_t>,
-                    const FairOptions&>(),
+      .def(py::init<const Contiguous<double>&, const Contiguous<std::int64_t>&,
+                    const Contiguous<std::int64_t>&, const FairOptions&>(),
            py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
            py::arg("offsets").noconvert(), py::arg("options"))
       .def("constants", &Solver::constants)

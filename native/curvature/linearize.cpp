@@ -22,14 +22,15 @@ struct PointScratch {
   double store(const RingInSpace& at, bool closed, CurvatureEnergy energy, double weight,
                const RowRun<float>& run, std::size_t i, double* const* force) {
     linearize(at.view(closed), energy, rows);
-    if (!(rows.point.area > 0)) {
+    if (!rows.point.has_rows()) {
+      const double out = rows.point.area;  // infinite, or none
       for (int c = 0; c < 3; ++c)
         for (int s = 0; s < run.slots; ++s) run.at(c, s, i) = 0;
       rows.point.area = 0;
       rows.point.normal.setZero();
       rows.shape.setZero();
       root = 0;
-      return 0;
+      return out;
     }
     const double area = weight * rows.point.area;
     root = std::sqrt(area);
@@ -224,7 +225,10 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
       body);
 
   bending_ = energy.total();
-  if (varies()) bending_ = connect(x, tensors, to.normal.data(), to.force.data());
+  if (varies()) {
+    const double variation = connect(x, tensors, to.normal.data(), to.force.data());
+    if (std::isfinite(bending_)) bending_ = variation;
+  }
   if (shared_.tension > 0) {
     if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
     tension_ = area_->linearize(shared_.tension, x, wants_points ? to.normal.data() : nullptr,

@@ -118,6 +118,14 @@ bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan, double& tota
   return true;
 }
 
+// Of a ring whose sums give no curvature: none where it has shrunk to nothing, but infinite where
+// it has burst, lest that be what takes the least energy.
+PointCurvature without_shape(const SurfaceRing& ring) {
+  for (const Vec3& offset : ring.offset)
+    if (!(offset.squaredNorm() < ring_farthest)) return PointCurvature::infinite();
+  return {};
+}
+
 void lift_cotangents(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
   for (std::size_t j = 0; j < ring.offset.size(); ++j) {
     double& cotangent = chart.cotangent[j];
@@ -146,13 +154,13 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   const std::size_t size = ring.offset.size();
   Fan fan(chart.cotangent);
   double total = 0;
-  if (!sum_up<true>(ring, chart, fan, total)) return {};
+  if (!sum_up<true>(ring, chart, fan, total)) return without_shape(ring);
   chart.rest.resize(size);
   chart.weight.resize(size);
   if (!ring.lift.empty()) lift_cotangents(ring, chart, fan);
   PointCurvature out;
   const double length = fan.normal.norm();
-  if (!(length > 0 && total > 0 && std::isfinite(length))) return {};
+  if (!(length > 0 && total > 0 && std::isfinite(length))) return without_shape(ring);
   out.normal = fan.normal / length;
   lay_out(chart.ring, chart.height, ring.closed ? total : full_turn, ring);
   for (std::size_t j = 0; j < size; ++j) chart.height[j] = out.normal.dot(ring.offset[j]);
@@ -182,7 +190,7 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
 
 void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) {
   out.point = point_curvature(ring, out.chart);
-  if (!(out.point.area > 0)) return;
+  if (!out.point.has_rows()) return;
   out.shape = {root_half * out.point.trace, out.point.trace_free[0], out.point.trace_free[1]};
   if (ring.closed) {
     hessian_rows(out.chart.ring, out.chart.weight, out.row);

@@ -20,6 +20,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ constexpr double ring_thinnest = 1e-24;   // squared sine below which a triangle
 constexpr double far_corner_weight = 0.3;
 // Squared distance below which a neighbour is the point itself.
 constexpr double ring_nearest = 1e-200;
+// And from which on it is out of reach: the squares of areas would overflow.
+constexpr double ring_farthest = 1e150;
 
 // The ring of a point p_i, counter-clockwise; a closed one has three neighbours or more.
 struct SurfaceRing {
@@ -72,6 +75,15 @@ struct PointCurvature {
   double density() const {
     return 0.5 * trace * trace + trace_free[0] * trace_free[0] + trace_free[1] * trace_free[1];
   }
+
+  // Of a ring that is not finite, or beyond ring_farthest: no energy is less.
+  static PointCurvature infinite() {
+    PointCurvature out;
+    out.area = out.trace = std::numeric_limits<double>::infinity();
+    return out;
+  }
+  // Whether there are rows.
+  bool has_rows() const { return area > 0 && area < std::numeric_limits<double>::infinity(); }
 };
 
 // The curvature of one ring. Its steps, with cot_j half the cotangents across the edge to p_j:
@@ -88,7 +100,8 @@ struct PointCurvature {
 // the fit's trace stands for the share that is missing: spheres stay exact.
 //
 // An open ring has the barycentric area, and all of M from the fit. A ring with a neighbour at the
-// point itself, or without a normal, has no curvature and no area.
+// point itself, or without a normal, has no curvature and no area; one that is not finite has an
+// infinite curvature and area.
 //
 // `chart` is written; it takes no new memory once it has held a ring of that size.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);

@@ -18,7 +18,8 @@ constexpr int most_rejections = 4;
 bool search(StepMethod& method, const StepCount& count, StepReport& step) {
   for (step.length = 1; step.length >= least_length; step.length /= 2) {
     const double energy = method.try_length(step, count);
-    if (method.is_acceptable(step, energy)) return true;
+    const bool is_finite = std::isfinite(energy) && std::isfinite(step.movement);
+    if (is_finite && method.is_acceptable(step, energy)) return true;
   }
   step.length = 0;
   return false;
@@ -87,7 +88,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   bool begin(CurvatureLevelReport& report) override {
     report.converged = it_.current.energy < flat_energy;
-    if (report.converged) return false;
+    if (report.converged || !std::isfinite(it_.current.energy)) return false;
     it_.system.report_progress(it_.level, report.steps.size());
     return true;
   }
@@ -118,7 +119,6 @@ class TotalCurvatureMethod final : public StepMethod {
 
   // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
   bool is_acceptable(const StepReport& step, double energy) const override {
-    if (!std::isfinite(energy)) return false;
     return !is_checked(step) ||
            !(energy > it_.current.energy * (1 + allowed_rise * step.decrement));
   }

@@ -33,6 +33,7 @@ class StepMethod {
   // The energy that the share step.length of the step leads to; sets step.movement. `count` is of
   // the steps before. The full step is always tried first, then its half, and so on.
   virtual double try_length(StepReport& step, const StepCount& count) = 0;
+  // Asked of finite energies and movements only; no step to others is taken.
   virtual bool is_acceptable(const StepReport& step, double energy) const = 0;
 
   // The iteration goes to the latest trial. `count` includes the step. Returns whether the steps

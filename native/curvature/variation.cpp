@@ -80,6 +80,7 @@ class VariationStep final : public StepMethod {
   }
 
   bool begin(CurvatureLevelReport& report) override {
+    if (!std::isfinite(it_.current.energy)) return false;
     it_.system.report_progress(it_.level, report.steps.size());
     return true;
   }

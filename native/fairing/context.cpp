@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <tuple>
+#include <utility>
 
 #include "curvature/total_curvature.h"
+#include "fairing/extremes.h"
 #include "fairing/memory_plan.h"
 #include "fairing/output.h"
 #include "fairing/unknowns.h"
@@ -60,10 +63,24 @@ void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& r
   report.flipped_faces = std::move(checked.flipped_faces);
 }
 
-void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watch) {
+void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watch,
+                            ControlPositions& control) {
   std::vector<Vec3> world = control_positions(coordinates).world;
+  std::vector<Vec3> positions = mesh_.positions;
   drop_systems();
-  build(std::move(world), watch);
+  // From here on nothing fails but what is put back: all that build() sets.
+  std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_),
+                    weight_unit_, std::move(start_weights_), std::move(positions));
+  try {
+    build(std::move(world), watch);
+    ControlPositions copy = basis_;
+    control = std::move(copy);
+  } catch (...) {
+    drop_systems();
+    std::tie(frame_, basis_, stencils_, mirrors_, weight_unit_, start_weights_, mesh_.positions) =
+        std::move(before);
+    throw;
+  }
 }
 
 // `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
@@ -225,6 +242,7 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   }
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), frame_, *workers_, x, world);
+  require_finite(mesh_, control, *workers_, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
 }
 

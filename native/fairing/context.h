@@ -30,8 +30,9 @@ class FairingContext {
   // The checks of fair() alone: throws what is wrong with a mesh, and puts warnings into `report`.
   void check(const PolygonMesh& input, Stopwatch& watch, Report& report) const;
   // Builds anew about other positions, 3 numbers an input vertex in world coordinates: charts,
-  // stencils, curves, spectra. Faces, splits and creases stay.
-  void rebase(std::span<const double> coordinates, Stopwatch& watch);
+  // stencils, curves, spectra. Faces, splits and creases stay. `control` becomes the new basis().
+  // After an error all is as before, but for the systems, which have to be built again.
+  void rebase(std::span<const double> coordinates, Stopwatch& watch, ControlPositions& control);
 
   const FairOptions& options() const { return options_; }
   const ControlMesh& mesh() const { return mesh_; }
@@ -80,7 +81,8 @@ class FairingContext {
   void measure_prediction(const double* x, Stopwatch& watch, Report& report);
 
   // The surface x, in working coordinates, to `world`, which may be the same array; its energies,
-  // where they are to be `measured`, and its deviation to `report`.
+  // where they are to be `measured`, and its deviation to `report`. Throws too_extreme where the
+  // surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const double* x, double* world);
 

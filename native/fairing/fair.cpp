@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <new>
 #include <string>
+#include <utility>
 
+#include "fairing/extremes.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -16,11 +18,6 @@ namespace {
 // it. It balances conjugate gradients on a surface that is left anyway against steps from a worse
 // one.
 constexpr double start_tolerance = 1e-3;
-
-[[noreturn]] void throw_out_of_memory() {
-  throw FairingError(ErrorCode::out_of_memory,
-                     "Out of memory. Use fewer levels, or close other programs.");
-}
 
 // A shape may repeat the mesh or an earlier shape, as unused shape keys do: the number of the first
 // surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none.
@@ -65,6 +62,7 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
     }
     watch.enter(Phase::curves, 0);
     const ControlPositions control = context.control_positions(shapes.subspan(s * size, size));
+    require_in_reach(context.mesh(), control);
     Report own;
     fair_once(context, control, false, watch, own, result.shapes.emplace_back());
     warn_unconverged(own.levels.back(), context.options(), "Shape " + std::to_string(s) + ": ",
@@ -107,11 +105,16 @@ const FairOptions& without_back_leg(const FairOptions& options) {
 
 }  // namespace
 
+FairingError out_of_memory() {
+  return FairingError(ErrorCode::out_of_memory,
+                      "Out of memory. Use fewer levels, or close other programs.");
+}
+
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
   try {
     return fair_all(mesh, options, monitor);
   } catch (const std::bad_alloc&) {
-    throw_out_of_memory();
+    throw out_of_memory();
   }
 }
 
@@ -123,7 +126,7 @@ FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Mon
       recent_(context_.workers()) {
   built_.seconds.clear();
 } catch (const std::bad_alloc&) {
-  throw_out_of_memory();
+  throw out_of_memory();
 }
 
 void FairSolver::forget_surfaces() {
@@ -139,7 +142,7 @@ auto FairSolver::guarded(Call&& call) {
     return call();
   } catch (const std::bad_alloc&) {
     forget_surfaces();
-    throw_out_of_memory();
+    throw out_of_memory();
   } catch (...) {
     forget_surfaces();
     throw;
@@ -155,6 +158,7 @@ void FairSolver::set_control(std::span<const double> coordinates) {
     is_basis = coordinates[i] == basis[i / 3][Eigen::Index(i % 3)];
   const ControlPositions next =
       is_basis ? context_.basis() : context_.control_positions(coordinates);
+  require_in_reach(context_.mesh(), next);
   control_ = next;  // copied, not moved: solvers hold on to the arrays that are there
 }
 
@@ -163,6 +167,7 @@ Report FairSolver::solve(std::span<const double> coordinates, double* out) {
     check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
   return guarded([&] {
     const FairOptions& options = context_.options();
+    if (std::exchange(was_far_out_, false)) forget_surfaces();
     Report report = built_;
     Stopwatch watch(report, monitor_);
     watch.enter(Phase::hierarchy, 0);
@@ -175,6 +180,7 @@ Report FairSolver::solve(std::span<const double> coordinates, double* out) {
     else
       solve_from_nothing(watch, report);
     write(watch, report, out);
+    was_far_out_ = lies_far_out(context_.mesh(), control_);
     report.peak_bytes = ledger_.peak();
     watch.leave();
     monitor_.report(Phase::done, 1);
@@ -238,8 +244,7 @@ void FairSolver::rebase(const PolygonMesh& input) {
     context_.check(input, watch, report);
     guarded([&] {
       recent_.forget();
-      context_.rebase(input.coordinates, watch);
-      control_ = context_.basis();
+      context_.rebase(input.coordinates, watch, control_);
     });
   }
   report.seconds.clear();

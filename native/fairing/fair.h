@@ -19,6 +19,9 @@ struct FairResult {
   Report report;
 };
 
+// What a run says that has found no memory.
+FairingError out_of_memory();
+
 // The fair surface of a mesh, and of all shapes of `options`. Only reads the arrays of `mesh`. May
 // run on any thread; `monitor` is watched from others. Throws FairingError and nothing else:
 // cancelled and out_of_memory among its codes.
@@ -41,7 +44,8 @@ class FairSolver {
   // After an error the next one starts from nothing.
   Report solve(std::span<const double> coordinates, double* out);
 
-  // Builds anew about these positions. `input` has the same faces as ever.
+  // Builds anew about these positions. `input` has the same faces as ever. After an error it is
+  // about the positions before, and the next surface starts from nothing.
   void rebase(const PolygonMesh& input);
 
   OutputFaces faces() { return make_faces(context_.finest(), context_.workers()); }
@@ -65,7 +69,8 @@ class FairSolver {
   FairingContext context_;
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;
-  Array<double> released_;  // the last surface, its control vertices released by epsilon
+  bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)
+  Array<double> released_;    // the last surface, its control vertices released by epsilon
 };
 
 }  // namespace fairing

@@ -115,18 +115,25 @@ RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy,
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = c.points(levels);
   size.triangles = n * n * (c.triangles + 2 * c.quads);
-  // Of a shape only its surface stays; it is solved in the same arrays.
-  size.bytes =
-      peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.points;
+  // More than that no sum here comes to; it tells what would not fit into its type.
+  constexpr double most_of_point = 1 << 14;
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  size.bytes = most;
+  if (double(size.points) * (most_of_point + double(shapes) * double(vector_bytes)) < double(most))
+    // Of a shape only its surface stays; it is solved in the same arrays.
+    size.bytes =
+        peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.points;
   return size;
 }
 
 }  // namespace
 
-RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes, Energy energy,
-                     bool tense) {
+RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corners,
+                     std::span<const std::int64_t> offsets, int levels, std::size_t shapes,
+                     Energy energy, bool tense) {
+  const PolygonMesh mesh{{}, corners, offsets};
   Counts c;
-  c.vertices = mesh.vertex_count();
+  c.vertices = vertices;
   std::vector<std::uint64_t> keys;
   keys.reserve(mesh.corners.size());
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
@@ -187,7 +194,8 @@ void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
                                  shapes, options.energy, options.tension > 0);
   const std::size_t limit = memory_limit(options);
   if (limit && least.bytes > std::int64_t(limit))
-    require_fit(predict_size(mesh, options.levels, shapes, options.energy, options.tension > 0),
+    require_fit(predict_size(mesh.vertex_count(), mesh.corners, mesh.offsets, options.levels,
+                             shapes, options.energy, options.tension > 0),
                 options);
 }
 

@@ -20,9 +20,11 @@ struct RunSize {
 
 // `tense`: under tension, which takes a little more.
 //
-// From the plain arrays alone, checked or not; positions are not read. Polygons count as if split
-// around a centre, quads that will be split count as quads.
-RunSize predict_size(const PolygonMesh& mesh, int levels, std::size_t shapes = 0,
+// From the number of vertices, up to 2^31, and from faces that require_faces() lets pass. Polygons
+// count as if split around a centre, quads that will be split count as quads. Sizes beyond any
+// machine are the largest number of bytes.
+RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corners,
+                     std::span<const std::int64_t> offsets, int levels, std::size_t shapes = 0,
                      Energy energy = Energy::thin_plate, bool tense = false);
 // From the mesh as it is after splits: exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,

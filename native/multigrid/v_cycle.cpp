@@ -3,6 +3,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -11,7 +12,8 @@ namespace fairing {
 
 struct CoarseSolver::Factor {
   std::vector<Index> points;
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  // Never analyzed twice: Eigen's vectors free their memory twice where a second size finds none.
+  std::optional<Eigen::SimplicialLDLT<SparseMatrix>> ldlt{std::in_place};
   // What the elimination's order was found for: columns, and rows one column after another.
   std::vector<int> columns, rows;
 
@@ -22,11 +24,12 @@ struct CoarseSolver::Factor {
     };
     if (!same(columns, k.outerIndexPtr(), k.outerSize() + 1) ||
         !same(rows, k.innerIndexPtr(), k.nonZeros())) {
-      columns.assign(k.outerIndexPtr(), k.outerIndexPtr() + k.outerSize() + 1);
+      columns.clear();
+      ldlt.emplace().analyzePattern(k);
       rows.assign(k.innerIndexPtr(), k.innerIndexPtr() + k.nonZeros());
-      ldlt.analyzePattern(k);
+      columns.assign(k.outerIndexPtr(), k.outerIndexPtr() + k.outerSize() + 1);
     }
-    ldlt.factorize(k);
+    ldlt->factorize(k);
   }
 };
 
@@ -49,12 +52,12 @@ void CoarseSolver::refactor() {
   for (Eigen::Index i = 0; i < system.matrix.rows(); ++i)
     system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
   factor_->compute(system.matrix);
-  if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0))
+  if (factor_->ldlt->info() != Eigen::Success || !(factor_->ldlt->vectorD().minCoeff() > 0))
     throw FairingError(ErrorCode::underdetermined,
                        "The surface is not determined: a part of the mesh has too few fixed "
                        "points. Interpolate more "
                        "control vertices, or give them weights.");
-  factor_bytes_ = std::size_t(factor_->ldlt.matrixL().nestedExpression().nonZeros()) *
+  factor_bytes_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros()) *
                   (sizeof(double) + sizeof(int));
   MemoryLedger::add(factor_bytes_);
 }
@@ -70,7 +73,7 @@ void CoarseSolver::solve(const double* b, double* x) const {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
-  right = factor_->ldlt.solve(right).eval();
+  right = factor_->ldlt->solve(right).eval();
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));

@@ -2,6 +2,8 @@
 #include "parallel/workers.h"
 
 #include <algorithm>
+#include <new>
+#include <system_error>
 
 namespace fairing {
 namespace {
@@ -39,7 +41,18 @@ constexpr std::uint64_t call_of(std::uint64_t state) { return state >> 32; }
 Workers::Workers(int threads) {
   if (threads <= 0) threads = int(std::max(1u, std::thread::hardware_concurrency()));
   threads_.reserve(std::size_t(threads - 1));
-  for (int id = 1; id < threads; ++id) threads_.emplace_back([this] { serve(); });
+  while (count() < threads && start_thread()) {
+  }
+}
+
+bool Workers::start_thread() {
+  try {
+    threads_.emplace_back([this] { serve(); });
+    return true;
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  return false;
 }
 
 Workers::~Workers() {

@@ -19,7 +19,8 @@ namespace fairing {
 
 class Workers {
  public:
-  explicit Workers(int threads = 0);  // 0: one a core
+  // 0: one a core. Where the system starts fewer, those have to do.
+  explicit Workers(int threads = 0);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -74,6 +75,7 @@ class Workers {
     return std::min({grains, wanted, most_parts});
   }
 
+  bool start_thread();
   void dispatch(int parts, void* data, Task task);
   void serve();
   void work(State state, bool from_end);

@@ -75,7 +75,11 @@ class RowBuilder {
     in_chunk_.fit(columns);
   }
 
-  ~RowBuilder() { in_chunk_.last += std::uint32_t(chunk_.column.size()); }
+  // What an exception has left of a row is no mark to the thread's next builder.
+  ~RowBuilder() {
+    in_row_.last += std::uint32_t(sum_.size());
+    in_chunk_.last += std::uint32_t(chunk_.column.size());
+  }
   RowBuilder(const RowBuilder&) = delete;
   RowBuilder& operator=(const RowBuilder&) = delete;
 

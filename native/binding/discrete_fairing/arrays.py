@@ -2,7 +2,7 @@
 """Arrays as callers pass them, turned into those that the core reads.
 
 Callers may pass any memory layout, any integer or float type, and read-only arrays. The core reads
-C-contiguous float64 and int64.
+C-contiguous, aligned float64 and int64.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def vertex_array(vertices: ArrayLike) -> np.ndarray:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
         raise fairing_error("BAD_SHAPE", f"vertices has shape {array.shape}; it must be (n, 3).")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return plain(array, np.float64)
 
 
 def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> np.ndarray:
@@ -36,7 +36,7 @@ def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> n
             "BAD_SHAPE",
             f"shapes has shape {array.shape}; it must be (k, {count}, 3), one row for each vertex.",
         )
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return plain(array, np.float64)
 
 
 def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray]:
@@ -106,11 +106,27 @@ def index_array(values: ArrayLike, name: str) -> np.ndarray:
         raise fairing_error("BAD_SHAPE", f"{name} has dtype {array.dtype}; it must hold integers.")
     if array.dtype == np.uint64:
         array = np.minimum(array, np.uint64(np.iinfo(np.int64).max))
-    return np.ascontiguousarray(array, dtype=np.int64)
+    return plain(array, np.int64)
+
+
+def has_masked(values: object) -> bool:
+    """Whether an array, or one of a list of arrays, hides entries: NumPy would show them again."""
+    if isinstance(values, list | tuple):
+        return any(np.ma.is_masked(part) for part in values if isinstance(part, np.ndarray))
+    return np.ma.is_masked(values)
+
+
+def plain(array: np.ndarray, dtype: type) -> np.ndarray:
+    """C-contiguous, aligned and of a NumPy type; the same memory where it is that already."""
+    return np.require(array, dtype, ["C", "A"])
 
 
 def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
     """An array of one of the NumPy `kinds` of dtype. Raises FairingError BAD_SHAPE, with `name`."""
+    if has_masked(values):
+        raise fairing_error(
+            "BAD_SHAPE", f"{name} has masked entries; fill them, or leave them out."
+        )
     try:
         array = np.asarray(values)
     except ValueError as error:

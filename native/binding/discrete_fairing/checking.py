@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, vertex_array
 from .errors import fairing_error
-from .options import choice
+from .options import choice, switch, whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +50,11 @@ def check(
 
     The list is empty if there is none. Skips tests that earlier defects make meaningless: an index
     out of range ends the search. With `repair_orientation`, inconsistent orientation counts as a
-    warning. Raises only FairingError BAD_SHAPE, for arrays of a wrong shape or type.
+    warning. Raises FairingError BAD_SHAPE, for arrays of a wrong shape or type, and OUT_OF_MEMORY.
     """
     corners, offsets = face_arrays(faces)
-    found = _native.check(vertex_array(vertices), corners, offsets, bool(repair_orientation))
+    repair = switch("repair_orientation", repair_orientation)
+    found = _native.check(vertex_array(vertices), corners, offsets, repair)
     return [Defect(**defect) for defect in found]
 
 
@@ -83,14 +84,14 @@ def predicted_size(
     own arrays. Quads that will be split count as quads. Raises FairingError BAD_SHAPE and
     BAD_OPTION.
     """
-    if vertex_count < 0 or shapes < 0 or not 0 <= levels <= _native.most_levels:
+    count, depth, more = (
+        whole(name, value)
+        for name, value in (("vertex_count", vertex_count), ("levels", levels), ("shapes", shapes))
+    )
+    if depth > _native.most_levels:
         raise fairing_error(
-            "BAD_OPTION",
-            f"{vertex_count} vertices and {shapes} shapes at {levels} levels; vertices and shapes "
-            f"must be 0 or more, and levels from 0 to {_native.most_levels}.",
+            "BAD_OPTION", f"levels is {depth}; it must be from 0 to {_native.most_levels}."
         )
     functional = choice(_native.Energy)("energy", energy)
     corners, offsets = face_arrays(faces)
-    return _native.predicted_size(
-        int(vertex_count), corners, offsets, int(levels), int(shapes), functional
-    )
+    return _native.predicted_size(count, corners, offsets, depth, more, functional)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
@@ -11,6 +11,7 @@ from . import _native
 from .arrays import face_arrays, shape_array, vertex_array
 from .options import SETTINGS, native_options
 from .result import Result
+from .watching import Progress, check_watchers
 
 
 def fair(
@@ -47,7 +48,7 @@ def fair(
     threads: int = 0,
     memory_limit: int = 0,
     measure: bool = False,
-    progress: Callable[[float, str], bool | None] | None = None,
+    progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
 ) -> Result:
     """Refine a control mesh 1-to-4 and fair it: the new vertices minimize a bending energy.
@@ -157,6 +158,7 @@ def fair(
     # locals() holds just the arguments here, so that no setting is listed again.
     settings = {name: value for name, value in locals().items() if name in SETTINGS}
     options = native_options(**settings)
+    check_watchers(progress, monitor)
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     others = shape_array(shapes, len(points))

@@ -100,7 +100,7 @@ def whole(name: str, value: object) -> int:
     """An integer of any type, from 0 to what the core's holds."""
     try:
         number = value.__index__()
-    except AttributeError:
+    except (AttributeError, TypeError):
         raise fairing_error(
             "BAD_OPTION", f"{name} is {value!r}; it must be a whole number."
         ) from None
@@ -117,7 +117,7 @@ def real(name: str, value: object) -> float:
     """A finite number."""
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a number.") from None
     if not isfinite(number):
         raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be finite.")
@@ -126,7 +126,12 @@ def real(name: str, value: object) -> float:
 
 def switch(name: str, value: object) -> bool:
     """Anything with a truth value."""
-    return bool(value)
+    try:
+        return bool(value)
+    except (TypeError, ValueError):
+        raise fairing_error(
+            "BAD_OPTION", f"{name} is {value!r}; it must be True or False."
+        ) from None
 
 
 SETTINGS = {

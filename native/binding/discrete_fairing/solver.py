@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
 
@@ -15,6 +15,7 @@ from .arrays import face_arrays, vertex_array
 from .errors import fairing_error
 from .options import native_options
 from .result import Result
+from .watching import Progress, check_watchers
 
 
 class Solver:
@@ -50,7 +51,7 @@ class Solver:
     ):
         options = native_options(levels=levels, energy=energy, **{"measure": False, **settings})
         points = vertex_array(vertices)
-        corners, offsets = (np.array(part) for part in face_arrays(faces))
+        corners, offsets = face_arrays(faces)
         self._native = _native.Solver(points, corners, offsets, options)
         self._constants = self._native.constants()
         self._busy = Lock()
@@ -80,7 +81,7 @@ class Solver:
         self,
         vertices: ArrayLike | None = None,
         *,
-        progress: Callable[[float, str], bool | None] | None = None,
+        progress: Progress | None = None,
         monitor: _native.Monitor | None = None,
     ) -> Result:
         """The surface of these positions (n, 3) of the control vertices; None: those given last.
@@ -91,9 +92,10 @@ class Solver:
         new each time; result.faces, triangle_polygon, quad_polygon and crease_edges are the same
         read-only arrays. report["warm"] says whether the last surface was the start.
 
-        Raises FairingError: BAD_SHAPE, NON_FINITE, CANCELLED, BUSY. The solver can go on after any
-        of them.
+        Raises FairingError: BAD_SHAPE, NON_FINITE, TOO_EXTREME, CANCELLED, BUSY. The solver can go
+        on after any of them. In a forked process: FORKED, always.
         """
+        check_watchers(progress, monitor)
         points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
         with self._alone():
             return Result(

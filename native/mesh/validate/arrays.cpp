@@ -34,6 +34,22 @@ bool repeats_a_vertex(std::span<const std::int64_t> face) {
   return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
+bool cut_faces(std::span<const std::int64_t> offsets, std::size_t corners) {
+  return !offsets.empty() && offsets.front() == 0 && offsets.back() == std::int64_t(corners) &&
+         std::is_sorted(offsets.begin(), offsets.end());
+}
+
+Defect bad_offsets() {
+  return Defect(ErrorCode::bad_shape,
+                "The face offsets must ascend from 0 to the number of corners, one more than there "
+                "are faces.");
+}
+
+Defect too_many() {
+  return Defect(ErrorCode::too_large,
+                "The control mesh has more than 268 million corners or vertices.");
+}
+
 // The sizes fit together, so that every face's span of corners exists.
 bool check_sizes(const PolygonMesh& mesh, Defects& found) {
   const std::size_t before = found.size();
@@ -44,15 +60,10 @@ bool check_sizes(const PolygonMesh& mesh, Defects& found) {
                        "The coordinates must come in threes: x, y, z for each vertex.");
   else if (mesh.offsets.size() < 2 && mesh.corners.empty())
     found.emplace_back(ErrorCode::no_faces, "The mesh has no faces: there is no surface to fair.");
-  else if (mesh.offsets.empty() || mesh.offsets.front() != 0 ||
-           mesh.offsets.back() != std::int64_t(mesh.corners.size()) ||
-           !std::is_sorted(mesh.offsets.begin(), mesh.offsets.end()))
-    found.emplace_back(ErrorCode::bad_shape,
-                       "The face offsets must ascend from 0 to the number of corners, one more "
-                       "than there are faces.");
+  else if (!cut_faces(mesh.offsets, mesh.corners.size()))
+    found.push_back(bad_offsets());
   else if (mesh.corners.size() > most_corners || mesh.coordinates.size() / 3 > most_corners)
-    found.emplace_back(ErrorCode::too_large,
-                       "The control mesh has more than 268 million corners or vertices.");
+    found.push_back(too_many());
   else if (mesh.coordinates.empty())
     found.emplace_back(ErrorCode::empty_mesh, "The mesh has faces but no vertices.");
   return found.size() == before;
@@ -116,6 +127,11 @@ std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
     if (nan || size > largest_coordinate) bad.push_back(std::int64_t(v));
   }
   return bad;
+}
+
+void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets) {
+  if (!cut_faces(offsets, corners.size())) bad_offsets().raise();
+  if (corners.size() > most_corners) too_many().raise();
 }
 
 Readable check_arrays(const PolygonMesh& mesh, Defects& found) {

@@ -67,6 +67,10 @@ std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh);
 // reversed come back in the result, for make_control_mesh. Linear time up to hashing and sorting.
 CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 
+// Throws bad_shape, or too_large, where the offsets do not cut the corners into faces. Neither ids
+// nor counts of corners are looked at.
+void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets);
+
 // Vertices with a coordinate that is NaN, infinite or beyond 1e100.
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> coordinates);
 

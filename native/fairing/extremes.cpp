@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/extremes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// In sizes of the mesh that charts were made from: with the requested accuracy relative to the
+// farthest vertex, six digits are left to the others.
+constexpr double farthest = 1e3;
+// Likewise; single precision, too, holds the squares.
+constexpr double out_of_reach = 1e15;
+// A vertex lies far away that is so many times as far from the middle as most are.
+constexpr double far_away = 1e3;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The input vertices on faces that are farther out than that, in working coordinates.
+std::vector<std::int64_t> vertices_beyond(double distance, const ControlMesh& mesh,
+                                          const ControlPositions& control) {
+  std::vector<std::int64_t> out;
+  for (Index v = 0; v < mesh.input_vertices; ++v)
+    if (!mesh.ring(v).empty() &&
+        !(control.working[std::size_t(v)].cwiseAbs().maxCoeff() < distance))
+      out.push_back(v);
+  return out;
+}
+
+std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
+                                            const ControlPositions& control) {
+  std::vector<Index> used;
+  for (Index v = 0; v < mesh.input_vertices; ++v)
+    if (!mesh.ring(v).empty()) used.push_back(v);
+  Vec3 middle = Vec3::Zero();
+  std::vector<double> values(used.size());
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    for (std::size_t i = 0; i < used.size(); ++i)
+      values[i] = control.working[std::size_t(used[i])][a];
+    middle[a] = median(values);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    values[i] = (control.working[std::size_t(used[i])] - middle).stableNorm();
+  const double usual = median(values);
+  std::vector<std::int64_t> out;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!(values[i] <= far_away * usual)) out.push_back(used[i]);
+  return out;
+}
+
+}  // namespace
+
+bool lies_far_out(const ControlMesh& mesh, const ControlPositions& control) {
+  return !vertices_beyond(farthest, mesh, control).empty();
+}
+
+void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) {
+  std::vector<std::int64_t> far = vertices_beyond(out_of_reach, mesh, control);
+  if (far.empty()) return;
+  const std::string names = listing(vertex_s, far, {"lies", "lie"});
+  throw FairingError(ErrorCode::too_extreme,
+                     names +
+                         " so far from the mesh that no digits would be left to the rest. Move or "
+                         "delete them.",
+                     std::move(far));
+}
+
+void require_finite(const ControlMesh& mesh, const ControlPositions& control, Workers& workers,
+                    std::size_t size, const double* x) {
+  if (std::isfinite(largest(workers, size, [&](std::size_t i) { return x[i]; }))) return;
+  std::vector<std::int64_t> far = vertices_far_away(mesh, control);
+  if (far.empty())
+    throw FairingError(ErrorCode::too_extreme,
+                       "The surface cannot be computed: lengths or angles of the mesh are too far "
+                       "apart. Even out its thinnest faces, or use energy=\"thin_plate\".");
+  const std::string names = listing(vertex_s, far, {"lies", "lie"});
+  throw FairingError(ErrorCode::too_extreme,
+                     "The surface cannot be computed: " + names +
+                         " over a thousand times as far out as most. Move or delete them.",
+                     std::move(far));
+}
+
+}  // namespace fairing

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers far apart: a surface is finite, or there is none; and none harms the next."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+CURVED = ["total_curvature", "minimum_variation"]
+# mesh, vertex, how far out it is taken, options: steps from these ran to infinity, and were believed
+RUNAWAYS = [
+    ("octahedron", 2, 1e6, "total_curvature", 2, {"pad_size": 0.0, "crease_edges": [[5, 4]]}),
+    ("tetrahedron", 0, 1e7, "minimum_variation", 3, {}),
+    ("tetrahedron", 2, 1e8, "minimum_variation", 1, {"crease_edges": [[2, 0]]}),
+    ("icosahedron", 9, 1e10, "minimum_variation", 2, {"pad_size": 0.0}),
+    ("icosahedron", 11, 1e9, "minimum_variation", 1, {"crease_edges": [[9, 0]]}),
+    ("icosahedron", 9, 1e5, "minimum_variation", 3, {"crease_edges": [[9, 0]]}),
+]
+
+
+def pulled(vertices, vertex, factor):
+    out = np.array(vertices, float)
+    out[vertex] *= factor
+    return out
+
+
+@pytest.mark.parametrize("name, vertex, factor, energy, levels, options", RUNAWAYS)
+def test_steps_never_end_at_infinity(name, vertex, factor, energy, levels, options):
+    vertices, faces = meshes.ALL[name]()
+    result = df.fair(pulled(vertices, vertex, factor), faces, levels, energy, **options)
+    assert np.isfinite(result.vertices).all()
+    steps = result.report["curvature"][-1]
+    assert np.isfinite(steps["energy"])
+    assert all(np.isfinite(s["movement"]) for s in steps["steps"] if s["length"] > 0)
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+@pytest.mark.parametrize("factor", [1e6, 1e9, 1e12])
+def test_a_solver_forgets_a_vertex_that_went_far_away(energy, factor):
+    """What comes after is what a solver finds that has never seen it, to the last bit."""
+    vertices, faces = meshes.cube()
+    expected = df.fair(vertices, faces, 2, energy).vertices
+    solver = df.Solver(vertices, faces, 2, energy)
+    solver.solve()
+    assert np.isfinite(solver.solve(pulled(vertices, 7, factor)).vertices).all()
+    back = solver.solve(vertices)
+    assert not back.report["warm"] and np.array_equal(back.vertices, expected)
+    assert np.abs(solver.solve(vertices).vertices - expected).max() < 1e-7
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+@pytest.mark.parametrize("factor", [1e20, 1e60, 1e99])
+def test_a_vertex_out_of_reach_is_named(energy, factor):
+    vertices, faces = meshes.cube()
+    solver = df.Solver(vertices, faces, 2, energy)
+    expected = solver.solve().vertices
+    for _ in range(2):
+        with pytest.raises(df.FairingError) as caught:
+            solver.solve(pulled(vertices, 7, factor))
+        assert (caught.value.code, caught.value.elements) == ("TOO_EXTREME", [7])
+        assert caught.value.kind == "vertex" and "1 vertex (7) lies" in str(caught.value)
+    for _ in range(3):
+        assert np.abs(solver.solve(vertices).vertices - expected).max() < 1e-7
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(vertices, faces, 2, energy, shapes=[vertices, pulled(vertices, 3, factor)])
+    assert (caught.value.code, caught.value.elements) == ("TOO_EXTREME", [3])
+
+
+def test_a_loose_vertex_may_be_anywhere():
+    vertices, faces = meshes.cube()
+    vertices = np.vstack([vertices, [1e30, 0, 0]])
+    solver = df.Solver(vertices, faces, 2)
+    solver.solve()
+    assert solver.solve(pulled(vertices, 8, 1e30)).report["warm"]
+    assert solver.solve(pulled(vertices, 8, 1e-30)).report["warm"]

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arguments that no caller should pass, and arrays that change in mid-run: errors with a code, and
+never a crash."""
+
+import threading
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+POINTS, FACES = meshes.torus()
+CORNERS, OFFSETS = FACES.reshape(-1), np.arange(0, 4 * len(FACES) + 1, 4)
+
+
+def code_of(call, *arguments, **options):
+    with pytest.raises(df.FairingError) as caught:
+        call(*arguments, **options)
+    assert len(str(caught.value)) > 15 and str(caught.value)[-1] in ".)"
+    return caught.value.code
+
+
+@pytest.mark.parametrize(
+    "offsets", [[0, 10**9, 3], [0, -(10**9), 3], [0, 2**62, 3], [0, 2, 1, 3], [0, -1, 3]], ids=str
+)
+def test_a_size_is_not_predicted_from_offsets_that_lead_elsewhere(offsets):
+    faces = (np.array([0, 1, 2]), np.array(offsets))
+    assert code_of(df.predicted_size, 3, faces, 3) == "BAD_SHAPE"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (10**10, FACES, 3),
+        (2**31, FACES, 3),
+        (2**70, FACES, 3),
+        (2.5, FACES, 3),
+        ("12", FACES, 3),
+        (len(POINTS), FACES, 2.5),
+        (len(POINTS), FACES, "3"),
+        (len(POINTS), FACES, None),
+        (len(POINTS), FACES, 3, 2**62),
+        (len(POINTS), FACES, 3, 1.5),
+        (len(POINTS), FACES, 3, -1),
+        (len(POINTS), FACES, 3, 0, "cheap"),
+    ],
+    ids=lambda arguments: repr([a for a in arguments if a is not FACES]),
+)
+def test_a_size_is_not_predicted_from_what_is_no_number(arguments):
+    assert code_of(df.predicted_size, *arguments) == "BAD_OPTION"
+
+
+def test_sizes_beyond_any_machine_are_large_and_no_less():
+    most = df.predicted_size(2**31 - 1, FACES, 15, 2**31 - 1, "minimum_variation")
+    assert most["bytes"] == 2**63 - 1
+    assert 2**31 < most["triangles"] == 2 * len(FACES) * 4**15
+    sizes = [df.predicted_size(len(POINTS), FACES, 15, k)["bytes"] for k in (0, 1, 1000, 10**9)]
+    assert sizes == sorted(sizes) and sizes[0] > 2**31
+
+
+@pytest.mark.parametrize("levels", [np.array([1, 2]), np.array([2]), [2], {}], ids=repr)
+def test_levels_that_are_several(levels):
+    assert code_of(df.fair, POINTS, FACES, levels) == "BAD_OPTION"
+    assert code_of(df.Solver, POINTS, FACES, levels) == "BAD_OPTION"
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"threads": np.array([1, 2])},
+        {"measure": np.array([True, False])},
+        {"repair_orientation": np.zeros(3)},
+        {"epsilon": 10**400},
+        {"pad_size": np.array([1.0, 0.0])},
+        {"tolerance": [[0.1], [0.2]], "interpolation": "approximate"},
+    ],
+    ids=str,
+)
+def test_options_that_are_several_or_too_large(option):
+    assert code_of(df.fair, POINTS, FACES, 1, **option) in ("BAD_OPTION", "BAD_SHAPE")
+
+
+@pytest.mark.parametrize("watcher", [{"progress": 5}, {"progress": "print"}, {"monitor": 0}])
+def test_watchers_are_looked_at_before_the_run(watcher):
+    """The mesh, which has nothing to fair, is not even looked at."""
+    error = code_of(df.fair, POINTS[:0], FACES[:0], 2, **watcher)
+    assert error == "BAD_OPTION"
+    solver = df.Solver(POINTS, FACES, 1)
+    assert code_of(solver.solve, **watcher) == "BAD_OPTION"
+    assert not solver.solve().report["warm"]
+
+
+def test_masked_entries_are_not_shown_again():
+    points = np.ma.masked_array(POINTS, mask=np.zeros(POINTS.shape, bool))
+    expected = df.fair(POINTS, FACES, 1).vertices
+    assert np.array_equal(df.fair(points, FACES, 1).vertices, expected)
+    points[3, 1] = np.ma.masked
+    faces = np.ma.masked_array(FACES, mask=np.arange(FACES.size).reshape(FACES.shape) == 5)
+    assert code_of(df.fair, points, FACES, 1) == "BAD_SHAPE"
+    assert code_of(df.fair, POINTS, faces, 1) == "BAD_SHAPE"
+    assert code_of(df.fair, POINTS, list(faces), 1) == "BAD_SHAPE"
+    assert code_of(df.check, points, FACES) == "BAD_SHAPE"
+    assert code_of(df.fair, POINTS, FACES, 1, shapes=[POINTS, points]) == "BAD_SHAPE"
+    weights = np.ma.masked_less(np.arange(float(len(POINTS))), 3)
+    options = {"interpolation": "approximate", "weights": weights}
+    assert code_of(df.fair, POINTS, FACES, 1, **options) == "BAD_SHAPE"
+    with pytest.raises(df.FairingError):
+        df.Solver(POINTS, FACES, 1).solve(points)
+
+
+def misaligned(array):
+    raw = np.zeros(array.nbytes + 1, np.uint8)
+    view = raw[1:].view(array.dtype).reshape(array.shape)
+    view[...] = array
+    assert not view.flags.aligned and view.flags.c_contiguous
+    return view
+
+
+def test_misaligned_arrays_are_not_read_in_place():
+    from discrete_fairing import arrays
+
+    faces = (misaligned(CORNERS), misaligned(OFFSETS))
+    for array in (arrays.vertex_array(misaligned(POINTS)), *arrays.face_arrays(faces)):
+        assert array.flags.aligned and array.flags.c_contiguous
+    expected = df.fair(POINTS, FACES, 1).vertices
+    assert np.array_equal(df.fair(misaligned(POINTS), faces, 1).vertices, expected)
+    assert df.check(misaligned(POINTS), faces) == []
+
+
+class Scribbler(threading.Thread):
+    """Writes nonsense into arrays and back, over and over, while a body runs."""
+
+    def __init__(self, *arrays):
+        super().__init__()
+        self._arrays = [(array, array.copy()) for array in arrays]
+        self._enough = threading.Event()
+
+    def __enter__(self):
+        self.start()
+
+    def __exit__(self, *failure):
+        self._enough.set()
+        self.join()
+
+    def run(self):
+        while not self._enough.is_set():
+            for array, good in self._arrays:
+                array[...] = 2**40
+                array[...] = good
+
+
+@pytest.mark.parametrize("what", ["fair", "check", "repair", "solver", "predicted"])
+def test_arrays_that_change_in_mid_run(what):
+    """The call sees one state of them, be it nonsense: an error, or the surface."""
+    points, corners, offsets = POINTS.copy(), CORNERS.copy(), OFFSETS.copy()
+    calls = {
+        "fair": lambda: df.fair(points, (corners, offsets), 1),
+        "check": lambda: df.check(points, (corners, offsets)),
+        "repair": lambda: df.repair_orientation(points, (corners, offsets)),
+        "solver": lambda: df.Solver(points, (corners, offsets), 1).solve(points),
+        "predicted": lambda: df.predicted_size(len(points), (corners, offsets), 1),
+    }
+    with Scribbler(corners, offsets, points):
+        for _ in range(40):
+            try:
+                calls[what]()
+            except df.FairingError as error:
+                assert error.code not in ("OUT_OF_MEMORY",)
+    calls[what]()
