@@ -73,9 +73,7 @@ def test_merge_closes_what_is_apart():
 def test_many_files_and_one_that_is_bad(capfd):
     write_obj("a.obj")
     write_ply("b.ply")
-    Path("bad.obj").write_text(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n"
-    )
+    Path("bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n")
     code, (a, bad, b) = entries(
         "a.obj", "bad.obj", "b.ply", "new/deep/", "--format", "stl", "--levels", 1
     )

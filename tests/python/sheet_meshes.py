@@ -17,7 +17,9 @@ def book(pages: int = 3, rows: int = 4, columns: int = 3, triangles: bool = Fals
         at = np.arange(rows + 1) + (first - rows - 1) + (rows + 1) * np.arange(columns + 1)[:, None]
         at[0] = np.arange(rows + 1)
         for c in range(1, columns + 1):
-            wave = np.stack([0.2 * np.sin(c + height), 0 * height, 0.1 * np.cos(2 * c + page + 0 * height)], -1)
+            wave = np.stack(
+                [0.2 * np.sin(c + height), 0 * height, 0.1 * np.cos(2 * c + page + 0 * height)], -1
+            )
             vertices.append(spine + c * out + wave)
         quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
         faces.append(quads)
