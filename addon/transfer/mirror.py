@@ -139,7 +139,8 @@ def _image_faces(
     each (f,).
 
     A mirrored face runs the other way round: its side a → b has its image in a side b' → a'. So
-    corner i of a face has its image at corner (turn - i) mod k of the image face.
+    corner i of a face has its image at corner (turn - i) mod k of the image face. Where sheets meet,
+    several faces have such a side: there the corner beside it has to fit too.
     """
     size = vertices.shape[1]
     known = np.append(
@@ -148,11 +149,27 @@ def _image_faces(
     keys = (vertices.astype(np.int64) << 32 | np.roll(vertices, -1, axis=1)).ravel()
     start, end = known[vertices[:, (side + 1) % size]], known[vertices[:, side]]
     wanted = np.where((start >= 0) & (end >= 0), start.astype(np.int64) << 32 | end, -1)
+    if len(np.unique(keys)) < len(keys):
+        beside = known[vertices[:, (side + 2) % size]]
+        keys, wanted = _with_third(keys, np.roll(vertices, 1, axis=1).ravel(), wanted, beside)
     order = np.argsort(keys)
     place = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
     found = np.flatnonzero(keys[place] == wanted)
     face, image_side = np.divmod(place[found], size)
     return found, face, image_side + 1 + side
+
+
+def _with_third(
+    keys: np.ndarray, third: np.ndarray, wanted: np.ndarray, wanted_third: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """`keys` and `wanted` made one with a further vertex each; wanted ones without it become -1."""
+    distinct, rank = np.unique(keys, return_inverse=True)
+    place = np.minimum(np.searchsorted(distinct, wanted), len(distinct) - 1)
+    there = (distinct[place] == wanted) & (wanted_third >= 0)
+    return (
+        rank.ravel().astype(np.int64) << 32 | third,
+        np.where(there, place.astype(np.int64) << 32 | wanted_third, -1),
+    )
 
 
 def _corner_images(vertices: np.ndarray, face: np.ndarray, turn: np.ndarray) -> np.ndarray:

@@ -38,7 +38,7 @@ void bind_errors(py::module_& m) {
   fairing_error_type = PyErr_NewExceptionWithDoc(
       "discrete_fairing.FairingError",
       "Base of all errors of this package.\n\n"
-      "code: str, what is wrong (\"NONMANIFOLD_EDGE\", ...); elements: list of int, the ids\n"
+      "code: str, what is wrong (\"DUPLICATE_FACE\", ...); elements: list of int, the ids\n"
       "concerned; kind: \"vertex\", \"edge\" (ids in pairs, end to end), \"face\" or, without\n"
       "elements, \"mesh\".",
       PyExc_ValueError, nullptr);

@@ -85,6 +85,14 @@ py::dict to_python(const PadReport& p) {
   return d;
 }
 
+py::dict to_python(const SheetReport& s) {
+  py::dict d;
+  d["count"] = s.count;
+  d["nonmanifold_edges"] = s.nonmanifold_edges;
+  d["nonmanifold_vertices"] = s.nonmanifold_vertices;
+  return d;
+}
+
 py::list to_python(const std::vector<Warning>& warnings) {
   py::list list;
   for (const Warning& w : warnings) {
@@ -142,6 +150,7 @@ py::dict to_python(const Report& r) {
   d["constraint_rounds"] = r.constraint_rounds;
   d["constraint_gap"] = r.constraint_gap;
   d["pads"] = to_python(r.pads);
+  d["sheets"] = to_python(r.sheets);
   d["threads"] = r.threads;
   d["warnings"] = to_python(r.warnings);
   d["flipped_faces"] = r.flipped_faces;

@@ -104,12 +104,13 @@ void follow(SurfaceIterate& iterate, TotalCurvatureSteps& steps, CurvatureLevelR
   steps.polish(short_patience, iterate.current.energy, report);
 }
 
-// Interpolated vertices inside the region that lie on no curve.
+// Interpolated vertices inside the region that lie on no curve, and on one sheet only.
 Unknowns with_interpolated(const ControlMesh& mesh, const Unknowns& fixed) {
   Unknowns freed = fixed;
   for (Index v = 0; v < mesh.input_vertices; ++v) {
     const bool stays = fixed.vertex[std::size_t(v)] || mesh.feature_vertex[std::size_t(v)] ||
-                       mesh.ring(v).empty() || mesh.vertex_part(v) != RegionPart::inside;
+                       mesh.ring(v).empty() || mesh.vertex_part(v) != RegionPart::inside ||
+                       mesh.shared(v);
     if (!stays) freed.vertex[std::size_t(v)] = freed.any_vertex = true;
   }
   return freed;

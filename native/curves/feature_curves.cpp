@@ -55,11 +55,13 @@ FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3
       const auto edge = std::size_t(chain.edges[k]);
       curves.run[edge] = runs++;
       const auto begin = points.begin() + std::ptrdiff_t(k * inner);
-      if (mesh.edges[edge].vertex[0] != chain.vertices[k])
+      if (mesh.original_vertex(mesh.edges[edge].vertex[0]) != chain.vertices[k])
         std::reverse(begin, begin + std::ptrdiff_t(inner));
     }
     curves.points.insert(curves.points.end(), points.begin(), points.end());
   }
+  for (Index e = mesh.first_copied_edge(); e < Index(mesh.edges.size()); ++e)
+    curves.run[std::size_t(e)] = curves.run[std::size_t(mesh.original_edge(e))];
   return curves;
 }
 

@@ -10,8 +10,9 @@
 namespace fairing {
 
 struct FeatureCurves {
-  int points_per_edge = 0;   // subdivisions - 1
-  std::vector<Index> run;    // per edge: the number of its run in `points`; -1: on no chain
+  int points_per_edge = 0;  // subdivisions - 1
+  // Per edge: the number of its run in `points`; -1: on no chain. Copies share a run.
+  std::vector<Index> run;
   std::vector<Vec3> points;  // run after run, points_per_edge each
 
   // The interior points of a feature edge, from its vertex[0] to its vertex[1].

@@ -12,6 +12,7 @@
 #include "fairing/output.h"
 #include "fairing/unknowns.h"
 #include "grid/linear.h"
+#include "mesh/sheets.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 #include "thin_plate/back_leg.h"
@@ -27,6 +28,20 @@ PadReport widths_of(const Pads& pads, std::size_t vertices, double size) {
     out.narrower += pads.under(v) && out.widths[v] < size;
     out.gone += pads.began_under(v) && !pads.under(v);
   }
+  return out;
+}
+
+SheetReport sheets_of(const ControlMesh& mesh) {
+  SheetReport out{std::size_t(number_sheets(mesh).count)};
+  std::vector<std::uint8_t> on_edge(std::size_t(mesh.input_vertices), 0);
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
+    if (!mesh.nonmanifold(e)) continue;
+    ++out.nonmanifold_edges;
+    for (const Index v : mesh.edges[std::size_t(e)].vertex)
+      on_edge[std::size_t(mesh.original_vertex(v))] = 1;
+  }
+  for (Index v = 0; v < mesh.input_vertices; ++v)
+    out.nonmanifold_vertices += mesh.shared(v) && !on_edge[std::size_t(v)];
   return out;
 }
 
@@ -46,6 +61,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   workers_ = std::make_unique<Workers>(options_.threads);
   report.threads = workers_->count();
   mesh_ = make_control_mesh(input, options_.features, report.flipped_faces);
+  report.sheets = sheets_of(mesh_);
   const RunSize size =
       predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
                    options_.energy, options_.tension > 0);

@@ -85,7 +85,8 @@ ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec
   std::vector<Vec3> world;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
     world.emplace_back(coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]);
-  for (Index c = mesh.input_vertices; c < mesh.vertex_count(); ++c)
+  for (const Index v : mesh.copied_vertex) world.push_back(world[std::size_t(v)]);
+  for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c)
     world.push_back(centre_of_shape(mesh, basis_world, c, world));
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
   return in_both_systems(std::move(world), std::move(curves), frame);

@@ -30,7 +30,7 @@ struct Frame {
 Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world);
 
 struct ControlPositions {
-  // One a control vertex, those added at centres of split polygons last.
+  // One a control vertex: the input's, copies of them, centres of split polygons.
   std::vector<Vec3> world, working;
   FeatureCurves world_curves, working_curves;
 };

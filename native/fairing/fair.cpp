@@ -32,13 +32,17 @@ std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> sha
   return -1;
 }
 
-// points <- one surface from nothing, in world coordinates.
+// points <- one surface from nothing, in world coordinates, its sheets joined.
 void fair_once(FairingContext& context, const ControlPositions& control, bool measured,
                Stopwatch& watch, Report& report, Array<double>& points) {
   context.solve(control, measured, watch, report, points);
   context.move_surface(points);
   context.release(control, watch, report, points);
   context.write(control, measured, watch, report, points.data(), points.data());
+  const Weld weld(context.finest());
+  if (!weld.needed()) return;
+  weld.join(points.data(), points.data());
+  points.resize(3 * weld.size());
 }
 
 void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& watch,
@@ -233,7 +237,11 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
     context_.release(control_, watch, report, released_);
     x = &released_;
   }
-  context_.write(control_, options.measure, watch, report, x->data(), out);
+  const Weld weld(context_.finest());
+  if (weld.needed()) apart_.resize(3 * context_.finest().size());
+  double* const world = weld.needed() ? apart_.data() : out;
+  context_.write(control_, options.measure, watch, report, x->data(), world);
+  if (weld.needed()) weld.join(world, out);
 }
 
 void FairSolver::rebase(const PolygonMesh& input) {

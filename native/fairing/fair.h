@@ -8,6 +8,7 @@
 #include "fairing/context.h"
 #include "fairing/output.h"
 #include "fairing/recent_surfaces.h"
+#include "fairing/weld.h"
 
 namespace fairing {
 
@@ -36,8 +37,8 @@ class FairSolver {
   // `monitor` watches all calls.
   FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
 
-  // Of a surface.
-  std::size_t points() { return context_.finest().size(); }
+  // Of a surface, its sheets joined.
+  std::size_t points() { return Weld(context_.finest()).size(); }
 
   // out <- the surface of these positions, 3 numbers an input vertex (empty: as last), with charts,
   // stencils and parameters of curves as built: 3 numbers a point. The first is that of fair().
@@ -70,7 +71,8 @@ class FairSolver {
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;
   bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)
-  Array<double> released_;    // the last surface, its control vertices released by epsilon
+  Array<double> released_;  // the last surface, its control vertices released by epsilon
+  Array<double> apart_;     // the last surface in world coordinates, where it has several sheets
 };
 
 }  // namespace fairing

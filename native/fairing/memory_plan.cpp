@@ -23,10 +23,14 @@ constexpr std::int64_t vector_bytes = 24, float_vector_bytes = 12, index_bytes =
 // Of control faces that are all triangles and quads.
 struct Counts {
   std::int64_t vertices = 0, edges = 0, triangles = 0, quads = 0;
+  std::int64_t copied_vertices = 0, copied_edges = 0;  // of these, where sheets meet
   std::int64_t sides() const { return 3 * triangles + 4 * quads; }
   // Points of the surface after so many refinements.
   std::int64_t points(int level) const {
     return grid_size(vertices, edges, triangles, quads, level);
+  }
+  std::int64_t welded_points(int level) const {
+    return grid_size(vertices - copied_vertices, edges - copied_edges, triangles, quads, level);
   }
 };
 
@@ -113,16 +117,17 @@ std::size_t memory_limit(const FairOptions& options) {
 RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy, bool tense) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
-  size.points = c.points(levels);
+  size.points = c.welded_points(levels);
+  size.solved = c.points(levels);
   size.triangles = n * n * (c.triangles + 2 * c.quads);
   // More than that no sum here comes to; it tells what would not fit into its type.
   constexpr double most_of_point = 1 << 14;
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   size.bytes = most;
-  if (double(size.points) * (most_of_point + double(shapes) * double(vector_bytes)) < double(most))
+  if (double(size.solved) * (most_of_point + double(shapes) * double(vector_bytes)) < double(most))
     // Of a shape only its surface stays; it is solved in the same arrays.
     size.bytes =
-        peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.points;
+        peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.solved;
   return size;
 }
 
@@ -154,7 +159,16 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
     }
   }
   std::sort(keys.begin(), keys.end());
-  c.edges += std::unique(keys.begin(), keys.end()) - keys.begin();
+  for (auto first = keys.begin(); first != keys.end();) {
+    const auto last = std::find_if(first, keys.end(), [&](auto key) { return key != *first; });
+    // Sheets are counted as if they met along one line: a vertex an edge.
+    const std::int64_t copies = last - first > 2 ? last - first - 1 : 0;
+    c.edges += 1 + copies;
+    c.copied_edges += copies;
+    c.vertices += copies;
+    c.copied_vertices += copies;
+    first = last;
+  }
   return run_size(c, levels, shapes, energy, tense);
 }
 
@@ -163,6 +177,8 @@ RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, En
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
+  c.copied_vertices = std::int64_t(mesh.copied_vertex.size());
+  c.copied_edges = std::int64_t(mesh.copied_edge.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
   return run_size(c, levels, shapes, energy, tense);
 }
@@ -180,7 +196,7 @@ void require_fit(const RunSize& size, const FairOptions& options) {
                            std::to_string(size.triangles) + " triangles, over the limit of " +
                            gigabytes(double(limit)) + ". Use fewer levels, or raise memory_limit.");
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  if (3 * size.points > most || 3 * size.triangles > most)
+  if (3 * size.solved > most || 3 * size.triangles > most)
     throw FairingError(ErrorCode::too_large,
                        std::to_string(size.triangles) +
                            " triangles are more than 32-bit ids can name. Use fewer levels.");

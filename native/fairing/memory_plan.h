@@ -14,6 +14,7 @@ namespace fairing {
 
 struct RunSize {
   std::int64_t points = 0;
+  std::int64_t solved = 0;     // the same with sheets apart, as the solve has them
   std::int64_t triangles = 0;  // the whole surface as triangles
   std::int64_t bytes = 0;      // peak of the run's own arrays
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fairing/weld.h"
 #include "grid/accumulate.h"
 #include "grid/linear.h"
 #include "parallel/cancel.h"
@@ -24,6 +25,13 @@ void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::
   } else {
     for (int i = 1; i < last; ++i) ids[std::size_t(i)] = grid.face_point(f, i, j);
   }
+}
+
+void join_sheets(const Weld& weld, Workers& workers, Array<std::int32_t>& ids) {
+  if (!weld.needed()) return;
+  workers.for_parts(ids.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) ids[k] = weld(ids[k]);
+  });
 }
 
 }  // namespace
@@ -69,14 +77,18 @@ OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
       }
     }
   });
+  join_sheets(Weld(grid), workers, out.triangles);
+  join_sheets(Weld(grid), workers, out.quads);
   return out;
 }
 
 Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
   Array<std::int32_t> pairs;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    if (mesh.feature_edge[e] && !mesh.edges[e].boundary())
-      pairs.insert(pairs.end(), mesh.edges[e].vertex.begin(), mesh.edges[e].vertex.end());
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
+    const Edge& edge = mesh.edges[std::size_t(e)];
+    if (!mesh.feature_edge[std::size_t(e)] || (edge.boundary() && !mesh.nonmanifold(e))) continue;
+    for (const Index v : edge.vertex) pairs.push_back(mesh.original_vertex(v));
+  }
   return pairs;
 }
 

@@ -12,8 +12,8 @@
 namespace fairing {
 
 struct OutputFaces {
-  // Vertex ids, counter-clockwise: 3 a triangle, of the control triangles' grids; 4 a quad, of the
-  // control quads' grids.
+  // Ids of the welded surface's points, counter-clockwise: 3 a triangle, of the control triangles'
+  // grids; 4 a quad, of the control quads' grids.
   Array<std::int32_t> triangles, quads;
   // The input face that each comes from.
   Array<std::int32_t> triangle_polygon, quad_polygon;
@@ -23,7 +23,8 @@ struct OutputFaces {
 // FairingError(cancelled) and bad_alloc.
 OutputFaces make_faces(const GridLevel& grid, Workers& workers);
 
-// 2 vertex ids an edge: the control edges that became creases, by whatever rule.
+// 2 vertex ids an edge: the control edges that became creases, by whatever rule, non-manifold ones
+// among them.
 Array<std::int32_t> crease_edges(const ControlMesh& mesh);
 
 // world <- the surface x of working coordinates, both 3 numbers a point of the finest level; they

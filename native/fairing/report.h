@@ -37,6 +37,12 @@ struct PadReport {
   std::vector<double> widths;
 };
 
+// How many sheets the input is made of (mesh/sheets.h), how many edges have more than two faces, and
+// at how many other vertices sheets touch.
+struct SheetReport {
+  std::size_t count = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0;
+};
+
 struct PhaseSeconds {
   std::string phase;
   double seconds;
@@ -62,6 +68,7 @@ struct Report {
   // Tolerance: how far the energy may be over the least possible one, relative.
   double constraint_gap = 0;
   PadReport pads;
+  SheetReport sheets;
   int threads = 1;
   std::vector<Warning> warnings;
   // Input faces that were reversed by repair_orientation.

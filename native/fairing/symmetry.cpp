@@ -34,9 +34,10 @@ bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const Feature
 
 bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
                      const std::vector<double>& weights) {
-  for (std::size_t v = 0; v < weights.size(); ++v)
-    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[std::size_t(mirror.vertex[v])])
-      return false;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    const Index image = mesh.original_vertex(mirror.vertex[v]);
+    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[std::size_t(image)]) return false;
+  }
   return true;
 }
 

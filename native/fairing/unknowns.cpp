@@ -10,9 +10,12 @@
 namespace fairing {
 namespace {
 
-// Whether input vertex v is an unknown of the solve.
-bool control_vertex_moves(const FairOptions& options, Index v) {
-  return options.tolerance_of(std::size_t(v)) > 0 &&
+// Whether control vertex v is an unknown of the solve. Sheets that touch in a point would each move
+// it elsewhere: it is fixed.
+bool control_vertex_moves(const ControlMesh& mesh, const FairOptions& options, Index v) {
+  if (v >= mesh.first_centre()) return true;
+  if (v >= mesh.input_vertices) return false;
+  return options.tolerance_of(std::size_t(v)) > 0 && !mesh.shared(v) &&
          (options.weights.empty() || std::isfinite(options.weights[std::size_t(v)]));
 }
 
@@ -24,7 +27,7 @@ Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
     const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
-    const bool moves = v >= mesh.input_vertices || control_vertex_moves(options, v);
+    const bool moves = control_vertex_moves(mesh, options, v);
     u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;
     u.any_vertex |= bool(u.vertex[std::size_t(v)]);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/ring.h"
+#include "mesh/sheets.h"
 
 namespace fairing {
 namespace {
@@ -32,28 +33,55 @@ std::vector<Index> nearest_pads(const GridLevel& control, const Pads& pads, Inde
   return found;
 }
 
+// What is judged as one: a sheet where sheets meet, otherwise the whole mesh.
+struct Part {
+  double sum = 0, of_needles = 0;
+  std::size_t stars = 0;
+  bool crumpled = false;
+
+  bool over(const PadLimits& limits) const { return sum > limits.whole * of_needles; }
+  // Nothing is thrown about: all pads are somewhat too wide.
+  bool calm(const PadLimits& limits) const { return over(limits) && !crumpled; }
+  double slack(const PadLimits& limits) const { return limits.slack * of_needles / double(stars); }
+};
+
+std::vector<Index> parts_of(const ControlMesh& mesh) {
+  return mesh.copied_vertex.empty() ? std::vector<Index>(std::size_t(mesh.vertex_count()), 0)
+                                    : number_sheets(mesh).of_vertex;
+}
+
+std::vector<Part> judge(const std::vector<Index>& part_of, const PadLimits& limits,
+                        const std::vector<double>& energy, const std::vector<double>& of_needles) {
+  std::vector<Part> parts(part_of.size());
+  for (std::size_t v = 0; v < energy.size(); ++v) {
+    Part& part = parts[std::size_t(part_of[v])];
+    part.sum += energy[v];
+    part.of_needles += of_needles[v];
+    ++part.stars;
+  }
+  for (std::size_t v = 0; v < energy.size(); ++v) {
+    Part& part = parts[std::size_t(part_of[v])];
+    part.crumpled |= energy[v] > crumpled * of_needles[v] + part.slack(limits);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
                                   const PadLimits& limits, const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round) {
-  double sum = 0, sum_of_needles = 0;
-  for (const double e : energy) sum += e;
-  for (const double e : of_needles) sum_of_needles += e;
-  const double mean_slack = limits.slack * sum_of_needles / double(of_needles.size());
-  const bool over = sum > limits.whole * sum_of_needles;
-  bool is_crumpled = false;
-  for (std::size_t v = 0; v < energy.size(); ++v)
-    is_crumpled |= energy[v] > crumpled * of_needles[v] + mean_slack;
-  if (over && !is_crumpled) {
-    // Nothing is thrown about: all pads are somewhat too wide.
-    std::vector<int> all(round < limits.calm_rounds ? energy.size() : 0);
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = pads.under(v) ? 1 : 0;
-    return all;
-  }
-  const double most = over ? limits.strict : limits.star, above = over ? 0 : mean_slack;
+  const std::vector<Index> part_of = parts_of(control.mesh());
+  const std::vector<Part> parts = judge(part_of, limits, energy, of_needles);
   std::vector<int> halvings(energy.size(), 0);
   for (std::size_t v = 0; v < energy.size(); ++v) {
+    const Part& part = parts[std::size_t(part_of[v])];
+    if (part.calm(limits)) {
+      halvings[v] = round < limits.calm_rounds && pads.under(v) ? 1 : 0;
+      continue;
+    }
+    const double most = part.over(limits) ? limits.strict : limits.star,
+                 above = part.over(limits) ? 0 : part.slack(limits);
     const double excess = energy[v] / (most * of_needles[v] + above);
     if (!pads.began_under(v) || !(excess > 1)) continue;
     const int times = round >= patient_rounds

@@ -33,7 +33,7 @@ constexpr PadLimits plate_limits{1.2, 0.5, 1.1, 1.05, 4}, curvature_limits{2, 2,
 // How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
 // curvatures of the star of each control vertex, of the surface on pads and of that on point
 // forces; `round` counts earlier answers. `control` is level 0. All stars are judged before any pad
-// changes, so that the order of vertices does not matter.
+// changes, so that the order of vertices does not matter. Where sheets meet, each is judged alone.
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
                                   const PadLimits& limits, const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round);

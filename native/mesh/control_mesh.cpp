@@ -8,19 +8,21 @@
 #include "base/error.h"
 #include "mesh/features.h"
 #include "mesh/region.h"
+#include "mesh/sheets.h"
 #include "mesh/split.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-std::vector<std::int64_t> oriented_corners(const PolygonMesh& mesh,
-                                           std::span<const std::int64_t> flipped) {
-  std::vector<std::int64_t> corners(mesh.corners.begin(), mesh.corners.end());
+OwnedPolygonMesh oriented(const PolygonMesh& mesh, std::span<const std::int64_t> flipped) {
+  OwnedPolygonMesh out{{mesh.coordinates.begin(), mesh.coordinates.end()},
+                       {mesh.corners.begin(), mesh.corners.end()},
+                       {mesh.offsets.begin(), mesh.offsets.end()}};
   for (std::int64_t f : flipped)  // the first corner stays the first
-    std::reverse(corners.begin() + mesh.offsets[std::size_t(f)] + 1,
-                 corners.begin() + mesh.offsets[std::size_t(f) + 1]);
-  return corners;
+    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
+                 out.corners.begin() + out.offsets[std::size_t(f) + 1]);
+  return out;
 }
 
 void take_faces(const SplitMesh& split, ControlMesh& control) {
@@ -151,22 +153,23 @@ void index_spokes(ControlMesh& control) {
 
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped) {
-  const std::vector<std::int64_t> corners = oriented_corners(mesh, flipped);
-  const PolygonMesh oriented{mesh.coordinates, corners, mesh.offsets};
-  const SplitMesh split = split_polygons(oriented);
-
+  OwnedPolygonMesh sheets = oriented(mesh, flipped);
   ControlMesh control;
   control.input_vertices = Index(mesh.vertex_count());
   control.input_faces = Index(mesh.face_count());
-  for (std::size_t v = 0; v < std::size_t(mesh.vertex_count()); ++v)
-    control.positions.emplace_back(mesh.coordinates[3 * v], mesh.coordinates[3 * v + 1],
-                                   mesh.coordinates[3 * v + 2]);
+  control.copied_vertex = cut_into_sheets(sheets);
+  const SplitMesh split = split_polygons(sheets.view());
+
+  for (std::size_t v = 0; v < std::size_t(control.first_centre()); ++v)
+    control.positions.emplace_back(sheets.coordinates[3 * v], sheets.coordinates[3 * v + 1],
+                                   sheets.coordinates[3 * v + 2]);
   control.positions.insert(control.positions.end(), split.centres.begin(), split.centres.end());
   take_faces(split, control);
   connect_faces(control);
+  find_copied_edges(control);
   index_spokes(control);
   find_region(features.region, control);
-  find_features(oriented, features, control);
+  find_features(sheets.view(), features, control);
   mark_clamped_joint(control);
   return control;
 }

@@ -4,6 +4,7 @@
 // nothing else of the input.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -75,6 +76,7 @@ struct Spoke {
 
 // A maximal run of feature edges between corners, or a closed loop without any corner.
 struct Chain {
+  // Input vertices, and edges that are no copies.
   std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
   std::vector<Index> edges;     // edges[k] joins vertices[k] and [k + 1] (cyclically in a loop)
   bool closed = false;
@@ -96,13 +98,17 @@ struct Region {
 };
 
 struct ControlMesh {
-  // The input's vertices first; positions[input_vertices …] are free vertices that splits have
-  // added.
+  // The input's vertices first, then copies of them, then free vertices that splits have added.
   std::vector<Vec3> positions;
   Index input_vertices = 0, input_faces = 0;
   std::vector<Face> faces;
   std::vector<Side> sides;
   std::vector<Edge> edges;
+
+  // Where sheets meet (mesh/sheets.h), each has its own vertices and edges. Control vertex
+  // input_vertices + k is a copy of copied_vertex[k]. The last edges are copies of copied_edge, and
+  // run the same way. Both ascend, and are empty where the input is a manifold.
+  std::vector<Index> copied_vertex, copied_edge;
 
   // The one-rings, counter-clockwise; an open ring starts at its first boundary edge.
   std::vector<Index> ring_offset;  // vertices + 1
@@ -118,6 +124,43 @@ struct ControlMesh {
   Region region;
 
   Index vertex_count() const { return Index(positions.size()); }
+
+  Index first_centre() const { return input_vertices + Index(copied_vertex.size()); }
+  Index first_copied_edge() const { return Index(edges.size() - copied_edge.size()); }
+  // The input vertex at v; centres of split polygons are their own.
+  Index original_vertex(Index v) const {
+    return v < input_vertices || v >= first_centre()
+               ? v
+               : copied_vertex[std::size_t(v - input_vertices)];
+  }
+  Index original_edge(Index e) const {
+    return e < first_copied_edge() ? e : copied_edge[std::size_t(e - first_copied_edge())];
+  }
+  // Whether v is a copy or has copies.
+  bool shared(Index v) const {
+    return std::binary_search(copied_vertex.begin(), copied_vertex.end(), original_vertex(v));
+  }
+  // Whether the edge is one of several that are one in the input, of three faces and more.
+  bool nonmanifold(Index e) const {
+    return std::binary_search(copied_edge.begin(), copied_edge.end(), original_edge(e));
+  }
+  // visit(v) for an input vertex and its copies.
+  template <class Visit>
+  void for_each_copy(Index v, Visit&& visit) const {
+    visit(v);
+    auto copy = std::lower_bound(copied_vertex.begin(), copied_vertex.end(), v);
+    for (; copy != copied_vertex.end() && *copy == v; ++copy)
+      visit(input_vertices + Index(copy - copied_vertex.begin()));
+  }
+  // Cut by split_polygons: no edge of the input.
+  bool inside_polygon(Index e) const {
+    const Edge& edge = edges[std::size_t(e)];
+    const auto polygon = [&](std::size_t h) {
+      return faces[std::size_t(sides[std::size_t(edge.side[h])].face)].polygon;
+    };
+    return !edge.boundary() && polygon(0) == polygon(1);
+  }
+
   std::span<const Spoke> ring(Index v) const {
     return {spokes.data() + ring_offset[v], std::size_t(ring_offset[v + 1] - ring_offset[v])};
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mesh/sheets.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -39,12 +40,14 @@ class FeatureFinder {
       : mesh_(mesh),
         options_(options),
         control_(control),
+        joined_(control),
         corner_(std::size_t(control.vertex_count()), 0) {}
 
   void find() {
     control_.feature_edge.assign(control_.edges.size(), 0);
     control_.feature_vertex.assign(std::size_t(control_.vertex_count()), 0);
     mark_boundary();
+    mark_meeting_edges();
     mark_given_creases();
     mark_folded_edges();
     mark_corners();
@@ -64,10 +67,6 @@ class FeatureFinder {
   Index polygon(Index side) const {
     return control_.faces[std::size_t(control_.sides[std::size_t(side)].face)].polygon;
   }
-  // Cut by split_polygons: no edge of the input.
-  bool inside_polygon(const Edge& e) const {
-    return !e.boundary() && polygon(e.side[0]) == polygon(e.side[1]);
-  }
 
   void mark_boundary() {
     if (options_.boundary == BoundaryMode::free) return;
@@ -75,11 +74,24 @@ class FeatureFinder {
       control_.feature_edge[e] = control_.edges[e].boundary();
   }
 
+  // The edge between two input vertices, one of them where it is non-manifold; -1: none.
   Index find_edge(Index a, Index b) const {
     if (control_.ring(a).size() > control_.ring(b).size()) std::swap(a, b);
-    for (const Spoke& spoke : control_.ring(a))
-      if (other_end(edge(spoke.edge), a) == b) return spoke.edge;
-    return -1;
+    Index found = -1;
+    control_.for_each_copy(a, [&](Index v) {
+      for (const Spoke& spoke : control_.ring(v))
+        if (found < 0 && control_.original_vertex(other_end(edge(spoke.edge), v)) == b &&
+            !control_.inside_polygon(spoke.edge))
+          found = spoke.edge;
+    });
+    return found;
+  }
+
+  // Whatever is asked for: no other curve could hold more than two faces.
+  void mark_meeting_edges() {
+    for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e)
+      control_.feature_edge[std::size_t(e)] =
+          control_.feature_edge[std::size_t(control_.original_edge(e))] = 1;
   }
 
   void mark_given_creases() {
@@ -90,7 +102,7 @@ class FeatureFinder {
       if (outside(b)) unknown_vertices.push_back(b);
       if (outside(a) || outside(b)) continue;
       const Index e = find_edge(Index(a), Index(b));
-      if (e < 0 || inside_polygon(edge(e)))
+      if (e < 0)
         unknown_edges.insert(unknown_edges.end(), {a, b});
       else
         control_.feature_edge[std::size_t(e)] = 1;
@@ -118,40 +130,56 @@ class FeatureFinder {
     for (std::size_t e = 0; e < control_.edges.size(); ++e) {
       stop_if_cancelled(e);
       const Edge& edge = control_.edges[e];
-      if (edge.boundary() || inside_polygon(edge)) continue;
+      if (edge.boundary() || control_.inside_polygon(Index(e))) continue;
       const Vec3 &left = normals[std::size_t(polygon(edge.side[0]))],
                  &right = normals[std::size_t(polygon(edge.side[1]))];
       if (angle_between(left, right) > options_.crease_angle) control_.feature_edge[e] = 1;
     }
   }
 
-  // The feature edges at v, as far as two; -1 for none.
-  std::array<Index, 2> feature_edges_at(Index v, int& count) const {
-    std::array<Index, 2> found{-1, -1};
-    count = 0;
-    for (const Spoke& spoke : control_.ring(v)) {
-      if (!feature(spoke.edge)) continue;
-      if (count < 2) found[std::size_t(count)] = spoke.edge;
-      ++count;
-    }
-    return found;
+  // The feature edges at v = joined_.first(v), copies left out; valid until the next call.
+  const std::vector<Index>& feature_edges_at(Index v) {
+    found_.clear();
+    joined_.for_each(v, [&](Index w) {
+      for (const Spoke& spoke : control_.ring(w)) {
+        const Index e = control_.original_edge(spoke.edge);
+        if (!feature(e)) continue;
+        const bool again =
+            control_.nonmanifold(e) && std::find(found_.begin(), found_.end(), e) != found_.end();
+        if (!again) found_.push_back(e);
+      }
+    });
+    return found_;
   }
 
-  bool turns_sharply(Index v, const std::array<Index, 2>& edges) const {
+  // What the edge leads to from v = joined_.first(v).
+  Index across(Index e, Index v) const {
+    const Index first = joined_.first(edge(e).vertex[0]);
+    return first == v ? joined_.first(edge(e).vertex[1]) : first;
+  }
+
+  bool turns_sharply(Index v, Index before, Index after) const {
     if (options_.corner_angle < 0) return false;
-    const Vec3 in = position(v) - position(other_end(edge(edges[0]), v));
-    const Vec3 out = position(other_end(edge(edges[1]), v)) - position(v);
+    const Vec3 in = position(v) - position(across(before, v));
+    const Vec3 out = position(across(after, v)) - position(v);
     return angle_between(in, out) > options_.corner_angle;
+  }
+
+  // A curve ends where no other one goes on, and where sheets begin or end to meet along it.
+  bool ends(Index v, const std::vector<Index>& edges) const {
+    return edges.size() != 2 || control_.vertex_part(v) == RegionPart::joint ||
+           control_.nonmanifold(edges[0]) != control_.nonmanifold(edges[1]) ||
+           turns_sharply(v, edges[0], edges[1]);
   }
 
   void mark_corners() {
     for (Index v = 0; v < control_.vertex_count(); ++v) {
       stop_if_cancelled(std::size_t(v));
-      int count = 0;
-      const auto edges = feature_edges_at(v, count);
-      control_.feature_vertex[std::size_t(v)] = count > 0;
-      const bool ends = count != 2 || control_.vertex_part(v) == RegionPart::joint;
-      corner_[std::size_t(v)] = count > 0 && (ends || turns_sharply(v, edges));
+      if (joined_.first(v) != v) continue;
+      const std::vector<Index>& edges = feature_edges_at(v);
+      corner_[std::size_t(v)] = !edges.empty() && ends(v, edges);
+      joined_.for_each(v,
+                       [&](Index w) { control_.feature_vertex[std::size_t(w)] = !edges.empty(); });
     }
     std::vector<std::int64_t> unknown;
     for (std::int64_t v : options_.corner_vertices) {
@@ -159,51 +187,58 @@ class FeatureFinder {
         unknown.push_back(v);
         continue;
       }
-      control_.feature_vertex[std::size_t(v)] = corner_[std::size_t(v)] = 1;
+      control_.for_each_copy(Index(v), [&](Index w) {
+        control_.feature_vertex[std::size_t(w)] = corner_[std::size_t(joined_.first(w))] = 1;
+      });
     }
     refuse_unknown(unknown, "corners");
   }
 
   void collect_chains() {
     std::vector<std::uint8_t> visited(control_.edges.size(), 0);
+    const auto unseen = [&](Index e) { return curve(e) && !visited[std::size_t(e)]; };
     for (Index v = 0; v < control_.vertex_count(); ++v) {
       if (!corner_[std::size_t(v)]) continue;
-      for (const Spoke& spoke : control_.ring(v))
-        if (curve(spoke.edge) && !visited[std::size_t(spoke.edge)])
-          collect_chain(v, spoke.edge, visited);
+      joined_.for_each(v, [&](Index w) {
+        for (const Spoke& spoke : control_.ring(w))
+          if (const Index e = control_.original_edge(spoke.edge); unseen(e))
+            collect_chain(v, e, visited);
+      });
     }
-    for (Index e = 0; e < Index(control_.edges.size()); ++e)  // what no corner reaches are loops
-      if (curve(e) && !visited[std::size_t(e)]) collect_chain(edge(e).vertex[0], e, visited);
+    for (Index e = 0; e < control_.first_copied_edge(); ++e)  // what no corner reaches are loops
+      if (unseen(e)) collect_chain(joined_.first(edge(e).vertex[0]), e, visited);
   }
 
   void collect_chain(Index start, Index first_edge, std::vector<std::uint8_t>& visited) {
     Chain chain;
-    chain.vertices.push_back(start);
+    chain.vertices.push_back(control_.original_vertex(start));
     Index v = start, e = first_edge;
     for (;;) {
       visited[std::size_t(e)] = 1;
       chain.edges.push_back(e);
-      v = other_end(edge(e), v);
+      v = across(e, v);
       if (v == start && !corner_[std::size_t(v)]) {
         chain.closed = true;
         break;
       }
-      chain.vertices.push_back(v);
+      chain.vertices.push_back(control_.original_vertex(v));
       if (corner_[std::size_t(v)]) break;
-      int count = 0;
-      const auto edges = feature_edges_at(v, count);
+      const std::vector<Index>& edges = feature_edges_at(v);
       e = edges[0] == e ? edges[1] : edges[0];
     }
     chain.straight = options_.boundary == BoundaryMode::linear &&
-                     std::all_of(chain.edges.begin(), chain.edges.end(),
-                                 [&](Index k) { return edge(k).boundary(); });
+                     std::all_of(chain.edges.begin(), chain.edges.end(), [&](Index k) {
+                       return edge(k).boundary() && !control_.nonmanifold(k);
+                     });
     control_.chains.push_back(std::move(chain));
   }
 
   const PolygonMesh& mesh_;
   const FeatureOptions& options_;
   ControlMesh& control_;
-  std::vector<std::uint8_t> corner_;
+  const JoinedVertices joined_;
+  std::vector<std::uint8_t> corner_;  // of vertices that are joined, the first
+  std::vector<Index> found_;
 };
 
 }  // namespace

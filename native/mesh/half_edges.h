@@ -26,6 +26,23 @@ class HalfEdges {
   std::int32_t twin(std::int32_t k) const { return twin_[std::size_t(k)]; }
   bool runs_as_twin(std::int32_t k) const { return from(k) == from(twin(k)); }
 
+  // visit(corner) for the corners of the fan around from(k) that holds corner k, which comes first;
+  // whichever way the faces run.
+  template <class Visit>
+  void visit_fan(std::int32_t k, Visit&& visit) const {
+    const std::int64_t v = from(k);
+    visit(k);
+    for (std::int32_t exit : {k, previous(k)}) {
+      for (std::int32_t t = twin(exit); t >= 0; t = twin(exit)) {
+        const bool outgoing = from(t) == v;
+        const std::int32_t corner = outgoing ? t : next(t);
+        if (corner == k) return;  // once around
+        visit(corner);
+        exit = outgoing ? previous(t) : corner;
+      }
+    }
+  }
+
   // Vertex pairs, laid end to end, of the edges with more than two faces.
   const std::vector<std::int64_t>& nonmanifold_edges() const { return nonmanifold_edges_; }
 

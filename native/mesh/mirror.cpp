@@ -17,8 +17,8 @@ constexpr double reach = 100;
 // Searches a vertex over all candidate planes; symmetry is given up after that.
 constexpr std::size_t most_searches = 64;
 
-// Finds the vertex at a place: those that have faces, sorted along a direction that no mesh is
-// aligned with.
+// Finds the vertex at a place, copies left out: those that have faces, sorted along a direction that
+// no mesh is aligned with.
 class PointSearch {
  public:
   explicit PointSearch(const ControlMesh& mesh);
@@ -42,7 +42,8 @@ double key_of(const Vec3& p) { return p.dot(Vec3(0.5347, 0.6241, 0.5698)); }
 
 PointSearch::PointSearch(const ControlMesh& mesh) : positions_(mesh.positions) {
   for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (!mesh.ring(v).empty()) entries_.push_back({key_of(positions_[std::size_t(v)]), v});
+    if (!mesh.ring(v).empty() && mesh.original_vertex(v) == v)
+      entries_.push_back({key_of(positions_[std::size_t(v)]), v});
   std::sort(entries_.begin(), entries_.end(),
             [comparisons = std::size_t(0)](const Entry& a, const Entry& b) mutable {
               stop_if_cancelled(++comparisons);
@@ -115,11 +116,45 @@ class Finder {
       if (found == PointSearch::none) return false;
       if (found == PointSearch::several) unclear.push_back(v);
     }
+    if (!tell_copies_apart(image)) return false;
     tell_apart(std::move(unclear), image);
+    const auto is_centre = [&](Index v) { return v >= mesh_.first_centre(); };
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       const Index other = image[std::size_t(v)];
       if (other < 0 || image[std::size_t(other)] != v) return false;
-      if ((other < mesh_.input_vertices) != (v < mesh_.input_vertices)) return false;
+      if (is_centre(other) != is_centre(v)) return false;
+    }
+    return true;
+  }
+
+  // Where sheets meet, `image` has input vertices so far: a face of the sheet says which copy it is.
+  bool tell_copies_apart(std::vector<Index>& image) const {
+    if (mesh_.copied_vertex.empty()) return true;
+    const std::vector<Index> originals = image;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      stop_if_cancelled(std::size_t(v));
+      if (originals[std::size_t(v)] < 0 || !mesh_.shared(v) || mesh_.ring(v).empty()) continue;
+      const Spoke& spoke = mesh_.ring(v)[0];
+      const Face& face = mesh_.faces[std::size_t(spoke.face)];
+      Index& found = image[std::size_t(v)] = -1;
+      mesh_.for_each_copy(originals[std::size_t(v)], [&](Index w) {
+        for (const Spoke& other : mesh_.ring(w))
+          if (other.face >= 0 && faces_match(face, spoke.corner, other, originals)) found = w;
+      });
+      if (found < 0) return false;
+    }
+    return true;
+  }
+
+  // Whether the face behind `other` is the image of `face`, the spoke's corner that of `corner`.
+  bool faces_match(const Face& face, int corner, const Spoke& other,
+                   const std::vector<Index>& image) const {
+    const Face& mirrored = mesh_.faces[std::size_t(other.face)];
+    if (mirrored.size != face.size) return false;
+    for (int i = 0; i < face.size; ++i) {
+      const Index v = face.vertex[std::size_t((corner + i) % face.size)],
+                  w = mirrored.vertex[std::size_t((other.corner + face.size - i) % face.size)];
+      if (image[std::size_t(v)] != mesh_.original_vertex(w)) return false;
     }
     return true;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mesh/sheets.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -54,6 +55,28 @@ RegionPart edge_part(const ControlMesh& control, const Edge& edge) {
   return part_of(touches[0], touches[1]);
 }
 
+// Sheets that meet do so inside the region, outside, or on its joint.
+void join_sheets(ControlMesh& control) {
+  if (control.copied_edge.empty()) return;
+  Region& region = control.region;
+  const auto meet = [](RegionPart& first, RegionPart other) {
+    if (first != other) first = RegionPart::joint;
+  };
+  const auto original = [&](Index e) -> RegionPart& {
+    return region.edge[std::size_t(control.original_edge(e))];
+  };
+  for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
+    meet(original(e), region.edge[std::size_t(e)]);
+  for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
+    region.edge[std::size_t(e)] = original(e);
+  const JoinedVertices joined(control);
+  const auto first = [&](Index v) -> RegionPart& {
+    return region.vertex[std::size_t(joined.first(v))];
+  };
+  for (Index v = 0; v < control.vertex_count(); ++v) meet(first(v), region.vertex[std::size_t(v)]);
+  for (Index v = 0; v < control.vertex_count(); ++v) region.vertex[std::size_t(v)] = first(v);
+}
+
 }  // namespace
 
 void find_region(const RegionOptions& options, ControlMesh& control) {
@@ -73,6 +96,7 @@ void find_region(const RegionOptions& options, ControlMesh& control) {
     stop_if_cancelled(std::size_t(v));
     region.vertex.push_back(vertex_part(control, v));
   }
+  join_sheets(control);
 }
 
 void mark_clamped_joint(ControlMesh& control) {

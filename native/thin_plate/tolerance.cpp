@@ -192,7 +192,7 @@ int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
   Unknowns freed = system.shared().unknowns;
   bool any = false;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
-    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] &&
+    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.shared(Index(v)) &&
                           !mesh.ring(Index(v)).empty() &&
                           mesh.vertex_part(Index(v)) == RegionPart::inside;
     freed.vertex[v] = released;

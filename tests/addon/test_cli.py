@@ -73,15 +73,13 @@ def test_merge_closes_what_is_apart():
 def test_many_files_and_one_that_is_bad(capfd):
     write_obj("a.obj")
     write_ply("b.ply")
-    Path("bad.obj").write_text(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"
-    )
+    Path("bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n")
     code, (a, bad, b) = entries(
         "a.obj", "bad.obj", "b.ply", "new/deep/", "--format", "stl", "--levels", 1
     )
     assert code == command.SOME_FAILED
     assert (a["status"], bad["status"], b["status"]) == ("done", "failed", "done")
-    assert bad["error"]["code"] == "NONMANIFOLD_EDGE" and bad["error"]["elements"]
+    assert bad["error"]["code"] == "INCONSISTENT_ORIENTATION" and bad["error"]["elements"]
     assert sorted(path.name for path in Path("new/deep").iterdir()) == ["a.stl", "b.stl"]
     assert "error: bad.obj: " in capfd.readouterr().err
 

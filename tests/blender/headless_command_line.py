@@ -92,10 +92,10 @@ def test_many_files_of_all_kinds_and_bad_ones():
     write_obj("a.obj")
     write_ply("b.ply")
     write_stl("c.stl")
-    Path("fin.obj").write_text(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"
+    Path("turned.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n"
     )
-    names = ("a.obj", "fin.obj", "b.ply", "missing.ply", "c.stl")
+    names = ("a.obj", "turned.obj", "b.ply", "missing.ply", "c.stl")
     code, whole = report(*names, "new/", "--format", "obj", "--levels", 1)
     assert code == whole["exit_code"] == 1
     assert [entry["status"] for entry in whole["inputs"]] == [
@@ -106,7 +106,7 @@ def test_many_files_of_all_kinds_and_bad_ones():
         "done",
     ]
     codes = [entry["error"]["code"] for entry in whole["inputs"] if entry["error"]]
-    assert codes == ["NONMANIFOLD_EDGE", "UNREADABLE"], codes
+    assert codes == ["INCONSISTENT_ORIENTATION", "UNREADABLE"], codes
     for name in ("a", "b", "c"):
         assert set(POINTS) <= set(obj_vertices(f"new/{name}.obj")), name
 

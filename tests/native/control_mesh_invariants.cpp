@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 namespace fairing::test {
@@ -88,18 +90,45 @@ void expect_chains(const ControlMesh& mesh) {
       const std::set<Index> ends{chain.vertices[k],
                                  chain.vertices[(k + 1) % chain.vertices.size()]};
       const Edge& edge = mesh.edges.at(std::size_t(chain.edges[k]));
-      EXPECT_EQ(ends, (std::set<Index>{edge.vertex[0], edge.vertex[1]}));
+      EXPECT_EQ(ends, (std::set<Index>{mesh.original_vertex(edge.vertex[0]),
+                                       mesh.original_vertex(edge.vertex[1])}));
       EXPECT_TRUE(in_chains.insert(chain.edges[k]).second);
       EXPECT_TRUE(mesh.feature_edge[std::size_t(chain.edges[k])]);
-      for (Index v : ends) EXPECT_TRUE(mesh.feature_vertex[std::size_t(v)]);
+      for (Index v : edge.vertex) EXPECT_TRUE(mesh.feature_vertex[std::size_t(v)]);
     }
     const std::set<Index> distinct(chain.vertices.begin(), chain.vertices.end());
     const bool meets_itself = !chain.closed && chain.vertices.front() == chain.vertices.back();
-    EXPECT_EQ(distinct.size() + meets_itself, chain.vertices.size());
+    if (mesh.copied_vertex.empty()) {  // else it may touch itself
+      EXPECT_EQ(distinct.size() + meets_itself, chain.vertices.size());
+    }
   }
   std::size_t features = 0;
-  for (std::uint8_t feature : mesh.feature_edge) features += feature;
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e)
+    features += mesh.feature_edge[std::size_t(e)];
   EXPECT_EQ(in_chains.size(), features);
+}
+
+void expect_copies(const ControlMesh& mesh) {
+  EXPECT_TRUE(std::is_sorted(mesh.copied_vertex.begin(), mesh.copied_vertex.end()));
+  EXPECT_TRUE(std::is_sorted(mesh.copied_edge.begin(), mesh.copied_edge.end()));
+  for (Index v = mesh.input_vertices; v < mesh.first_centre(); ++v) {
+    EXPECT_LT(mesh.original_vertex(v), mesh.input_vertices);
+    EXPECT_EQ(mesh.positions[std::size_t(v)], mesh.positions[std::size_t(mesh.original_vertex(v))]);
+    EXPECT_FALSE(mesh.ring(v).empty());
+  }
+  std::map<std::set<Index>, Index> first_between;
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
+    const Edge& edge = mesh.edges[std::size_t(e)];
+    const Edge& original = mesh.edges[std::size_t(mesh.original_edge(e))];
+    EXPECT_LT(mesh.original_edge(e), mesh.first_copied_edge());
+    for (std::size_t h = 0; h < 2; ++h)
+      EXPECT_EQ(mesh.original_vertex(edge.vertex[h]), mesh.original_vertex(original.vertex[h]));
+    EXPECT_TRUE(!mesh.nonmanifold(e) || mesh.feature_edge[std::size_t(e)]);
+    if (mesh.inside_polygon(e)) continue;
+    const auto [between, is_first] = first_between.insert(
+        {{mesh.original_vertex(edge.vertex[0]), mesh.original_vertex(edge.vertex[1])}, e});
+    EXPECT_EQ(mesh.original_edge(e), between->second);
+  }
 }
 
 }  // namespace
@@ -110,6 +139,7 @@ void expect_consistent(const ControlMesh& mesh) {
   expect_edges(mesh);
   expect_rings(mesh);
   expect_chains(mesh);
+  expect_copies(mesh);
 }
 
 }  // namespace fairing::test

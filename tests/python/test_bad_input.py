@@ -81,21 +81,6 @@ def test_duplicate_face():
     assert_refused("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, turned[:, ::-1]]))
 
 
-def test_edge_with_three_faces():
-    vertices = np.concatenate([POINTS, [[3.0, 3, 3]]])
-    a, b = FACES[0, :2]
-    error = refusal(vertices, np.concatenate([FACES, [[a, b, 12]]]))
-    assert error.code == "NONMANIFOLD_EDGE" and sorted(error.elements) == sorted([a, b])
-    assert f"{min(a, b)}-{max(a, b)}" in str(error)
-
-
-def test_two_fans_at_one_vertex():
-    vertices, faces = meshes.tetrahedron()
-    joined = np.where(faces == 2, 2, faces + 4)
-    vertices = np.concatenate([vertices, 2 * vertices[2] - vertices])
-    assert_refused("NONMANIFOLD_VERTEX", [2], vertices, np.concatenate([faces, joined[:, ::-1]]))
-
-
 def test_inconsistent_orientation():
     faces = FACES.copy()
     faces[[3, 11]] = faces[[3, 11], ::-1]

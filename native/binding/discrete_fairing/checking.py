@@ -64,7 +64,7 @@ def repair_orientation(
     """Ids (f,) int64 of the faces to reverse so that all neighbours agree.
 
     They are the minority in each connected part. Raises FairingError where there is no answer:
-    NON_ORIENTABLE, NONMANIFOLD_EDGE, or arrays that make no faces.
+    NON_ORIENTABLE, or arrays that make no faces.
     """
     corners, offsets = face_arrays(faces)
     return _native.faces_to_flip(vertex_array(vertices), corners, offsets)

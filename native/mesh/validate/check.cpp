@@ -14,7 +14,6 @@ bool prevents_orientation(ErrorCode code) {
     case ErrorCode::too_large:
     case ErrorCode::index_out_of_range:
     case ErrorCode::repeated_vertex:
-    case ErrorCode::nonmanifold_edge:
     case ErrorCode::non_orientable: return true;
     default: return false;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The gate: whatever passes check() is an oriented manifold of polygons with finite, non-degenerate
-// faces. The arrays are only read.
+// The gate: whatever passes check() is made of oriented sheets of polygons with finite,
+// non-degenerate faces. The arrays are only read.
 //
 // All functions here may throw FairingError(cancelled) (parallel/cancel.h) and std::bad_alloc.
 #pragma once
@@ -60,7 +60,7 @@ struct Findings {
 Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options = {});
 
 // The faces that must turn over for all neighbours to agree. Throws FairingError where that has no
-// answer: non_orientable, nonmanifold_edge, or arrays that do not make faces.
+// answer: non_orientable, or arrays that do not make faces.
 std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh);
 
 // Throws the first error of find_defects as FairingError. With repair_orientation, the faces to be

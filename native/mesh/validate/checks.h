@@ -21,16 +21,16 @@ struct Readable {
 // Adds empty_mesh, no_faces, bad_shape, too_large, non_finite, index_out_of_range, repeated_vertex.
 Readable check_arrays(const PolygonMesh& mesh, Defects& found);
 
-// --- topology.cpp: whether the faces form an oriented manifold ---
+// --- topology.cpp: whether the faces form oriented sheets, and where these meet ---
 
 // Adds duplicate_face (same vertex set, in whatever order) with all faces concerned.
 void check_duplicate_faces(const PolygonMesh& mesh, Defects& found);
 
-// Adds nonmanifold_edge (vertex pairs).
+// Adds nonmanifold_edge (vertex pairs), a warning: sheets meet there (mesh/sheets.h).
 void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found);
 
-// Adds nonmanifold_vertex, whichever way faces run. Ends of nonmanifold edges are left out: there
-// the edge is the defect.
+// Adds nonmanifold_vertex, a warning, whichever way faces run. Ends of nonmanifold edges are left
+// out: the edge tells.
 void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
                                 Defects& found);
 

@@ -45,19 +45,9 @@ void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_has
   }
 }
 
-// All corners of v's fan that holds corner k, whichever way the faces run.
 std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
-  const std::int64_t v = half_edges.from(k);
-  std::int32_t size = 1;
-  for (std::int32_t exit : {k, half_edges.previous(k)}) {
-    for (std::int32_t t = half_edges.twin(exit); t >= 0; t = half_edges.twin(exit)) {
-      const bool outgoing = half_edges.from(t) == v;
-      const std::int32_t corner = outgoing ? t : half_edges.next(t);
-      if (corner == k) return size;  // once around
-      ++size;
-      exit = outgoing ? half_edges.previous(t) : corner;
-    }
-  }
+  std::int32_t size = 0;
+  half_edges.visit_fan(k, [&](std::int32_t) { ++size; });
   return size;
 }
 
@@ -169,9 +159,10 @@ void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found) {
   if (pairs.empty()) return;
   found.emplace_back(
       ErrorCode::nonmanifold_edge,
-      listing_pairs({"edge", "edges"}, pairs, {"has", "have"}) +
-          " more than two faces (vertex pairs). Delete inner faces or separate the sheets.",
-      pairs);
+      listing_pairs({"edge", "edges"}, pairs, {"joins", "join"}) +
+          " more than two faces (vertex pairs): sheets meet there in a curve. Delete inner faces "
+          "that you do not want.",
+      pairs, Severity::warning);
 }
 
 void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
@@ -191,11 +182,10 @@ void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_e
       bad.push_back(std::int64_t(v));
   }
   if (bad.empty()) return;
-  found.emplace_back(
-      ErrorCode::nonmanifold_vertex,
-      listing(vertex_s, bad, {"joins", "join"}) +
-          " parts of the surface that share no edge there. Separate (rip) the parts.",
-      bad);
+  found.emplace_back(ErrorCode::nonmanifold_vertex,
+                     listing(vertex_s, bad, {"joins", "join"}) +
+                         " parts of the surface that share no edge there: they touch in a point.",
+                     bad, Severity::warning);
 }
 
 Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges) {

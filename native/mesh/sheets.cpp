@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/sheets.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mesh/half_edges.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// One corner of each fan but the first of its vertex, with the vertex; ascending.
+std::vector<std::pair<std::int64_t, std::int32_t>> further_fans(const HalfEdges& half_edges,
+                                                                std::size_t vertices) {
+  std::vector<std::pair<std::int64_t, std::int32_t>> fans;
+  std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0), met(vertices, 0);
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    stop_if_cancelled(std::size_t(k));
+    if (seen[std::size_t(k)]) continue;
+    half_edges.visit_fan(k, [&](std::int32_t corner) { seen[std::size_t(corner)] = 1; });
+    const std::int64_t v = half_edges.from(k);
+    if (met[std::size_t(v)]) fans.emplace_back(v, k);
+    met[std::size_t(v)] = 1;
+  }
+  std::sort(fans.begin(), fans.end());
+  return fans;
+}
+
+// Edges between the same two input vertices, the first of each apart: pairs of original and copy,
+// ascending. Only an edge that was cut comes twice.
+std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& control) {
+  struct Entry {
+    std::array<Index, 2> ends;
+    Index edge;
+  };
+  std::vector<Entry> entries;
+  for (Index e = 0; e < Index(control.edges.size()); ++e) {
+    stop_if_cancelled(std::size_t(e));
+    const auto& [a, b] = control.edges[std::size_t(e)].vertex;
+    if (!control.shared(a) || !control.shared(b) || control.inside_polygon(e)) continue;
+    const Index from = control.original_vertex(a), to = control.original_vertex(b);
+    entries.push_back({{std::min(from, to), std::max(from, to)}, e});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+    return x.ends != y.ends ? x.ends < y.ends : x.edge < y.edge;
+  });
+  std::vector<std::array<Index, 2>> apart;
+  for (std::size_t i = 1, first = 0; i < entries.size(); ++i) {
+    if (entries[i].ends == entries[first].ends)
+      apart.push_back({entries[first].edge, entries[i].edge});
+    else
+      first = i;
+  }
+  std::sort(apart.begin(), apart.end());
+  return apart;
+}
+
+// Where the edges go when copies move behind all others, and which of them turn round.
+struct EdgeMoves {
+  std::vector<Index> to;
+  std::vector<std::uint8_t> turned;
+};
+
+void apply(const EdgeMoves& moves, ControlMesh& control) {
+  std::vector<Edge> edges(control.edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    Edge edge = control.edges[e];
+    if (moves.turned[e]) {
+      std::swap(edge.vertex[0], edge.vertex[1]);
+      std::swap(edge.side[0], edge.side[1]);
+    }
+    edges[std::size_t(moves.to[e])] = edge;
+  }
+  control.edges = std::move(edges);
+  for (Side& side : control.sides) {
+    side.reversed = side.reversed != bool(moves.turned[std::size_t(side.edge)]);
+    side.edge = moves.to[std::size_t(side.edge)];
+  }
+  for (Spoke& spoke : control.spokes) {
+    spoke.outward = spoke.outward != bool(moves.turned[std::size_t(spoke.edge)]);
+    spoke.edge = moves.to[std::size_t(spoke.edge)];
+  }
+}
+
+// Sets of numbers, each known by its least member.
+class Groups {
+ public:
+  explicit Groups(Index count) : parent_(std::size_t(count)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  Index first(Index i) {
+    while (parent_[std::size_t(i)] != i) {
+      Index& parent = parent_[std::size_t(i)];
+      i = parent = parent_[std::size_t(parent)];
+    }
+    return i;
+  }
+  void join(Index i, Index j) {
+    const Index a = first(i), b = first(j);
+    parent_[std::size_t(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace
+
+std::vector<Index> cut_into_sheets(OwnedPolygonMesh& mesh) {
+  const PolygonMesh view = mesh.view();
+  const auto vertices = std::size_t(view.vertex_count());
+  const HalfEdges half_edges(view);
+  std::vector<Index> copied;
+  std::vector<std::int32_t> fan;
+  for (const auto& [v, k] : further_fans(half_edges, vertices)) {
+    fan.clear();
+    half_edges.visit_fan(k, [&](std::int32_t corner) { fan.push_back(corner); });
+    for (const std::int32_t corner : fan)
+      mesh.corners[std::size_t(corner)] = std::int64_t(vertices + copied.size());
+    copied.push_back(Index(v));
+  }
+  mesh.coordinates.reserve(3 * (vertices + copied.size()));
+  for (const Index v : copied)
+    for (std::size_t a = 0; a < 3; ++a)
+      mesh.coordinates.push_back(mesh.coordinates[3 * std::size_t(v) + a]);
+  return copied;
+}
+
+void find_copied_edges(ControlMesh& control) {
+  if (control.copied_vertex.empty()) return;
+  const std::vector<std::array<Index, 2>> apart = edges_that_came_apart(control);
+  const auto start = [&](Index e) {
+    return control.original_vertex(control.edges[std::size_t(e)].vertex[0]);
+  };
+  EdgeMoves moves;
+  moves.to.assign(control.edges.size(), 0);
+  moves.turned.assign(control.edges.size(), 0);
+  for (const auto& [original, copy] : apart) {
+    moves.to[std::size_t(copy)] = -1;
+    moves.turned[std::size_t(copy)] = start(original) != start(copy);
+  }
+  Index next = 0;
+  for (Index& to : moves.to)
+    if (to == 0) to = next++;
+  for (const auto& [original, copy] : apart) {
+    moves.to[std::size_t(copy)] = next++;
+    control.copied_edge.push_back(moves.to[std::size_t(original)]);
+  }
+  apply(moves, control);
+}
+
+JoinedVertices::JoinedVertices(const ControlMesh& control) {
+  if (control.copied_edge.empty()) return;
+  Groups groups(control.vertex_count());
+  for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
+    for (std::size_t h = 0; h < 2; ++h)
+      groups.join(control.edges[std::size_t(e)].vertex[h],
+                  control.edges[std::size_t(control.original_edge(e))].vertex[h]);
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    first_.push_back(groups.first(v));
+    if (first_.back() != v) others_.emplace_back(first_.back(), v);
+  }
+  std::sort(others_.begin(), others_.end());
+}
+
+SheetNumbers number_sheets(const ControlMesh& control) {
+  Groups groups(control.vertex_count());
+  for (const Edge& edge : control.edges) groups.join(edge.vertex[0], edge.vertex[1]);
+  SheetNumbers sheets;
+  Index next = 0;
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    const Index first = groups.first(v);
+    sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[std::size_t(first)]);
+    sheets.count += first == v && !control.ring(v).empty();
+  }
+  return sheets;
+}
+
+}  // namespace fairing

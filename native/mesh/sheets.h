@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sheets: what is left of a mesh when it is cut apart along its non-manifold edges, those of three
+// and more faces, and at its non-manifold vertices, where fans of faces touch in a point. Each is a
+// manifold, with vertices and edges of its own; copies remember what they are copies of. Feature
+// curves and regions see the copies as one, so that sheets share the points where they meet.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+
+namespace fairing {
+
+// Gives every fan of faces around a vertex a vertex of its own: the first keeps the vertex, copies
+// for the others are added behind all vertices. Returns what they are copies of, ascending.
+// `mesh` must have passed check().
+std::vector<Index> cut_into_sheets(OwnedPolygonMesh& mesh);
+
+// Fills copied_edge of a mesh whose copied_vertex, edges, sides and spokes are complete: copies
+// become the last edges and run as their originals do.
+void find_copied_edges(ControlMesh& control);
+
+// Control vertices that are one along non-manifold edges: the fans of a vertex that such edges
+// join. Fans that only touch stay apart.
+class JoinedVertices {
+ public:
+  // `control` with its copied edges.
+  explicit JoinedVertices(const ControlMesh& control);
+
+  // The least of those that are one with v.
+  Index first(Index v) const { return first_.empty() ? v : first_[std::size_t(v)]; }
+  // visit(w) for v = first(v) and all that are one with it.
+  template <class Visit>
+  void for_each(Index v, Visit&& visit) const {
+    visit(v);
+    auto other = std::lower_bound(others_.begin(), others_.end(), std::pair(v, Index(0)));
+    for (; other != others_.end() && other->first == v; ++other) visit(other->second);
+  }
+
+ private:
+  std::vector<Index> first_;                     // empty: all apart
+  std::vector<std::pair<Index, Index>> others_;  // first and another, ascending
+};
+
+// The parts of a control mesh that hang together. A vertex without faces has a number of its own.
+struct SheetNumbers {
+  std::vector<Index> of_vertex;
+  Index count = 0;  // of those that have faces
+};
+SheetNumbers number_sheets(const ControlMesh& control);
+
+}  // namespace fairing

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets that meet: one mesh comes out, and what lies on the control mesh comes with it."""
+
+import bmesh
+import bpy
+import numpy as np
+from live_scenes import follow, live, move
+from refined import control_arrays, core_run
+from scenes import activate, add, fair, positions
+
+from addon.transfer.mirror import find_mirrors
+
+# Three pages, two faces each, at the spine 0 1 2; the first two are each other's mirror image
+# across x = 0.
+SPINE = [(0, 0, 0), (0, 0.3, 1), (0, 0, 2)]
+PAGES = [[(s * 1, 1, z) for z in (0, 1, 2)] for s in (1, -1)] + [[(0, -1, z) for z in (0, 1, 2)]]
+POINTS = SPINE + [point for page in PAGES for point in page]
+FACES = [  # their first side is the spine
+    [k, k + 1, first + k + 1, first + k] if turned else [k + 1, k, first + k, first + k + 1]
+    for first, turned in ((3, False), (6, True), (9, False))
+    for k in (0, 1)
+]
+
+
+def book():
+    return add("Book", POINTS, FACES)
+
+
+def most_faces_at_an_edge(mesh):
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    counts = [len(edge.link_faces) for edge in bm.edges]
+    bm.free()
+    return counts
+
+
+def test_one_mesh_whose_pages_share_the_spine():
+    source = book()
+    target = fair(levels=2)
+    counts = most_faces_at_an_edge(target.data)
+    assert counts.count(3) == 2 * 4 and max(counts) == 3 and min(counts) == 1
+    assert not target.data.validate()
+    assert np.array_equal(positions(target.data)[:12], positions(source.data))
+    spine = [e for e in target.data.edges if e.use_edge_sharp]
+    assert len(spine) == 2 * 4, "a curve, and sharp like all"
+
+
+def test_uv_maps_and_groups_come_along():
+    source = book()
+    uv = source.data.uv_layers.new(name="Pages").uv
+    for k, loop in enumerate(source.data.loops):  # each page has a column of its own
+        page, along = k // 8, source.data.vertices[loop.vertex_index].co.z
+        uv[k].vector = (page + 0.5 * (loop.vertex_index < 3), along)
+    group = source.vertex_groups.new(name="Spine")
+    group.add([0, 1, 2], 1.0, "REPLACE")
+    target = fair(levels=2)
+    made = target.data.uv_layers["Pages"].uv
+    for polygon in target.data.polygons:
+        page = polygon.index // (2 * 16)
+        columns = [made[k].vector.x for k in polygon.loop_indices]
+        assert page <= min(columns) and max(columns) <= page + 0.5
+    weights = {v.index: g.weight for v in target.data.vertices for g in v.groups if g.group == 0}
+    edges = [e for e in target.data.edges if e.use_edge_sharp]
+    assert {weights[v] for e in edges for v in e.vertices} == {1.0}
+    assert 0 in {weights.get(v, 0) for v in range(3, 12)}
+
+
+def test_recompute_and_live_follow():
+    source = book()
+    target = fair(levels=2)
+    move(source, 1, 0.25)
+    activate(target)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.array_equal(positions(target.data)[:12], positions(source.data))
+    live(target)
+    before = positions(target.data)
+    move(source, 1, 0.1)
+    follow()
+    after = positions(target.data)
+    assert after.shape == before.shape and not np.array_equal(after, before)
+    assert np.array_equal(after[:12], positions(source.data))
+
+
+def test_shape_keys_are_welded_too():
+    source = book()
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Bent").data[4].co.x += 0.5
+    target = fair(levels=2)
+    bent = target.data.shape_keys.key_blocks["Bent"]
+    assert len(bent.data) == len(target.data.vertices)
+    assert np.isclose(bent.data[4].co.x, source.data.shape_keys.key_blocks["Bent"].data[4].co.x)
+
+
+def test_a_region_of_one_page():
+    source = book()
+    for polygon in source.data.polygons:
+        polygon.select = polygon.index < 2
+    target = fair(levels=2, use_selection=True)
+    spine = [v for e in target.data.edges if e.use_edge_sharp for v in e.vertices]
+    y, z = positions(target.data)[np.unique(spine), 1:].T
+    assert len(y) == 9
+    assert np.allclose(y, 0.3 * (1 - np.abs(z - 1)))  # straight, as the other pages want it
+
+
+def test_exact_symmetry():
+    arrays = control_arrays(POINTS, FACES[:4])
+    mirrors, notes = find_mirrors(core_run(arrays, 2)[1], arrays)
+    assert [mirror.axis for mirror in mirrors] == [0] and not notes
+    # with pages beside each other that lie on no plane of symmetry
+    twice = POINTS + [(s * 1.5, -1, z) for s in (1, -1) for z in (0, 1, 2)]
+    lower = [[12 - 3 + v if v > 2 else v for v in face] for face in FACES[:4]]
+    faces = FACES[:4] + lower
+    used = sorted({v for face in faces for v in face})
+    assert len(used) == 15
+    arrays = control_arrays([twice[v] for v in used], [[used.index(v) for v in f] for f in faces])
+    mirrors, notes = find_mirrors(core_run(arrays, 2)[1], arrays)
+    assert [mirror.axis for mirror in mirrors] == [0] and not notes

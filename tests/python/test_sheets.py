@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets that meet: each is faired as if alone, and the result is one welded mesh."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from mesh_files import SUFFIXES, read_mesh
+from shared_data import shared_files
+from sheet_meshes import alone, book, bow_ties, bulkhead, hourglass
+from surfaces import euler_characteristic, output_faces
+from tight import Solver, fair
+
+SPINE = np.arange(5)  # of a book with four rows
+
+
+def corners_of(result, faces):
+    """The surface over these control faces, corner by corner."""
+    triangles, quads = result.faces
+    return np.concatenate(
+        [
+            result.vertices[triangles[np.isin(result.triangle_polygon, faces)]].reshape(-1, 3),
+            result.vertices[quads[np.isin(result.quad_polygon, faces)]].reshape(-1, 3),
+        ]
+    )
+
+
+def ids_of(result, faces):
+    """The vertices of the surface over these control faces."""
+    triangles, quads = result.faces
+    return np.union1d(
+        triangles[np.isin(result.triangle_polygon, faces)],
+        quads[np.isin(result.quad_polygon, faces)],
+    )
+
+
+def assert_welded(result, vertices, faces):
+    """Every vertex is used, no two are one point, and the topology is the control mesh's."""
+    fine = output_faces(result)
+    assert np.array_equal(np.unique(np.concatenate(fine)), np.arange(len(result.vertices)))
+    assert len(np.unique(result.vertices, axis=0)) == len(result.vertices)
+    assert euler_characteristic(fine) == euler_characteristic(np.asarray(faces).tolist())
+    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+def test_each_page_of_a_book_is_the_page_alone(triangles):
+    vertices, faces, size = book(4, triangles=triangles)
+    to_the_end = {"levels": 3, "relative_residual": 1e-13}
+    whole = fair(vertices, faces, **to_the_end)
+    assert whole.report["converged"]
+    assert_welded(whole, vertices, faces)
+    for page in range(4):
+        own = np.arange(size) + page * size
+        single = fair(*alone(vertices, faces[own]), corner_vertices=SPINE[[0, -1]], **to_the_end)
+        difference = corners_of(whole, own) - corners_of(single, np.arange(size))
+        assert np.abs(difference).max() <= 1e-12
+
+
+def test_on_pads_too():
+    vertices, faces, size = book(4)
+    whole = df.fair(vertices, faces, 3, relative_residual=1e-12)
+    for page in range(4):
+        own = np.arange(size) + page * size
+        single = df.fair(
+            *alone(vertices, faces[own]), 3, corner_vertices=[0, 4], relative_residual=1e-12
+        )
+        # the loads on pads are found to so much
+        assert np.abs(corners_of(whole, own) - corners_of(single, np.arange(size))).max() <= 1e-6
+
+
+@pytest.mark.parametrize("boundary", ["curve", "linear", "free"])
+def test_pages_share_the_spine_and_the_spine_is_a_curve(boundary):
+    vertices, faces, size = book(3)
+    result = fair(vertices, faces, 3, boundary=boundary)
+    shared = ids_of(result, np.arange(size))
+    for page in (1, 2):
+        shared = np.intersect1d(shared, ids_of(result, np.arange(size) + page * size))
+    assert len(shared) == 4 * 8 + 1 and np.isin(SPINE, shared).all()
+    # a page alone has the same curve
+    single = fair(*alone(vertices, faces[:size]), 3, corner_vertices=[0, 4])
+    points = {tuple(p) for p in single.vertices.tolist()}
+    assert all(tuple(p) in points for p in result.vertices[shared].tolist())
+    assert sorted(map(sorted, result.crease_edges.tolist())) == [[k, k + 1] for k in range(4)]
+
+
+def test_corners_split_the_spine():
+    vertices, faces, _ = book(3)
+    smooth = fair(vertices, faces, 2)
+    split = fair(vertices, faces, 2, corner_vertices=[2])
+    assert not np.array_equal(smooth.vertices, split.vertices)
+    sharp = fair(vertices, faces, 2, corner_angle=0.01)
+    assert not np.array_equal(split.vertices, sharp.vertices)
+
+
+def test_sheets_are_counted_and_told():
+    vertices, faces, _ = book(3)
+    result = fair(vertices, faces, 1)
+    assert result.report["sheets"] == {
+        "count": 3,
+        "nonmanifold_edges": 4,
+        "nonmanifold_vertices": 0,
+    }
+    (warning,) = result.report["warnings"]
+    assert warning["code"] == "NONMANIFOLD_EDGE" and len(warning["elements"]) == 8
+    touching = fair(*hourglass(), 1)
+    assert touching.report["sheets"]["nonmanifold_vertices"] == 1
+    assert [w["code"] for w in touching.report["warnings"]] == ["NONMANIFOLD_VERTEX"]
+    assert fair(*meshes.cube(), 1).report["sheets"] == {
+        "count": 1,
+        "nonmanifold_edges": 0,
+        "nonmanifold_vertices": 0,
+    }
+
+
+def test_a_box_with_a_wall():
+    (vertices, faces), wall = bulkhead()
+    result = fair(vertices, faces, 3)
+    assert_welded(result, vertices, faces)
+    assert result.report["sheets"]["count"] == 3
+    rim = np.intersect1d(ids_of(result, [wall]), ids_of(result, np.arange(wall)))
+    assert len(rim) == 4 * 8
+    # its rim is a round curve, and the wall is flat in it
+    assert np.abs(result.vertices[ids_of(result, [wall]), 0] - 1).max() <= 1e-7
+    middle = np.array([1, 0.5, 0.5])
+    radii = np.linalg.norm(result.vertices[rim] - middle, axis=1)  # as of a spline through four
+    assert radii.min() > 0.97 * 0.5**0.5 and radii.max() < 1.0001 * 0.5**0.5
+
+
+@pytest.mark.parametrize("mesh", [hourglass, bow_ties])
+def test_sheets_that_touch_know_nothing_of_each_other(mesh):
+    vertices, faces = mesh()
+    half = len(faces) // 2
+    result = fair(vertices, faces, 3)
+    assert_welded(result, vertices, faces)
+    for own in (np.arange(half), np.arange(half, 2 * half)):
+        single = fair(*alone(vertices, faces[own]), 3)
+        difference = corners_of(result, own) - corners_of(single, np.arange(half))
+        assert np.abs(difference).max() <= 1e-12
+
+
+@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
+@pytest.mark.parametrize("pad_size", [0.0, 1.0])
+def test_other_energies(energy, pad_size):
+    vertices, faces = hourglass()
+    result = df.fair(vertices, faces, 2, energy=energy, pad_size=pad_size, measure=True)
+    assert result.report["converged"]
+    assert_welded(result, vertices, faces)
+    # inscribed in a sphere each, and mirrored across z = 0
+    lower = result.vertices[ids_of(result, np.arange(8))]
+    upper = result.vertices[ids_of(result, np.arange(8, 16))]
+    assert np.abs(np.linalg.norm(lower + [0, 0, 1], axis=1) - 1).max() <= 2e-3
+    assert np.abs(np.linalg.norm(upper - [0, 0, 1], axis=1) - 1).max() <= 2e-3
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"interpolation": "approximate", "tolerance": 0.2},
+        {"interpolation": "approximate", "weights": 1.0},
+        {"epsilon": 0.2},
+        {"energy": "total_curvature", "interpolation": "approximate", "tolerance": 0.2},
+        {"energy": "total_curvature", "epsilon": 0.2},
+    ],
+)
+def test_shared_vertices_stay(options):
+    if "weights" in options:
+        options = {**options, "weights": np.full(11, 1.0)}
+    vertices, faces = hourglass()
+    vertices = vertices * [1, 1.5, 1.8]  # inscribed in no sphere, which would hold still
+    result = df.fair(vertices, faces, 2, **options)
+    moved = np.linalg.norm(result.vertices[:11] - vertices, axis=1)
+    assert moved[0] == 0 and moved[1:].max() > 1e-3
+    assert len(np.unique(result.vertices, axis=0)) == len(result.vertices)
+
+
+def test_shapes_and_a_solver():
+    vertices, faces, _ = book(3)
+    moved = vertices + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]])
+    result = fair(vertices, faces, 2, shapes=[moved, vertices])
+    linear = fair(moved, faces, 2).vertices  # with its own parameters: near, not the same
+    assert result.shapes[0].shape == result.vertices.shape
+    assert np.array_equal(result.shapes[0][: len(vertices)], moved)
+    assert np.abs(result.shapes[0] - linear).max() < 0.05
+    assert np.array_equal(result.shapes[1], result.vertices)
+
+    solver = Solver(vertices, faces, 2)
+    assert np.array_equal(solver.solve().vertices, result.vertices)
+    warm = solver.solve(moved)
+    assert np.abs(warm.vertices - result.shapes[0]).max() <= 1e-6
+    for made, given in zip(warm.faces, result.faces):
+        assert np.array_equal(made, given)
+    solver.rebase(moved)
+    assert np.abs(solver.solve().vertices - linear).max() <= 1e-6
+
+
+@pytest.mark.parametrize("pages", [[0], [0, 1], [0, 1, 2]])
+@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
+def test_regions(pages, joint):
+    vertices, faces, size = book(3)
+    chosen = np.concatenate([np.arange(size) + page * size for page in pages])
+    result = fair(vertices, faces, 2, region=chosen, joint=joint)
+    assert_welded(result, vertices, faces)
+    if len(pages) == 3:
+        assert np.array_equal(result.vertices, fair(vertices, faces, 2).vertices)
+        return
+    # the other pages are refined linearly, and the spine with them
+    flat = np.setdiff1d(np.arange(3 * size), chosen)
+    quads = result.faces[1]
+    for face in flat:
+        cells = quads[result.quad_polygon == face].reshape(4, 4, 4)
+        a, b = result.vertices[cells[0, 0, 0]], result.vertices[cells[0, -1, 1]]
+        along = result.vertices[cells[0, :, 1]]
+        assert np.abs(along - (a + (b - a) * np.arange(1, 5)[:, None] / 4)).max() <= 1e-12
+
+
+def test_any_number_of_threads_gives_the_same_bits():
+    (vertices, faces), _ = bulkhead()
+    for energy in ("thin_plate", "total_curvature"):
+        one, two = (df.fair(vertices, faces, 3, energy=energy, threads=k) for k in (1, 2))
+        assert np.array_equal(one.vertices, two.vertices)
+        assert np.array_equal(one.faces[1], two.faces[1])
+
+
+def test_the_order_of_faces_changes_nothing():
+    vertices, faces, _ = book(3, triangles=True)
+    order = np.random.default_rng(3).permutation(len(faces))
+    here, there = fair(vertices, faces, 2), fair(vertices, faces[order], 2)
+    assert here.vertices.shape == there.vertices.shape
+    for face in range(len(faces)):
+        mine = corners_of(here, [face])
+        assert np.abs(mine - corners_of(there, [np.argmax(order == face)])).max() <= 1e-7
+
+
+def test_orientation_is_a_sheet_s_own_affair():
+    vertices, faces, size = book(3)
+    turned = faces.copy()
+    turned[:size] = turned[:size, ::-1]
+    assert len(df.check(vertices, turned)) == 1
+    result = fair(vertices, turned, 2)
+    assert (
+        np.abs(np.sort(result.vertices, 0) - np.sort(fair(vertices, faces, 2).vertices, 0)).max()
+        < 1e-7
+    )
+    turned[size + 1] = turned[size + 1, ::-1]  # one against its own page
+    with pytest.raises(df.FairingError, match="looks"):
+        fair(vertices, turned, 2)
+    repaired = fair(vertices, turned, 2, repair_orientation=True)
+    assert repaired.report["flipped_faces"] == [size + 1]
+
+
+def test_sizes_are_predicted():
+    for vertices, faces in (book(4)[:2], book(3, triangles=True)[:2], hourglass(), bulkhead()[0]):
+        size = df.predicted_size(len(vertices), faces, 3)
+        result = df.fair(vertices, faces, 3)
+        assert size["vertices"] == len(result.vertices)
+        assert size["triangles"] == len(result.triangles)
+        assert result.report["peak_bytes"] <= result.report["predicted_bytes"]
+        assert 0.9 <= size["bytes"] / result.report["predicted_bytes"] <= 1.1
+
+
+@pytest.mark.parametrize("path", shared_files("bad/nonmanifold", *SUFFIXES))
+def test_real_files(path):
+    vertices, faces = read_mesh(path)
+    wrong = [d.code for d in df.check(vertices, faces) if d.severity == "error"]
+    assert not any(code.startswith("NONMANIFOLD") for code in wrong)
+    if wrong:
+        pytest.skip(f"something else is wrong: {wrong}")
+    result = fair(vertices, faces, 2, crease_angle=0.5)
+    assert result.report["converged"] and np.isfinite(result.vertices).all()
+    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+    used = len(np.unique(np.concatenate(faces)))
+    fine = output_faces(result)
+    assert len(np.unique(np.concatenate(fine))) == len(result.vertices) - len(vertices) + used
