@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "mesh/mend/edge_faces.h"
 #include "mesh/validate/checks.h"
@@ -43,6 +43,18 @@ CornerOrigin origin_between(const CornerOrigin& a, const CornerOrigin& b, double
   return {from, to, begin + share * (end - begin)};
 }
 
+// A face whose turn comes, the longest first: then its vertices go into faces that stay, rather than
+// into others that go. Its place does not depend on the order of faces.
+struct Waiting {
+  double longest_side;
+  std::vector<Index> vertices;
+  Index face;
+  bool operator<(const Waiting& other) const {
+    if (longest_side != other.longest_side) return longest_side > other.longest_side;
+    return vertices != other.vertices ? vertices < other.vertices : face < other.face;
+  }
+};
+
 // A side of faces, and what lies inside it, in order from `low`.
 struct CutSide {
   Index low, high;
@@ -75,13 +87,13 @@ class Dissolver {
         changed_at_(std::size_t(loops.count()), -1) {}
 
   Dissolved run(const std::vector<Index>& flat) {
-    waiting_.assign(flat.begin(), flat.end());
+    for (const Index f : flat) wait(f, face(f));
     // Enough for any mesh that was not made to defeat it.
     std::size_t left = 16 * loops_.corners.size() + 1024;
     for (; !waiting_.empty() && left > 0; --left) {
       stop_if_cancelled(left);
-      const Index f = waiting_.front();
-      waiting_.pop_front();
+      const Index f = waiting_.begin()->face;
+      waiting_.erase(waiting_.begin());
       const Loop loop(face(f).begin(), face(f).end());
       if (loop.empty() || !is_flat(coordinates_, loop, ids_)) continue;
       done_.faces.push_back(origin(f));
@@ -135,6 +147,17 @@ class Dissolver {
     });
   }
 
+  void wait(Index f, std::span<const MendCorner> loop) {
+    Waiting one{0, {}, f};
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Index here = loop[i].vertex, next = loop[(i + 1) % loop.size()].vertex;
+      one.longest_side = std::max(one.longest_side, (point(here) - point(next)).norm());
+      one.vertices.push_back(here);
+    }
+    std::sort(one.vertices.begin(), one.vertices.end());
+    waiting_.insert(std::move(one));
+  }
+
   void set(Index f, Loop loop) {
     Index& at = changed_at_[std::size_t(f)];
     if (at < 0) {
@@ -143,7 +166,7 @@ class Dissolver {
     }
     if (!loop.empty()) {
       edges_.add(loop, f);
-      if (is_flat(coordinates_, loop, ids_)) waiting_.push_back(f);
+      if (is_flat(coordinates_, loop, ids_)) wait(f, loop);
     }
     changed_[std::size_t(at)] = std::move(loop);
   }
@@ -236,7 +259,7 @@ class Dissolver {
   std::vector<Index> changed_at_;
   std::vector<Loop> changed_;
   std::vector<Index> new_origin_;
-  std::deque<Index> waiting_;
+  std::set<Waiting> waiting_;
   std::map<std::pair<Index, Index>, std::vector<Index>> cut_;
   Dissolved done_;
   std::vector<std::int64_t> ids_;
