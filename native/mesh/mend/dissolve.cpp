@@ -164,20 +164,21 @@ class Dissolver {
       at = Index(changed_.size());
       changed_.emplace_back();
     }
-    if (!loop.empty()) {
-      edges_.add(loop, f);
-      if (is_flat(coordinates_, loop, ids_)) wait(f, loop);
-    }
+    if (!loop.empty() && is_flat(coordinates_, loop, ids_)) wait(f, loop);
     changed_[std::size_t(at)] = std::move(loop);
   }
   // The first of several faces in the place of one, the others beside it.
   void replace(Index f, std::vector<Loop> loops) {
     const Index from = origin(f);
-    set(f, loops.empty() ? Loop{} : std::move(loops.front()));
-    for (std::size_t i = 1; i < loops.size(); ++i) {
-      new_origin_.push_back(from);
-      changed_at_.push_back(-1);
-      set(Index(changed_at_.size()) - 1, std::move(loops[i]));
+    if (loops.empty()) return set(f, {});
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (i > 0) {
+        new_origin_.push_back(from);
+        changed_at_.push_back(-1);
+      }
+      const Index to = i == 0 ? f : Index(changed_at_.size()) - 1;
+      edges_.add(loops[i], to);
+      set(to, std::move(loops[i]));
     }
   }
 
@@ -222,7 +223,19 @@ class Dissolver {
         longer.push_back({one.vertex, origin_between(here.origin, next.origin, share)});
       }
     }
-    if (longer.size() > loop.size()) replace(f, simple_loops(longer));
+    if (longer.size() == loop.size()) return;
+    const auto meets = [&](const MendCorner& corner) {
+      return std::any_of(side.between.begin(), side.between.end(),
+                         [&](const Between& one) { return one.vertex == corner.vertex; });
+    };
+    if (std::any_of(loop.begin(), loop.end(), meets)) return replace(f, simple_loops(longer));
+    Index from = side.low;
+    for (const Between& one : side.between) {
+      edges_.add(from, one.vertex, f);
+      from = one.vertex;
+    }
+    edges_.add(from, side.high, f);
+    set(f, std::move(longer));
   }
 
   // Into triangles about the lowest corner; of a quad's two diagonals, along that with the larger

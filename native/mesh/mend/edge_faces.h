@@ -25,10 +25,11 @@ class EdgeFaces {
     std::sort(sides_.begin(), sides_.end());
   }
 
-  // A face that has come, or has changed.
+  // A face that has come, or a side that one has got.
   void add(std::span<const MendCorner> loop, Index f) {
     for_sides(loop, [&](Key side) { added_[side].push_back(f); });
   }
+  void add(Index a, Index b, Index f) { added_[key(a, b)].push_back(f); }
 
   // All that ever had this side, ascending; whether they still have it is for the caller to see.
   std::vector<Index> around(Index a, Index b) const {
