@@ -136,7 +136,10 @@ def pads_text(pads: Mapping[str, Any]) -> str:
 
 # of repairs: of one element, of several
 _DONE = {
-    "BAD_SHAPE": ("face of fewer than three corners dropped", "faces of fewer than three corners dropped"),
+    "BAD_SHAPE": (
+        "face of fewer than three corners dropped",
+        "faces of fewer than three corners dropped",
+    ),
     "NON_FINITE": ("vertex without a position moved", "vertices without a position moved"),
     "REPEATED_VERTEX": ("face freed of a doubled corner", "faces freed of doubled corners"),
     "COINCIDENT_VERTICES": ("vertex merged", "vertices merged"),

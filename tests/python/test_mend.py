@@ -223,7 +223,9 @@ def test_coincident_vertices_are_welded_on_request_only():
     assert result.mended.vertex_origin.tolist() == lead
     assert open_edges(mended_faces(result)) == []
     ids = np.array(sorted(first.values()))
-    welded = tight.fair(POINTS[FACES.reshape(-1)[ids]], np.searchsorted(ids, np.array(lead).reshape(-1, 3)), 1)
+    welded = tight.fair(
+        POINTS[FACES.reshape(-1)[ids]], np.searchsorted(ids, np.array(lead).reshape(-1, 3)), 1
+    )
     assert np.allclose(result.vertices[ids], welded.vertices[:12], rtol=0, atol=1e-12)
     assert np.allclose(result.vertices[60:], welded.vertices[12:], rtol=0, atol=1e-12)
 

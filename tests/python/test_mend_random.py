@@ -26,7 +26,9 @@ def with_caps(seed, edges=6):
         between = []
         for share in shares:
             between.append(len(points))
-            points.append((np.array(points[a]) * (1 - share) + np.array(points[b]) * share).tolist())
+            points.append(
+                (np.array(points[a]) * (1 - share) + np.array(points[b]) * share).tolist()
+            )
         chain = [a, *between, b]
         parts = [[v, w, c] for v, w in zip(chain, chain[1:])]
         faces[f] = parts[0]
