@@ -52,6 +52,16 @@ TOLERANCE_UNITS = (
     ("SCENE", "Length", "As a length, before the object's scale", 1),
 )
 
+REPAIRS = (
+    (
+        "MEND",
+        "Mend",
+        "Fairs the mesh without its duplicate faces, doubled corners and faces that have no area, "
+        "and with all faces looking the same way. The source stays as it is; a note says what was done",
+    ),
+    ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
+)
+
 BOUNDARIES = (
     (
         "CURVE",

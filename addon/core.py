@@ -91,7 +91,7 @@ def fair_arguments(
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
         "boundary": settings.boundary.lower(),
-        "repair_orientation": settings.repair_orientation,
+        "repair": settings.repair.lower(),
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
         "threads": preferences.threads,
         "measure": False,

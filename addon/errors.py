@@ -15,7 +15,7 @@ _REMEDIES = {
     "DUPLICATE_FACE": "Delete one of each pair",
     "NONMANIFOLD_EDGE": "Leave them: the sheets meet in a curve. Delete inner faces that you do not want",
     "NONMANIFOLD_VERTEX": "Leave them, or separate the parts (V)",
-    "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or switch on Repair Normals",
+    "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or let Defects be Mend",
     "NON_ORIENTABLE": "Cut it open along a row of edges (V in Edit Mode)",
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
@@ -132,6 +132,30 @@ def pads_text(pads: Mapping[str, Any]) -> str:
     parts = f"narrower at {one_or_more}" if narrower else f"gone at {one_or_more}"
     both = f" and gone at {gone:,}" if narrower and gone else ""
     return f"Pads are {parts}{both}, where the mesh is crumpled."
+
+
+# of repairs: of one element, of several
+_DONE = {
+    "BAD_SHAPE": (
+        "face of fewer than three corners dropped",
+        "faces of fewer than three corners dropped",
+    ),
+    "NON_FINITE": ("vertex without a position moved", "vertices without a position moved"),
+    "REPEATED_VERTEX": ("face freed of a doubled corner", "faces freed of doubled corners"),
+    "COINCIDENT_VERTICES": ("vertex merged", "vertices merged"),
+    "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),
+    "DEGENERATE_FACE": ("face without area dissolved", "faces without area dissolved"),
+    "INCONSISTENT_ORIENTATION": ("face turned", "faces turned"),
+}
+
+
+def repairs_text(repairs: Iterable[Mapping[str, Any]]) -> str:
+    """What was mended, in one sentence, from the report's `repairs`; empty if nothing was."""
+    done = []
+    for act in repairs:
+        count = len(act["elements"])
+        done.append(f"{count:,} {_DONE[act['code']][count > 1]}")
+    return f"{', '.join(done)}; Check Mesh shows them." if done else ""
 
 
 def _sentence(text: str) -> str:

@@ -87,6 +87,9 @@ class Job:
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        mended = errors.repairs_text(self.result.report["repairs"])
+        if mended:
+            self.notes.append(mended)
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
@@ -95,9 +98,10 @@ class Job:
 
     def _symmetrize(self) -> None:
         result, arguments = self.result, self.arguments
-        mirrors, notes = find_mirrors(
-            self.carrier, self.arrays, result.crease_edges, arguments["corner_vertices"]
-        )
+        corners = arguments["corner_vertices"]
+        if result.mended is not None:
+            corners = result.mended.vertex_origin[corners]
+        mirrors, notes = find_mirrors(self.carrier, self.arrays, result.crease_edges, corners)
         self.notes += notes
         self.notes += [
             f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."

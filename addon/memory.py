@@ -117,7 +117,7 @@ _OLD_RECORDS = {
     "fairing_check": "defects",
 }
 _OLD_RANGE, _OLD_COLOUR = "fairing_curvature_range", "fairing_active_colour"
-_GONE = ("epsilon", "vertex_release")
+_GONE = ("epsilon", "vertex_release", "repair_orientation")
 
 
 @persistent

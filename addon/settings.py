@@ -22,6 +22,7 @@ from .choices import (
     INTERPOLATIONS,
     JOINTS,
     MESH_SOURCES,
+    REPAIRS,
     TOLERANCE_UNITS,
 )
 
@@ -214,10 +215,10 @@ class FairingSettings:
         max=1.0,
         subtype="FACTOR",
     )
-    repair_orientation: BoolProperty(
-        name="Repair Normals",
-        description="Flips faces that are oriented against their neighbours, instead of refusing the mesh",
-        default=False,
+    repair: EnumProperty(
+        name="Defects",
+        description="What happens to a mesh with defects",
+        items=REPAIRS,
     )
     use_shape_keys: BoolProperty(
         name="Shape Keys",
@@ -249,8 +250,9 @@ class FairingSettings:
         subtype="NONE",
     )
 
-    # Presets of development builds set it: a setting that is gone, without effect.
+    # Presets of development builds set them: settings that are gone, without effect.
     vertex_release = property(lambda self: 0.0, lambda self, value: None)
+    repair_orientation = property(lambda self: self.repair == "MEND", lambda self, value: None)
 
 
 # of an operator, a property group, or a copy of their values

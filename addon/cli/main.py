@@ -16,7 +16,7 @@ import bpy
 
 from .. import core, memory
 from ..blender import Mesh, Object, current_context
-from ..errors import JobError
+from ..errors import JobError, repairs_text
 from ..job import Job
 from . import report
 from .files import FileError, read_file, write_file, write_text
@@ -110,6 +110,8 @@ def _fair_file(
     try:
         for job in jobs:
             job.arguments["measure"] = is_read  # the table and the report have energies
+            if arguments.weld is not None:
+                job.arguments["weld"] = arguments.weld
             if arguments.threads is not None:
                 job.arguments["threads"] = arguments.threads
             job.compute(**{} if arguments.quiet else {"progress": progress})
@@ -118,6 +120,9 @@ def _fair_file(
         progress.clear()
     for job, source in zip(jobs, sources):
         record["objects"].append(_replace(job, source))
+        mended = repairs_text(job.result.report["repairs"])
+        if mended and not arguments.quiet:
+            _say(f"{way.source}: mended: {mended}")
         for warning in job.warnings():
             record["warnings"].append(warning)
             _say(f"{way.source}: warning: {warning}")

@@ -3,7 +3,7 @@
 
 import argparse
 from collections.abc import Callable
-from math import degrees, radians
+from math import degrees, inf, radians
 from types import SimpleNamespace
 from typing import Any
 
@@ -90,6 +90,8 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
             if given.get("interpolation") == "EXACT":
                 raise ValueError(f"{option(name)} needs --interpolation approximate")
             settings["interpolation"] = "APPROXIMATE"
+    if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":
+        raise ValueError("--weld needs --repair mend")
     units = [unit for name, unit in _TOLERANCE_UNITS.items() if name in given]
     if len(units) > 1:
         raise ValueError(f"give one of {' and '.join(map(option, _TOLERANCE_UNITS))}")
@@ -237,6 +239,13 @@ def parser(version: str) -> argparse.ArgumentParser:
         "they always are",
     )
     made.add_argument(
+        "--weld",
+        type=_distance,
+        metavar="DISTANCE",
+        help="join vertices no farther apart than this, in the file's unit; 0: those at the same place, as --merge does "
+        "[none]",
+    )
+    made.add_argument(
         "--threads", type=_threads, metavar="N", help="0: all cores [as in the preferences]"
     )
     made.add_argument(
@@ -259,6 +268,16 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=110)
+
+
+def _distance(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a distance, 0 or more")
+    return value
 
 
 def _threads(text: str) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 from ..core import ControlArrays
 from .control_faces import Centres, ControlFaces, find_control_faces
 from .lattice import Cells, make_cells, pair_keys, sides
+from .mended import faired_mesh
 
 CHUNK = 1 << 18  # values at a time: these fit in a processor's cache
 
@@ -128,16 +129,15 @@ class Carrier:
         """
         self.control_count = len(arrays.positions)
         self.vertex_count = len(result.vertices)
-        self._arrays = arrays
+        self._faired = faired_mesh(result, arrays)
+        own = self._faired.arrays
         self.patches: list[Patch] = []
         start = 0
-        for fine, polygon in zip(
-            result.faces, (result.triangle_polygon, result.quad_polygon), strict=True
-        ):
+        for fine, polygon in zip(result.faces, self._faired.polygons, strict=True):
             cells = make_cells(fine.shape[1], levels)
-            faces = find_control_faces(fine, polygon, cells, arrays)
+            faces = find_control_faces(fine, polygon, cells, own)
             if faces.size == 3:
-                self._centres = Centres(faces, arrays)
+                self._centres = Centres(faces, own)
             if len(fine):
                 self.patches.append(Patch(cells, faces, fine, start))
             start += fine.size
@@ -156,7 +156,7 @@ class Carrier:
 
         A face's come from its own corners only.
         """
-        values = _table(values)
+        values = self._faired.corner(_table(values))
         known = np.concatenate([values, self._centres.corner(values)])
         out = np.empty((self.corner_count, values.shape[1]), np.float32)
         for patch in self.patches:
@@ -196,7 +196,7 @@ class Carrier:
         """
         origin = np.full(edge_count, -1, np.int32)
         for patch in self.patches:
-            _edge_origin(patch, self._arrays.edges, corner_edge, origin)
+            _edge_origin(patch, self._faired.arrays.edges, corner_edge, origin)
         return origin
 
     def pick_corner(self, values: np.ndarray) -> np.ndarray:
@@ -205,6 +205,7 @@ class Carrier:
 
         Of several that are equally near, that of the vertex with the lowest id.
         """
+        values = self._faired.pick_corner(values)
         out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
         _, lowest = self._centres.lowest()
         for patch in self.patches:
@@ -269,7 +270,7 @@ def _edge_origin(
     if not len(vertices) or not len(control_edges):
         return
     keys = pair_keys(control_edges)
-    order = np.argsort(keys)
+    order = np.argsort(keys, kind="stable")  # mending may have made two edges one: the first counts
     leaving = corner_edge[patch.start : patch.start + patch.fine.size].reshape(len(vertices), -1)
     n = int(np.sqrt(leaving.shape[1] // size))
     for side, (run, start, _) in enumerate(sides(size, n)):

@@ -92,7 +92,7 @@ def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:
     if settings.use_selection:
         _reason(layout, "Faces are selected on the mesh as modelled")
     layout.prop(settings, "keep_symmetry")
-    layout.prop(settings, "repair_orientation")
+    layout.prop(settings, "repair")
 
 
 def draw_creases(layout: bpy.types.UILayout, settings: Settings) -> None:

@@ -10,7 +10,8 @@ from bl_ui.utils import PresetPanel
 from .. import core, size, vertex_values
 from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
-from ..memory import FAIRING_PG_surface
+from ..errors import repairs_text
+from ..memory import FAIRING_PG_surface, recall
 from ..mesh.read import read_mesh, source_objects
 from ..queue import Queue, running, status_text
 from ..settings import Settings, copy_settings, is_evaluated, is_near
@@ -53,6 +54,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         memory = remembered(context)
         if memory is not None:
             _draw_source(layout, memory)
+            _draw_repairs(layout, context.active_object)
         settings = settings_at_hand(context)
         sources = source_objects(context) if memory is None else [memory.source]
         triangles = sum(
@@ -164,6 +166,14 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
+
+
+def _draw_repairs(layout: bpy.types.UILayout, surface: Object) -> None:
+    """What was mended of the source when this surface was made."""
+    report = recall(surface, "report") or {}
+    mended = repairs_text(report.get("repairs", ()))
+    if mended:
+        draw_notice(layout, mended, icon="INFO")
 
 
 def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> Any:

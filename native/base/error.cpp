@@ -89,6 +89,13 @@ std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb) {
   return list(noun, ids.size(), [&](std::size_t i) { return std::to_string(ids[i]); }, verb);
 }
 
+std::string relisted(const std::string& message, Words noun, std::span<const std::int64_t> ids) {
+  const std::size_t end = message.find(") ");
+  if (message.empty() || message[0] < '0' || message[0] > '9' || end == std::string::npos)
+    return message;
+  return listing(noun, ids, {"", ""}) + message.substr(end + 2);
+}
+
 std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
   const auto pair = [&](std::size_t i) {
     return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);

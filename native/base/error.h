@@ -84,6 +84,9 @@ constexpr Words face_s{"face", "faces"}, vertex_s{"vertex", "vertices"};
 // "1 face (7) has", "12 faces (0, 4, 9, 11, 12, …) have".
 std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb);
 
+// A message that begins with a listing, of other ids; any other message as it is.
+std::string relisted(const std::string& message, Words noun, std::span<const std::int64_t> ids);
+
 // Ids laid end to end in pairs: "2 edges (0-4, 4-9) have".
 std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb);
 

@@ -81,6 +81,7 @@ py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
   d["shapes"] = surfaces;
   add_faces(d, std::move(result.faces), std::move(result.crease_edges));
   d["report"] = to_python(result.report);
+  d["mended"] = to_python(result.mended ? &*result.mended : nullptr);
   return d;
 }
 

@@ -35,6 +35,7 @@ void bind_choices(py::module_& m) {
       .value("thin_plate", Energy::thin_plate)
       .value("total_curvature", Energy::total_curvature)
       .value("minimum_variation", Energy::minimum_variation);
+  py::enum_<Repair>(m, "Repair").value("refuse", Repair::refuse).value("mend", Repair::mend);
   py::enum_<Method>(m, "Method")
       .value("multigrid", Method::multigrid)
       .value("back_leg", Method::back_leg);
@@ -80,6 +81,8 @@ void bind_options(py::module_& m) {
         o.features.region.faces = std::move(faces);
       });
   setting("joint", &O::features, &FeatureOptions::region, &RegionOptions::joint);
+  setting("repair", &O::repair);
+  setting("weld", &O::weld);
   setting("repair_orientation", &O::repair_orientation);
   setting("interpolation", &O::interpolation);
   setting("tolerance", &O::tolerance);

@@ -153,6 +153,7 @@ py::dict to_python(const Report& r) {
   d["sheets"] = to_python(r.sheets);
   d["threads"] = r.threads;
   d["warnings"] = to_python(r.warnings);
+  d["repairs"] = to_python(r.repairs);
   d["flipped_faces"] = r.flipped_faces;
   return d;
 }
@@ -177,11 +178,38 @@ py::list to_python(const Defects& defects) {
       entry["elements"] = defect.elements;
     entry["kind"] = name(defect.kind);
     entry["severity"] = defect.severity == Severity::error ? "error" : "warning";
-    entry["repair"] =
-        defect.repairable() ? py::object(py::str("orientation")) : py::object(py::none());
+    entry["repair"] = Defect::turns_faces(defect.code) ? py::object(py::str("orientation"))
+                                                       : py::object(py::none());
+    entry["repairable"] = defect.repairable;
     list.append(entry);
   }
   return list;
+}
+
+py::object to_python(const MendedMesh* mended) {
+  if (!mended) return py::none();
+  const auto& origins = mended->corner_origin;
+  const auto size = py::ssize_t(origins.size());
+  py::array_t<std::int32_t> corner({size, py::ssize_t(2)});
+  py::array_t<double> share(size);
+  for (py::ssize_t k = 0; k < size; ++k) {
+    const CornerOrigin& origin = origins[std::size_t(k)];
+    corner.mutable_at(k, 0) = origin.from;
+    corner.mutable_at(k, 1) = origin.beside;
+    share.mutable_at(k) = origin.share;
+  }
+  const auto copy = [](const auto& values) {
+    return py::array_t<typename std::remove_cvref_t<decltype(values)>::value_type>(
+        py::ssize_t(values.size()), values.data());
+  };
+  py::dict d;
+  d["corners"] = copy(mended->mesh.corners);
+  d["offsets"] = copy(mended->mesh.offsets);
+  d["vertex_origin"] = copy(mended->vertex_origin);
+  d["face_origin"] = copy(mended->face_origin);
+  d["corner_origin"] = corner;
+  d["corner_share"] = share;
+  return d;
 }
 
 void add_faces(py::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_edges) {
@@ -189,6 +217,10 @@ void add_faces(py::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_e
   to["quads"] = to_numpy(std::move(faces.quads), 4);
   to["triangle_polygon"] = to_numpy(std::move(faces.triangle_polygon), 1);
   to["quad_polygon"] = to_numpy(std::move(faces.quad_polygon), 1);
+  if (!faces.triangle_mended.empty() || !faces.quad_mended.empty()) {
+    to["triangle_mended"] = to_numpy(std::move(faces.triangle_mended), 1);
+    to["quad_mended"] = to_numpy(std::move(faces.quad_mended), 1);
+  }
   to["crease_edges"] = to_numpy(std::move(crease_edges), 2);
 }
 

@@ -8,6 +8,7 @@
 #include "fairing/memory_plan.h"
 #include "fairing/output.h"
 #include "fairing/report.h"
+#include "mesh/mend/mend.h"
 #include "mesh/validate/check.h"
 
 namespace fairing {
@@ -17,8 +18,13 @@ pybind11::dict to_python(const Report& report);
 pybind11::dict to_python(const RunSize& size);
 pybind11::list to_python(const Defects& defects);
 
+// What was faired in the place of the input: the arrays that discrete_fairing.result.Mended has, but
+// for those of refined faces.
+pybind11::object to_python(const MendedMesh* mended);
+
 // Adds "triangles" (T, 3), "quads" (Q, 4), "triangle_polygon" (T,), "quad_polygon" (Q,) and
-// "crease_edges" (k, 2), all int32, to `to`.
+// "crease_edges" (k, 2), all int32, to `to`;
+// where something was mended "triangle_mended" (T,) and "quad_mended" (Q,) too.
 void add_faces(pybind11::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_edges);
 
 }  // namespace fairing

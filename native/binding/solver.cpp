@@ -43,6 +43,7 @@ class Solver {
     py::dict d;
     add_faces(d, std::move(faces), std::move(creases));
     for (const auto& entry : d) entry.second.attr("setflags")(py::arg("write") = false);
+    d["mended"] = to_python(solver_->mended());
     return d;
   }
 

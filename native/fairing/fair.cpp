@@ -99,6 +99,12 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options, Monito
   return result;
 }
 
+Mending mending_of(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  monitor.report(Phase::check, 0);
+  return Mending(input, options);
+}
+
 const FairOptions& without_back_leg(const FairOptions& options) {
   if (options.method == Method::back_leg)
     throw FairingError(
@@ -116,7 +122,15 @@ FairingError out_of_memory() {
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
   try {
-    return fair_all(mesh, options, monitor);
+    const Mending mending = mending_of(mesh, options, monitor);
+    FairResult result =
+        mending.in_input_ids([&] { return fair_all(mending.mesh(), mending.options(), monitor); });
+    mending.restore_points(result.vertices.data());
+    for (Array<double>& shape : result.shapes) mending.restore_points(shape.data());
+    mending.restore(result.faces);
+    mending.restore(result.report);
+    if (mending.mended()) result.mended = *mending.mended();
+    return result;
   } catch (const std::bad_alloc&) {
     throw out_of_memory();
   }
@@ -125,7 +139,10 @@ FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& mo
 FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) try
     : monitor_(monitor),
       build_watch_(built_, monitor_),
-      context_(input, without_back_leg(options), monitor_, build_watch_, built_),
+      mending_(mending_of(input, without_back_leg(options), monitor_)),
+      context_(mending_.in_input_ids([&] {
+        return FairingContext(mending_.mesh(), mending_.options(), monitor_, build_watch_, built_);
+      })),
       control_(context_.basis()),
       recent_(context_.workers()) {
   built_.seconds.clear();
@@ -167,6 +184,18 @@ void FairSolver::set_control(std::span<const double> coordinates) {
 }
 
 Report FairSolver::solve(std::span<const double> coordinates, double* out) {
+  std::vector<double> placed;
+  if (mended() && coordinates.size() == 3 * std::size_t(context_.mesh().input_vertices)) {
+    placed = mending_.placed(coordinates);
+    coordinates = placed;
+  }
+  Report report = mending_.in_input_ids([&] { return solve_mended(coordinates, out); });
+  mending_.restore_points(out);
+  mending_.restore(report);
+  return report;
+}
+
+Report FairSolver::solve_mended(std::span<const double> coordinates, double* out) {
   if (!coordinates.empty())
     check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
   return guarded([&] {
@@ -244,7 +273,20 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   if (weld.needed()) weld.join(world, out);
 }
 
+OutputFaces FairSolver::faces() {
+  OutputFaces faces = make_faces(context_.finest(), context_.workers());
+  mending_.restore(faces);
+  return faces;
+}
+
 void FairSolver::rebase(const PolygonMesh& input) {
+  if (!mended()) return rebase_mended(input);
+  const std::vector<double> placed = mending_.placed(input.coordinates);
+  const PolygonMesh mesh{placed, mended()->mesh.corners, mended()->mesh.offsets};
+  mending_.in_input_ids([&] { rebase_mended(mesh); });
+}
+
+void FairSolver::rebase_mended(const PolygonMesh& input) {
   Report report = built_;
   {
     Stopwatch watch(report, monitor_);

@@ -2,10 +2,12 @@
 // The driver: plain arrays in, fair surface and report out. All coordinates are world coordinates.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "fairing/context.h"
+#include "fairing/mending.h"
 #include "fairing/output.h"
 #include "fairing/recent_surfaces.h"
 #include "fairing/weld.h"
@@ -18,6 +20,7 @@ struct FairResult {
   OutputFaces faces;
   Array<std::int32_t> crease_edges;  // 2 an edge, as by crease_edges() in fairing/output.h
   Report report;
+  std::optional<MendedMesh> mended{};  // what was faired, where it is not the input itself
 };
 
 // What a run says that has found no memory.
@@ -45,16 +48,20 @@ class FairSolver {
   // After an error the next one starts from nothing.
   Report solve(std::span<const double> coordinates, double* out);
 
-  // Builds anew about these positions. `input` has the same faces as ever. After an error it is
-  // about the positions before, and the next surface starts from nothing.
+  // Builds anew about these positions. `input` has the same faces as ever; what was mended stays so.
+  // After an error it is about the positions before, and the next surface starts from nothing.
   void rebase(const PolygonMesh& input);
 
-  OutputFaces faces() { return make_faces(context_.finest(), context_.workers()); }
+  OutputFaces faces();
+  // What is faired, where it is not the input itself, else null.
+  const MendedMesh* mended() const { return mending_.mended(); }
   Array<std::int32_t> creases() const { return crease_edges(context_.mesh()); }
   // Of the long arrays and factors that are kept.
   std::size_t bytes() const { return ledger_.current(); }
 
  private:
+  Report solve_mended(std::span<const double> coordinates, double* out);
+  void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
   void solve_from_nothing(Stopwatch& watch, Report& report);
   bool solve_from_last(Stopwatch& watch, Report& report);
@@ -67,6 +74,7 @@ class FairSolver {
   Monitor& monitor_;
   Report built_;  // what building reports goes into every surface's report
   Stopwatch build_watch_;
+  Mending mending_;
   FairingContext context_;
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;

@@ -68,6 +68,9 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
     in_range("tolerance", o.tolerance[0], 0, 1e300);
   else
     check_per_vertex(mesh, "tolerance", o.tolerance);
+  if (!(o.weld <= 1e300)) refuse("weld must be a length, 0 or more.");
+  if (o.weld >= 0 && o.repair != Repair::mend)
+    refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
   in_range("epsilon", o.epsilon, 0, 1e300);
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);

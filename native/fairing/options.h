@@ -36,6 +36,12 @@ enum class Method {
   back_leg,
 };
 
+// What happens to a mesh with defects.
+enum class Repair {
+  refuse,  // it is refused
+  mend,  // those that can be mended are (mesh/mend/mend.h), and faces that look the wrong way turn
+};
+
 // Refinements of a control face: 4^15 triangles each.
 constexpr int most_levels = 15;
 
@@ -49,6 +55,10 @@ struct FairOptions {
   int max_steps = 20;
   ChartOptions chart;
   FeatureOptions features;
+  Repair repair = Repair::refuse;
+  // Mending: vertices no farther apart than this become one, mesh units; 0: those at one point;
+  // negative: none.
+  double weld = -1;
   bool repair_orientation = false;
 
   Interpolation interpolation = Interpolation::exact;

@@ -17,6 +17,8 @@ struct OutputFaces {
   Array<std::int32_t> triangles, quads;
   // The input face that each comes from.
   Array<std::int32_t> triangle_polygon, quad_polygon;
+  // The face of the mended mesh that each comes from; empty where nothing was mended.
+  Array<std::int32_t> triangle_mended{}, quad_mended{};
 };
 
 // The cells of every control face's grid, in the control faces' order, row by row. May throw

@@ -71,7 +71,9 @@ struct Report {
   SheetReport sheets;
   int threads = 1;
   std::vector<Warning> warnings;
-  // Input faces that were reversed by repair_orientation.
+  // What Repair::mend has done, each with all elements of the input concerned.
+  std::vector<Warning> repairs;
+  // Input faces that were reversed by repair_orientation or Repair::mend.
   std::vector<std::int64_t> flipped_faces;
 };
 

@@ -11,24 +11,9 @@ namespace fairing {
 namespace {
 
 std::vector<std::uint8_t> chosen_polygons(const RegionOptions& options, Index polygons) {
-  if (options.faces.empty())
-    throw FairingError(
-        ErrorCode::bad_option,
-        "region has no faces: name those to be faired, or give no region to fair all.");
-  std::vector<std::int64_t> unknown;
+  require_faces(options, polygons);
   std::vector<std::uint8_t> chosen(std::size_t(polygons), 0);
-  for (std::int64_t f : options.faces) {
-    if (f < 0 || f >= polygons)
-      unknown.push_back(f);
-    else
-      chosen[std::size_t(f)] = 1;
-  }
-  if (!unknown.empty())
-    throw FairingError(ErrorCode::index_out_of_range,
-                       listing(face_s, unknown, {"is", "are"}) +
-                           " named in the region but not in the mesh: ids run from 0 to " +
-                           std::to_string(polygons - 1) + ".",
-                       unknown, ElementKind::face);
+  for (std::int64_t f : options.faces) chosen[std::size_t(f)] = 1;
   return chosen;
 }
 
@@ -78,6 +63,22 @@ void join_sheets(ControlMesh& control) {
 }
 
 }  // namespace
+
+void require_faces(const RegionOptions& options, std::int64_t faces) {
+  if (options.faces.empty())
+    throw FairingError(
+        ErrorCode::bad_option,
+        "region has no faces: name those to be faired, or give no region to fair all.");
+  std::vector<std::int64_t> unknown;
+  for (std::int64_t f : options.faces)
+    if (f < 0 || f >= faces) unknown.push_back(f);
+  if (!unknown.empty())
+    throw FairingError(ErrorCode::index_out_of_range,
+                       listing(face_s, unknown, {"is", "are"}) +
+                           " named in the region but not in the mesh: ids run from 0 to " +
+                           std::to_string(faces - 1) + ".",
+                       unknown, ElementKind::face);
+}
 
 void find_region(const RegionOptions& options, ControlMesh& control) {
   if (!options.given) return;

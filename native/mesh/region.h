@@ -11,6 +11,9 @@ namespace fairing {
 // faces that do not exist, bad_option for no faces at all.
 void find_region(const RegionOptions& options, ControlMesh& control);
 
+// Throws what find_region does for a region of a mesh of so many input faces.
+void require_faces(const RegionOptions& options, std::int64_t faces);
+
 // Marks the joint edges that carry a fit, and their ends; all but features do, unless the region
 // joins in position only. Call it after find_features.
 void mark_clamped_joint(ControlMesh& control);

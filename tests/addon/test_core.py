@@ -51,7 +51,7 @@ def test_defaults():
 def test_values():
     given = arguments(
         levels=5, interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE", boundary="FREE", metric_exponent=1.0,
-        use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair_orientation=True, memory_limit=3,
+        use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair="REFUSE", memory_limit=3,
     )  # fmt: skip
     assert (
         given["levels"] == 5
@@ -60,7 +60,7 @@ def test_values():
     )
     assert given["boundary"] == "free" and given["metric_exponent"] == 1.0
     assert given["crease_angle"] == 1.0 and given["corner_angle"] == 2.0
-    assert given["repair_orientation"] and given["memory_limit"] == 3 * 2**20
+    assert given["repair"] == "refuse" and given["memory_limit"] == 3 * 2**20
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])

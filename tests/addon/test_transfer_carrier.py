@@ -54,6 +54,7 @@ def by_hand(cells):
         faces=faces,
         triangle_polygon=all_zero if size == 3 else nothing,
         quad_polygon=nothing if size == 3 else all_zero,
+        mended=None,
     )
     arrays = control_arrays(np.eye(size, 3), [list(range(size))])
     return Carrier(result, arrays, 2), order

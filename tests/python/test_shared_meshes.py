@@ -54,6 +54,25 @@ def test_good_meshes_converge(path):
 
 
 @pytest.mark.parametrize("path", shared_files("bad", *SUFFIXES))
+@pytest.mark.parametrize("weld", [None, 0])
+def test_mending_leaves_sheets_that_meet_and_one_sided_ones(path, weld):
+    try:
+        vertices, faces = read_mesh(path)
+    except ValueError as error:
+        pytest.skip(f"the reader refuses it: {error}")
+    try:
+        result = tight.fair(vertices, faces, 1, repair="mend", weld=weld)
+    except df.FairingError as error:
+        broken = {"EMPTY_MESH", "INDEX_OUT_OF_RANGE"} if "corrupt_files" in path.parts else set()
+        assert error.code in {"NONMANIFOLD_EDGE", "NONMANIFOLD_VERTEX", "NON_ORIENTABLE"} | broken
+        return
+    assert np.isfinite(result.vertices).all() and result.report["converged"]
+    assert "degenerate" not in path.parts or result.report["repairs"]
+    polygons = np.concatenate([result.triangle_polygon, result.quad_polygon])
+    assert polygons.min() >= 0 and polygons.max() < len(faces)
+
+
+@pytest.mark.parametrize("path", shared_files("bad", *SUFFIXES))
 @pytest.mark.parametrize("repair", [False, True])
 def test_bad_meshes_end_well(path, repair):
     try:

@@ -31,6 +31,8 @@ class Defect:
         An error stops a run, a warning does not.
     repair: "orientation" or None
         "orientation" if `fair(..., repair_orientation=True)` repairs it.
+    repairable: bool
+        Whether `fair(..., repair="mend")` repairs it.
     """
 
     code: str
@@ -39,6 +41,7 @@ class Defect:
     kind: str
     severity: str
     repair: str | None
+    repairable: bool
 
 
 def check(

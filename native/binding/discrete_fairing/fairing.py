@@ -37,6 +37,8 @@ def fair(
     region: ArrayLike | None = None,
     joint: str = "tangent",
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
+    repair: str = "refuse",
+    weld: float | None = None,
     repair_orientation: bool = False,
     method: str = "multigrid",
     relative_residual: float = 1e-4,
@@ -118,6 +120,14 @@ def fair(
         Further positions of the same control vertices, such as shape keys. Each becomes a surface
         on the charts and stencils of `vertices` (result.shapes), so the surface is one linear map
         of the positions.
+    repair : "refuse" or "mend"
+        What happens to a mesh with defects. Mend: duplicate faces, doubled corners, sides without
+        length and faces without area go, and faces that look the wrong way turn over
+        (report["repairs"], result.mended). All ids, of creases, regions and the result, stay those
+        of the mesh as given.
+    weld : float, mesh units
+        With repair="mend": vertices no farther apart become one; 0: those at one point. None: no
+        welding.
     repair_orientation : bool
         Flip faces that are oriented against their neighbours (report["flipped_faces"]).
     method : "multigrid" or "back_leg"

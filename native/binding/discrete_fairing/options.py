@@ -124,6 +124,14 @@ def real(name: str, value: object) -> float:
     return number
 
 
+def distance(name: str, value: object) -> float:
+    """A finite number, 0 or more."""
+    number = real(name, value)
+    if number < 0:
+        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be 0 or more, or None.")
+    return number
+
+
 def switch(name: str, value: object) -> bool:
     """Anything with a truth value."""
     try:
@@ -153,6 +161,8 @@ SETTINGS = {
     "boundary": choice(_native.Boundary),
     "region": region_faces,
     "joint": choice(_native.RegionContinuity),
+    "repair": choice(_native.Repair),
+    "weld": distance,
     "repair_orientation": switch,
     "method": choice(_native.Method),
     "relative_residual": real,
@@ -165,4 +175,12 @@ SETTINGS = {
     "memory_limit": whole,
     "measure": switch,
 }
-OPTIONAL = ("weights", "crease_edges", "crease_angle", "corner_vertices", "corner_angle", "region")
+OPTIONAL = (
+    "weights",
+    "crease_edges",
+    "crease_angle",
+    "corner_vertices",
+    "corner_angle",
+    "region",
+    "weld",
+)

@@ -9,6 +9,31 @@ from typing import Any
 import numpy as np
 
 
+class Mended:
+    """The mesh that was faired in the place of one with defects: m faces with c corners.
+
+    Its vertices are the caller's, in their order; those that were merged belong to no face.
+
+    corners: (c,) int64, vertex ids, face after face.
+    offsets: (m + 1,) int64: face f has the corners offsets[f] ... offsets[f + 1] - 1.
+    vertex_origin: (n,) int32, the vertex that each was merged with; most often itself.
+    face_origin: (m,) int32, the input face that each face comes from, ascending.
+    corner_origin: (c, 2) int32 and corner_share: (c,) float64: each corner is 1 - share of its
+    first input corner and share of its second.
+    triangle_face, quad_face: (T,) and (Q,) int32, the face that each output face comes from.
+    """
+
+    def __init__(self, arrays: dict[str, Any], triangle_face: np.ndarray, quad_face: np.ndarray):
+        self.corners: np.ndarray = arrays["corners"]
+        self.offsets: np.ndarray = arrays["offsets"]
+        self.vertex_origin: np.ndarray = arrays["vertex_origin"]
+        self.face_origin: np.ndarray = arrays["face_origin"]
+        self.corner_origin: np.ndarray = arrays["corner_origin"]
+        self.corner_share: np.ndarray = arrays["corner_share"]
+        self.triangle_face = triangle_face
+        self.quad_face = quad_face
+
+
 class Result:
     """A refined surface.
 
@@ -18,6 +43,7 @@ class Result:
     from.
     crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
     shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
+    mended: Mended, the mesh that was faired, where it is not the one given; else None.
     report: what the run did; see docs/numpy-api.md for its keys.
     """
 
@@ -29,6 +55,10 @@ class Result:
         self.crease_edges: np.ndarray = arrays["crease_edges"]
         self.shapes: list[np.ndarray] = arrays["shapes"]
         self.report: dict[str, Any] = arrays["report"]
+        mended = arrays["mended"]
+        self.mended: Mended | None = (
+            Mended(mended, arrays["triangle_mended"], arrays["quad_mended"]) if mended else None
+        )
 
     @cached_property
     def triangles(self) -> np.ndarray:

@@ -27,13 +27,6 @@ Ids faces_where(const PolygonMesh& mesh, Predicate predicate) {
   return found;
 }
 
-bool repeats_a_vertex(std::span<const std::int64_t> face) {
-  if (face.size() == 3) return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
-  Ids sorted(face.begin(), face.end());
-  std::sort(sorted.begin(), sorted.end());
-  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-}
-
 bool cut_faces(std::span<const std::int64_t> offsets, std::size_t corners) {
   return !offsets.empty() && offsets.front() == 0 && offsets.back() == std::int64_t(corners) &&
          std::is_sorted(offsets.begin(), offsets.end());
@@ -80,13 +73,16 @@ bool check_corner_counts(const PolygonMesh& mesh, Defects& found) {
 
 bool check_finite(const PolygonMesh& mesh, Defects& found) {
   const Ids bad = non_finite_vertices(mesh.coordinates);
-  if (!bad.empty())
-    found.emplace_back(
-        ErrorCode::non_finite,
-        listing(vertex_s, bad, {"has", "have"}) +
-            " a coordinate that is NaN, infinite or beyond 1e100. Delete or move them.",
-        bad);
-  return bad.empty();
+  if (bad.empty()) return true;
+  found.emplace_back(
+      ErrorCode::non_finite,
+      listing(vertex_s, bad, {"has", "have"}) +
+          " a coordinate that is NaN, infinite or beyond 1e100. Delete or move them.",
+      bad);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  found.back().repairable =
+      std::none_of(bad.begin(), bad.end(), [&](std::int64_t v) { return used[std::size_t(v)]; });
+  return false;
 }
 
 bool check_range(const PolygonMesh& mesh, Defects& found) {
@@ -116,6 +112,20 @@ bool check_repetition(const PolygonMesh& mesh, Defects& found) {
 }
 
 }  // namespace
+
+bool repeats_a_vertex(std::span<const std::int64_t> face) {
+  if (face.size() == 3) return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+  Ids sorted(face.begin(), face.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
+  std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
+  for (std::int64_t v : mesh.corners)
+    if (v >= 0 && v < mesh.vertex_count()) used[std::size_t(v)] = 1;
+  return used;
+}
 
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
   Ids bad;

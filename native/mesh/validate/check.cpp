@@ -21,6 +21,18 @@ bool prevents_orientation(ErrorCode code) {
 
 }  // namespace
 
+bool Defect::mended(ErrorCode what, ElementKind of) {
+  switch (what) {
+    case ErrorCode::repeated_vertex:
+    case ErrorCode::duplicate_face:
+    case ErrorCode::degenerate_face:
+    case ErrorCode::coincident_vertices:
+    case ErrorCode::inconsistent_orientation: return true;
+    case ErrorCode::bad_shape: return of == ElementKind::face;  // too few corners
+    default: return false;
+  }
+}
+
 Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options) {
   Findings result;
   Defects& found = result.defects;
@@ -55,7 +67,7 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
   CheckResult result;
   for (const Defect& defect : findings.defects) {
     if (defect.severity == Severity::error) defect.raise();
-    if (!defect.repairable())  // told by flipped_faces
+    if (!Defect::turns_faces(defect.code))  // told by flipped_faces
       result.warnings.push_back({name(defect.code), defect.message, defect.elements, defect.kind});
   }
   result.flipped_faces = std::move(findings.flipped_faces);

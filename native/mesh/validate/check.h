@@ -23,6 +23,8 @@ struct Defect {
   std::vector<std::int64_t> elements{};
   Severity severity = Severity::error;
   ElementKind kind = ElementKind::mesh;
+  // mend() mends it (mesh/mend/mend.h).
+  bool repairable = false;
 
   Defect(ErrorCode what, std::string text, std::vector<std::int64_t> ids = {},
          Severity how = Severity::error)
@@ -30,12 +32,16 @@ struct Defect {
         message(std::move(text)),
         elements(std::move(ids)),
         severity(how),
-        kind(elements.empty() ? ElementKind::mesh : usual_kind(what)) {}
+        kind(elements.empty() ? ElementKind::mesh : usual_kind(what)),
+        repairable(how == Severity::error ? mended(what, kind) : turns_faces(what)) {}
 
-  // The core mends it on request: by CheckOptions::repair_orientation.
-  bool repairable() const { return code == ErrorCode::inconsistent_orientation; }
+  // CheckOptions::repair_orientation mends it.
+  static bool turns_faces(ErrorCode what) { return what == ErrorCode::inconsistent_orientation; }
 
   [[noreturn]] void raise() const { throw FairingError(code, message, elements, kind); }
+
+ private:
+  static bool mended(ErrorCode what, ElementKind of);
 };
 
 using Defects = std::vector<Defect>;
@@ -70,6 +76,9 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 // Throws bad_shape, or too_large, where the offsets do not cut the corners into faces. Neither ids
 // nor counts of corners are looked at.
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets);
+
+// The warning of vertices without a face.
+Defect isolated_vertices(std::vector<std::int64_t> ids);
 
 // Vertices with a coordinate that is NaN, infinite or beyond 1e100.
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> coordinates);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The single checks behind check(), for mesh/validate/ only. Each adds what it finds, with *all*
-// elements concerned. Linear time up to sorting. All may throw std::bad_alloc and, like everything
+// The single checks behind check(), for mesh/validate/ and mesh/mend/ only. Each adds what it finds,
+// with *all* elements concerned. Linear time up to sorting. All may throw std::bad_alloc and, like everything
 // that asks in passing, FairingError(cancelled).
 #pragma once
 
@@ -21,7 +21,20 @@ struct Readable {
 // Adds empty_mesh, no_faces, bad_shape, too_large, non_finite, index_out_of_range, repeated_vertex.
 Readable check_arrays(const PolygonMesh& mesh, Defects& found);
 
+bool repeats_a_vertex(std::span<const std::int64_t> face);
+
+// For every vertex 1 if a face names it. Ids out of range are passed over.
+std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh);
+
 // --- topology.cpp: whether the faces form oriented sheets, and where these meet ---
+
+// A face, and the first one with the same vertex set, in whatever order: itself, or an earlier one.
+struct SameVertices {
+  std::int32_t face, first;
+};
+
+// All faces that are not alone with their vertex set, ascending.
+std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh);
 
 // Adds duplicate_face (same vertex set, in whatever order) with all faces concerned.
 void check_duplicate_faces(const PolygonMesh& mesh, Defects& found);
@@ -49,11 +62,14 @@ void check_orientation(const Orientation& orientation, bool repair, Defects& fou
 
 // --- geometry.cpp: whether the faces have an extent, and which vertices share a point ---
 
+// Area below 1e-12 of the longest side squared.
+bool has_no_area(std::span<const double> coordinates, std::span<const std::int64_t> face);
+
 // Adds coincident_vertices: an error for vertices of one face that lie at one point; for all
 // vertices that share a point without such a face (seams) a warning.
 void check_coincident_vertices(const PolygonMesh& mesh, Defects& found);
 
-// Adds degenerate_face: area below 1e-12 of the longest side squared.
+// Adds degenerate_face: those that has_no_area.
 void check_areas(const PolygonMesh& mesh, Defects& found);
 
 // Adds isolated_vertices, a warning.

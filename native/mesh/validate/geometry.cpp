@@ -14,23 +14,6 @@ using Point = Eigen::Vector3d;
 
 constexpr double least_area = 1e-12;  // of the longest side squared
 
-bool has_no_area(const PolygonMesh& mesh, std::span<const std::int64_t> face) {
-  const auto point = [&](std::size_t i) {
-    return Point(Eigen::Map<const Point>(&mesh.coordinates[3 * std::size_t(face[i])]));
-  };
-  // Relative to one corner, or a small face far from the origin would drown in rounding.
-  const Point origin = point(0);
-  Point twice_area = Point::Zero(), last = point(face.size() - 1) - origin;
-  double longest = 0;
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    const Point here = point(i) - origin;
-    twice_area += last.cross(here);
-    longest = std::max(longest, (here - last).squaredNorm());
-    last = here;
-  }
-  return !(twice_area.norm() > 2 * least_area * longest);  // so written, NaN counts as none
-}
-
 std::uint64_t hash(const double* point) {
   std::uint64_t h = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -60,13 +43,24 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
   return first;
 }
 
-std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
-  std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
-  for (std::int64_t v : mesh.corners) used[std::size_t(v)] = 1;
-  return used;
-}
-
 }  // namespace
+
+bool has_no_area(std::span<const double> coordinates, std::span<const std::int64_t> face) {
+  const auto point = [&](std::size_t i) {
+    return Point(Eigen::Map<const Point>(&coordinates[3 * std::size_t(face[i])]));
+  };
+  // Relative to one corner, or a small face far from the origin would drown in rounding.
+  const Point origin = point(0);
+  Point twice_area = Point::Zero(), last = point(face.size() - 1) - origin;
+  double longest = 0;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Point here = point(i) - origin;
+    twice_area += last.cross(here);
+    longest = std::max(longest, (here - last).squaredNorm());
+    last = here;
+  }
+  return !(twice_area.norm() > 2 * least_area * longest);  // so written, NaN counts as none
+}
 
 void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   const std::vector<std::int32_t> first = first_at_same_point(mesh.coordinates);
@@ -129,7 +123,7 @@ void check_areas(const PolygonMesh& mesh, Defects& found) {
   Ids bad;
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
     stop_if_cancelled(std::size_t(f));
-    if (has_no_area(mesh, mesh.face(f))) bad.push_back(f);
+    if (has_no_area(mesh.coordinates, mesh.face(f))) bad.push_back(f);
   }
   if (bad.empty()) return;
   found.emplace_back(ErrorCode::degenerate_face,
@@ -137,16 +131,18 @@ void check_areas(const PolygonMesh& mesh, Defects& found) {
                      bad);
 }
 
+Defect isolated_vertices(std::vector<std::int64_t> ids) {
+  std::string text =
+      listing(vertex_s, ids, {"belongs", "belong"}) + " to no face: kept where they are.";
+  return {ErrorCode::isolated_vertices, std::move(text), std::move(ids), Severity::warning};
+}
+
 void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   Ids isolated;
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v]) isolated.push_back(std::int64_t(v));
-  if (isolated.empty()) return;
-  found.emplace_back(
-      ErrorCode::isolated_vertices,
-      listing(vertex_s, isolated, {"belongs", "belong"}) + " to no face: kept where they are.",
-      isolated, Severity::warning);
+  if (!isolated.empty()) found.push_back(isolated_vertices(std::move(isolated)));
 }
 
 }  // namespace fairing

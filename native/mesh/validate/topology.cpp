@@ -33,15 +33,17 @@ Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
 
 // Faces of equal hash are compared in earnest.
 void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_hash,
-                        Ids& duplicates) {
+                        std::vector<SameVertices>& found) {
   std::vector<std::pair<Ids, std::int32_t>> sets;
   for (const Print& print : same_hash)
     sets.emplace_back(sorted_vertices(mesh, print.face), print.face);
   std::sort(sets.begin(), sets.end());
+  std::int32_t first = 0;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const bool as_before = i > 0 && sets[i - 1].first == sets[i].first;
     const bool as_after = i + 1 < sets.size() && sets[i].first == sets[i + 1].first;
-    if (as_before || as_after) duplicates.push_back(sets[i].second);
+    if (!as_before) first = sets[i].second;
+    if (as_before || as_after) found.push_back({sets[i].second, first});
   }
 }
 
@@ -111,7 +113,7 @@ class Senses {
 
 }  // namespace
 
-void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
+std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
   // Faces are filed under their lowest vertex: buckets of two on average, as in HalfEdges.
   const auto faces = std::int32_t(mesh.face_count());
   const auto lowest = [&](std::int32_t f) {
@@ -134,7 +136,7 @@ void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
     prints[std::size_t(fill[lowest(f)]++)] = {hash, f};
   }
 
-  Ids duplicates;
+  std::vector<SameVertices> found;
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
     stop_if_cancelled(v);
     const auto begin = prints.begin() + start[v], end = prints.begin() + start[v + 1];
@@ -142,12 +144,19 @@ void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
     for (auto first = begin; first != end;) {
       const auto last =
           std::find_if(first, end, [&](const Print& p) { return p.hash != first->hash; });
-      if (last - first > 1) collect_equal_sets(mesh, {first, last}, duplicates);
+      if (last - first > 1) collect_equal_sets(mesh, {first, last}, found);
       first = last;
     }
   }
+  std::sort(found.begin(), found.end(),
+            [](const SameVertices& a, const SameVertices& b) { return a.face < b.face; });
+  return found;
+}
+
+void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
+  Ids duplicates;
+  for (const SameVertices& same : faces_with_same_vertices(mesh)) duplicates.push_back(same.face);
   if (duplicates.empty()) return;
-  std::sort(duplicates.begin(), duplicates.end());
   found.emplace_back(ErrorCode::duplicate_face,
                      listing(face_s, duplicates, {"has", "have"}) +
                          " the same vertices as another face. Delete all but one of each.",

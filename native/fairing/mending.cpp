@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/mending.h"
+
+#include <algorithm>
+
+#include "mesh/region.h"
+#include "mesh/validate/check.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+using Pair = std::array<std::int64_t, 2>;
+
+Pair ascending(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<Pair> edges_of(const PolygonMesh& mesh) {
+  std::vector<Pair> edges;
+  edges.reserve(mesh.corners.size());
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+      edges.push_back(ascending(face[i], face[(i + 1) % face.size()]));
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+void sort_once(Ids& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+// Creases of the input as creases of the mended mesh.
+class Creases {
+ public:
+  Creases(const PolygonMesh& input, const MendedMesh& mended)
+      : mended_(mended), before_(edges_of(input)), after_(edges_of(mended.mesh.view())) {}
+
+  // Adds the edges that it is now: its pieces, or none where its faces have gone. What never was an
+  // edge stays as it is, for the core to refuse.
+  void add(const Pair& crease, std::vector<Pair>& out) const {
+    const auto count = std::int64_t(mended_.vertex_origin.size());
+    const bool inside =
+        std::min(crease[0], crease[1]) >= 0 && std::max(crease[0], crease[1]) < count;
+    if (!inside || !has(before_, ascending(crease[0], crease[1])))
+      out.push_back(crease);
+    else
+      add_pieces(mended_.vertex_origin[std::size_t(crease[0])],
+                 mended_.vertex_origin[std::size_t(crease[1])], out);
+  }
+
+ private:
+  static bool has(const std::vector<Pair>& edges, const Pair& edge) {
+    return std::binary_search(edges.begin(), edges.end(), edge);
+  }
+
+  void add_pieces(std::int64_t a, std::int64_t b, std::vector<Pair>& out) const {
+    std::vector<Pair> waiting{ascending(a, b)};
+    // Every piece is shorter than the whole: this ends.
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      const Pair edge = waiting[i];
+      if (has(after_, edge)) {
+        out.push_back(edge);
+        continue;
+      }
+      const auto at = std::lower_bound(
+          mended_.cut_edges.begin(), mended_.cut_edges.end(), edge,
+          [](const CutEdge& cut, const Pair& wanted) { return Pair{cut.low, cut.high} < wanted; });
+      if (at == mended_.cut_edges.end() || Pair{at->low, at->high} != edge) continue;
+      std::int64_t from = at->low;
+      for (const Index v : at->between) {
+        waiting.push_back(ascending(from, v));
+        from = v;
+      }
+      waiting.push_back(ascending(from, at->high));
+    }
+  }
+
+  const MendedMesh& mended_;
+  std::vector<Pair> before_, after_;
+};
+
+MendedMesh mend_as_asked(const PolygonMesh& input, const FairOptions& options) {
+  if (options.repair != Repair::mend) return {};
+  check_options(input, options);
+  return mend(input, {options.weld});
+}
+
+}  // namespace
+
+Mending::Mending(const PolygonMesh& input, const FairOptions& options)
+    : mended_(mend_as_asked(input, options)), mesh_(input), options_(options) {
+  options_.repair_orientation |= options.repair == Repair::mend;
+  if (!mended_.changed()) return;
+  mesh_ = mended_.mesh.view();
+  map_options(input);
+}
+
+void Mending::map_options(const PolygonMesh& input) {
+  map_creases(input);
+  map_region(input);
+  map_vertex_values(input);
+  for (std::int64_t& v : options_.features.corner_vertices)
+    if (v >= 0 && v < input.vertex_count()) v = mended_.vertex_origin[std::size_t(v)];
+  const std::size_t size = input.coordinates.size();
+  for (std::size_t s = 0; s < options_.shape_count(size); ++s) {
+    const std::vector<double> shape = placed(options_.shapes.subspan(s * size, size));
+    shapes_.insert(shapes_.end(), shape.begin(), shape.end());
+  }
+  options_.shapes = shapes_;
+}
+
+void Mending::map_creases(const PolygonMesh& input) {
+  if (options_.features.crease_edges.empty()) return;
+  const Creases creases(input, mended_);
+  std::vector<Pair> now;
+  for (const Pair& crease : options_.features.crease_edges) creases.add(crease, now);
+  options_.features.crease_edges = std::move(now);
+}
+
+void Mending::map_region(const PolygonMesh& input) {
+  RegionOptions& region = options_.features.region;
+  if (!region.given) return;
+  require_faces(region, input.face_count());
+  std::vector<std::uint8_t> chosen(std::size_t(input.face_count()), 0);
+  for (const std::int64_t f : region.faces) chosen[std::size_t(f)] = 1;
+  region.faces.clear();
+  for (std::size_t f = 0; f < mended_.face_origin.size(); ++f)
+    if (chosen[std::size_t(mended_.face_origin[f])]) region.faces.push_back(std::int64_t(f));
+}
+
+// Of vertices that became one, the one that holds the most speaks for all.
+void Mending::map_vertex_values(const PolygonMesh& input) {
+  const Ids lost = non_finite_vertices(input.coordinates);
+  const auto gather = [&](std::vector<double>& values, auto stronger) {
+    if (values.size() != mended_.vertex_origin.size()) return;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (std::binary_search(lost.begin(), lost.end(), std::int64_t(v))) continue;
+      double& lead = values[std::size_t(mended_.vertex_origin[v])];
+      lead = stronger(lead, values[v]);
+    }
+  };
+  gather(options_.tolerance, [](double a, double b) { return std::min(a, b); });
+  gather(options_.weights, [](double a, double b) { return std::max(a, b); });
+}
+
+void Mending::restore_points(double* world) const {
+  for (std::size_t v = 0; v < mended_.vertex_origin.size(); ++v) {
+    const auto from = std::size_t(mended_.vertex_origin[v]);
+    if (from != v) std::copy_n(world + 3 * from, 3, world + 3 * v);
+  }
+}
+
+void Mending::restore(OutputFaces& faces) const {
+  if (!mended_.changed()) return;
+  const auto restore_polygons = [&](Array<std::int32_t>& polygons, Array<std::int32_t>& mended) {
+    mended = polygons;
+    for (std::int32_t& f : polygons) f = mended_.face_origin[std::size_t(f)];
+  };
+  restore_polygons(faces.triangle_polygon, faces.triangle_mended);
+  restore_polygons(faces.quad_polygon, faces.quad_mended);
+}
+
+void Mending::restore(Report& report) const {
+  report.flipped_faces = faces_of_input(report.flipped_faces);
+  restore(report.warnings);
+  for (std::size_t v = 0; v < std::min(mended_.vertex_origin.size(), report.pads.widths.size());
+       ++v)
+    report.pads.widths[v] = report.pads.widths[std::size_t(mended_.vertex_origin[v])];
+  report.repairs = mended_.acts;
+  if (options_.repair == Repair::mend && !report.flipped_faces.empty())
+    report.repairs.push_back(
+        {name(ErrorCode::inconsistent_orientation),
+         listing(face_s, report.flipped_faces,
+                 {"looked the other way than the neighbours and was turned over.",
+                  "looked the other way than the neighbours and were turned over."}),
+         report.flipped_faces, ElementKind::face});
+}
+
+// Vertices that were merged have no face, but are not left over.
+void Mending::restore(std::vector<Warning>& warnings) const {
+  if (!mended_.changed()) return;
+  for (Warning& warning : warnings) {
+    if (warning.kind == ElementKind::face) {
+      warning.elements = faces_of_input(warning.elements);
+      warning.message = relisted(warning.message, face_s, warning.elements);
+    } else if (warning.code == name(ErrorCode::isolated_vertices)) {
+      std::erase_if(warning.elements, [&](std::int64_t v) {
+        return mended_.vertex_origin[std::size_t(v)] != Index(v);
+      });
+      warning.message = isolated_vertices(warning.elements).message;
+    }
+  }
+  std::erase_if(warnings, [](const Warning& warning) {
+    return warning.elements.empty() && warning.kind != ElementKind::mesh;
+  });
+}
+
+Ids Mending::faces_of_input(std::span<const std::int64_t> faces) const {
+  Ids ids(faces.begin(), faces.end());
+  if (!mended_.changed()) return ids;
+  for (std::int64_t& f : ids) f = mended_.face_origin[std::size_t(f)];
+  sort_once(ids);
+  return ids;
+}
+
+FairingError Mending::restored(const FairingError& error) const {
+  if (!mended_.changed() || error.kind != ElementKind::face) return error;
+  Ids ids = faces_of_input(error.elements);
+  const std::string message = relisted(error.what(), face_s, ids);
+  return {error.code, message, std::move(ids), error.kind};
+}
+
+}  // namespace fairing

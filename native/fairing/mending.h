@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run on a mended mesh, for a caller who knows of the input only: ids go through the mending on
+// their way in, and back on their way out.
+#pragma once
+
+#include <vector>
+
+#include "fairing/options.h"
+#include "fairing/output.h"
+#include "fairing/report.h"
+#include "mesh/mend/mend.h"
+
+namespace fairing {
+
+class Mending {
+ public:
+  // Mends where `options` ask for it. The arrays of `input` and the spans of `options` must outlive
+  // this. May throw FairingError and bad_alloc.
+  Mending(const PolygonMesh& input, const FairOptions& options);
+  Mending(const Mending&) = delete;
+  Mending& operator=(const Mending&) = delete;
+
+  // What is to be faired, and how. The same as given where nothing had to be mended.
+  const PolygonMesh& mesh() const { return mesh_; }
+  const FairOptions& options() const { return options_; }
+  // Where nothing had to be mended, null.
+  const MendedMesh* mended() const { return mended_.changed() ? &mended_ : nullptr; }
+
+  // Other positions of the input's vertices, as positions of mesh().
+  std::vector<double> placed(std::span<const double> coordinates) const {
+    return mended_.placed(coordinates);
+  }
+
+  // From here back to the input: points of a surface, of vertices that were merged; the polygons of
+  // faces, and what a report says of faces and vertices.
+  void restore_points(double* world) const;
+  void restore(OutputFaces& faces) const;
+  void restore(Report& report) const;
+
+  // call(), its errors about faces in the input's ids.
+  template <class Call>
+  auto in_input_ids(Call&& call) const {
+    try {
+      return call();
+    } catch (const FairingError& error) {
+      throw restored(error);
+    }
+  }
+
+ private:
+  FairingError restored(const FairingError& error) const;
+  std::vector<std::int64_t> faces_of_input(std::span<const std::int64_t> faces) const;
+  void restore(std::vector<Warning>& warnings) const;
+  void map_options(const PolygonMesh& input);
+  void map_creases(const PolygonMesh& input);
+  void map_region(const PolygonMesh& input);
+  void map_vertex_values(const PolygonMesh& input);
+
+  MendedMesh mended_;
+  PolygonMesh mesh_;
+  FairOptions options_;
+  std::vector<double> shapes_;
+};
+
+}  // namespace fairing

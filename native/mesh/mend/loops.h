@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faces on their way through mend(): corners that know where they come from. For mesh/mend/ only.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/mend/mend.h"
+
+namespace fairing {
+
+struct MendCorner {
+  Index vertex;
+  CornerOrigin origin;
+};
+
+using Loop = std::vector<MendCorner>;
+
+// Faces, one after another, each with the input face that it comes from.
+struct Loops {
+  std::vector<MendCorner> corners;
+  std::vector<Index> offsets{0};
+  std::vector<Index> origin;
+
+  Index count() const { return Index(origin.size()); }
+  std::span<const MendCorner> face(Index f) const {
+    return {corners.data() + offsets[std::size_t(f)], corners.data() + offsets[std::size_t(f) + 1]};
+  }
+  void add(std::span<const MendCorner> loop, Index from) {
+    corners.insert(corners.end(), loop.begin(), loop.end());
+    offsets.push_back(Index(corners.size()));
+    origin.push_back(from);
+  }
+};
+
+// The loops of three corners and more that a closed walk consists of, none with a vertex twice:
+// repeated corners and spikes go, and where the walk comes by a vertex again it is cut.
+std::vector<Loop> simple_loops(std::span<const MendCorner> walk);
+
+// The faces' arrays as check() reads them.
+OwnedPolygonMesh to_arrays(const Loops& loops, std::vector<double> coordinates);
+
+}  // namespace fairing

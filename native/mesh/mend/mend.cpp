@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/mend/mend.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mesh/mend/dissolve.h"
+#include "mesh/mend/loops.h"
+#include "mesh/mend/merge.h"
+#include "mesh/validate/checks.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+// Throws the first defect that stands in the way of mending.
+void require_mendable(const PolygonMesh& mesh) {
+  Defects found;
+  check_arrays(mesh, found);
+  for (const Defect& defect : found)
+    if (!defect.repairable && defect.code != ErrorCode::non_finite) defect.raise();
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  Ids bad = non_finite_vertices(mesh.coordinates);
+  std::erase_if(bad, [&](std::int64_t v) { return !used[std::size_t(v)]; });
+  if (!bad.empty())
+    throw FairingError(ErrorCode::non_finite,
+                       listing(vertex_s, bad, {"has", "have"}) +
+                           " a coordinate that is NaN, infinite or beyond 1e100, and faces: no "
+                           "program could tell where the surface is. Delete or move them.",
+                       bad);
+}
+
+class Mender {
+ public:
+  Mender(const PolygonMesh& mesh, const MendOptions& options)
+      : mesh_(mesh), options_(options), merges_(std::size_t(mesh.vertex_count())) {}
+
+  MendedMesh run() {
+    if (options_.weld >= 0) weld(mesh_, options_.weld, merges_);
+    merge_within_faces(mesh_, merges_);
+    if (nothing_wrong()) return {};
+    take_faces();
+    drop_duplicates();
+    Dissolved dissolved = dissolve_flat_faces(mesh_.coordinates, loops_);
+    if (!dissolved.faces.empty()) drop_duplicates();
+    flat_.insert(flat_.end(), dissolved.faces.begin(), dissolved.faces.end());
+    if (loops_.count() == 0) refuse_nothing_left();
+    place_vertices();
+    tell();
+    fill_arrays();
+    out_.cut_edges = std::move(dissolved.cut_edges);
+    return std::move(out_);
+  }
+
+ private:
+  bool nothing_wrong() const {
+    if (merges_.any()) return false;
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      const auto face = mesh_.face(f);
+      if (face.size() < 3 || repeats_a_vertex(face) || has_no_area(mesh_.coordinates, face))
+        return false;
+    }
+    return faces_with_same_vertices(mesh_).empty() &&
+           non_finite_vertices(mesh_.coordinates).empty();
+  }
+
+  void take_faces() {
+    std::vector<MendCorner> walk;
+    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      const auto face = mesh_.face(f);
+      walk.clear();
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        const auto k = Index(mesh_.offsets[std::size_t(f)]) + Index(i);
+        walk.push_back({merges_.lead(Index(face[i])), {k, k}});
+      }
+      const std::vector<Loop> loops = simple_loops(walk);
+      for (const Loop& loop : loops) loops_.add(loop, Index(f));
+      if (face.size() < 3)
+        few_.push_back(f);
+      else if (repeats_a_vertex(face))
+        repeated_.push_back(f);
+      else if (loops.empty())
+        flat_.push_back(f);
+    }
+  }
+
+  void drop_duplicates() {
+    const OwnedPolygonMesh now = to_arrays(loops_, {});
+    const PolygonMesh faces{mesh_.coordinates, now.corners, now.offsets};
+    const std::vector<SameVertices> same = faces_with_same_vertices(faces);
+    if (same.empty()) return;
+    Loops kept;
+    auto next = same.begin();
+    for (Index f = 0; f < loops_.count(); ++f) {
+      stop_if_cancelled(std::size_t(f));
+      const bool listed = next != same.end() && next->face == f;
+      if (listed && next->first != f)
+        duplicates_.push_back(loops_.origin[std::size_t(f)]);
+      else
+        kept.add(loops_.face(f), loops_.origin[std::size_t(f)]);
+      if (listed) ++next;
+    }
+    loops_ = std::move(kept);
+  }
+
+  [[noreturn]] void refuse_nothing_left() const {
+    throw FairingError(ErrorCode::no_faces,
+                       "No face has an area: the mesh is nothing but points and lines.");
+  }
+
+  // Vertices that have no position of their own any more go where a used one is.
+  void place_vertices() {
+    out_.vertex_origin.resize(std::size_t(mesh_.vertex_count()));
+    for (std::size_t v = 0; v < out_.vertex_origin.size(); ++v) {
+      out_.vertex_origin[v] = merges_.lead(Index(v));
+      if (out_.vertex_origin[v] != Index(v)) merged_.push_back(std::int64_t(v));
+    }
+    lost_ = non_finite_vertices(mesh_.coordinates);
+    for (const std::int64_t v : lost_)
+      out_.vertex_origin[std::size_t(v)] = loops_.corners[0].vertex;
+  }
+
+  void fill_arrays() {
+    out_.mesh = to_arrays(loops_, out_.placed(mesh_.coordinates));
+    out_.face_origin = std::move(loops_.origin);
+    out_.corner_origin.reserve(loops_.corners.size());
+    for (const MendCorner& corner : loops_.corners) out_.corner_origin.push_back(corner.origin);
+  }
+
+  void add_act(ErrorCode code, Words noun, ElementKind kind, Ids ids, Words done) {
+    if (ids.empty()) return;
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::string text = listing(noun, ids, done);
+    out_.acts.push_back({name(code), std::move(text), std::move(ids), kind});
+  }
+
+  void tell() {
+    const auto faces = [&](ErrorCode code, const Ids& ids, Words done) {
+      add_act(code, face_s, ElementKind::face, ids, done);
+    };
+    faces(ErrorCode::bad_shape, few_,
+          {"had fewer than three corners and was dropped.",
+           "had fewer than three corners and were dropped."});
+    add_act(ErrorCode::non_finite, vertex_s, ElementKind::vertex, lost_,
+            {"had no finite position and no face, and was moved to a vertex that has both.",
+             "had no finite position and no face, and were moved to a vertex that has both."});
+    faces(ErrorCode::repeated_vertex, repeated_,
+          {"named a vertex twice: the doubled corner was dropped.",
+           "named a vertex twice: the doubled corners were dropped."});
+    add_act(ErrorCode::coincident_vertices, vertex_s, ElementKind::vertex, merged_,
+            {"was merged with the vertex at the same place.",
+             "were merged with vertices at the same place."});
+    faces(ErrorCode::duplicate_face, duplicates_,
+          {"had the same vertices as an earlier one and was dropped.",
+           "had the same vertices as earlier ones and were dropped."});
+    faces(ErrorCode::degenerate_face, flat_,
+          {"had no area and was dissolved.", "had no area and were dissolved."});
+  }
+
+  const PolygonMesh& mesh_;
+  const MendOptions& options_;
+  Merges merges_;
+  Loops loops_;
+  Ids few_, repeated_, flat_, duplicates_, merged_, lost_;
+  MendedMesh out_;
+};
+
+}  // namespace
+
+std::vector<double> MendedMesh::placed(std::span<const double> coordinates) const {
+  std::vector<double> out(coordinates.begin(), coordinates.end());
+  for (std::size_t v = 0; v < vertex_origin.size(); ++v) {
+    const auto from = std::size_t(vertex_origin[v]);
+    if (from != v) std::copy_n(coordinates.data() + 3 * from, 3, out.data() + 3 * v);
+  }
+  return out;
+}
+
+MendedMesh mend(const PolygonMesh& mesh, const MendOptions& options) {
+  require_mendable(mesh);
+  return Mender(mesh, options).run();
+}
+
+}  // namespace fairing

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A source with defects: what is mended, said and shown, and that all it carries comes along."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from cli_files import box
+from cli_runs import entries, imported, run
+from live_scenes import follow, live, move
+from scenes import CUBE, activate, add, fair, positions, snapshot
+
+from addon.errors import repairs_text
+from addon.memory import recall
+from addon.operators.presets import NOT_KEPT
+from addon.settings import NAMES
+
+BAD = Path(__file__).resolve().parents[3] / "shared" / "data" / "bad"
+FILES = [
+    p
+    for kind in ("degenerate", "orientation", "soup_seams")
+    for p in sorted((BAD / kind).glob("*.*"))
+]
+
+# two triangles over the edge 0-1, one below it in two parts with the vertex 4 between, and the
+# triangle without area that fills the gap
+VERTICES = [(0, 0, 0), (4, 0, 0), (2, 3, 1), (2, -3, 1), (1, 0, 0)]
+FACES = [(0, 1, 2), (0, 4, 1), (4, 0, 3), (1, 4, 3), (1, 2, 0)]
+SAID = "1 duplicate face dropped, 1 face without area dissolved; Check Mesh shows them."
+
+
+def add_defective():
+    """With UVs that are the positions, a colour a face, and an attribute of each corner's number."""
+    source = add("Bad", VERTICES, FACES)
+    mesh = source.data
+    corners = np.array([v for face in FACES for v in face])
+    uv = mesh.uv_layers.new(name="Map")
+    uv.data.foreach_set("uv", np.array(VERTICES, np.float32)[corners, :2].ravel())
+    number = mesh.attributes.new("number", "INT", "FACE")
+    number.data.foreach_set("value", np.arange(len(FACES), dtype=np.int32) + 10)
+    corner = mesh.attributes.new("corner", "INT", "CORNER")
+    corner.data.foreach_set("value", np.arange(len(corners), dtype=np.int32))
+    return source
+
+
+def corner_values(mesh, name, field="value", width=1, dtype=np.int32):
+    found = np.empty(width * len(mesh.loops), dtype)
+    mesh.attributes[name].data.foreach_get(field, found)
+    return found.reshape(-1, width)
+
+
+def corner_vertices(mesh):
+    found = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", found)
+    return found
+
+
+def test_mending_is_the_default_and_leaves_the_source_alone(capfd):
+    source = add_defective()
+    before = snapshot(source)
+    result = fair(levels=2)
+    assert snapshot(source) == before
+    assert SAID in capfd.readouterr().out
+    assert result.discrete_fairing.repair == "MEND"
+    acts = recall(result, "report")["repairs"]
+    assert [(a["code"], a["elements"]) for a in acts] == [
+        ("DUPLICATE_FACE", [4]),
+        ("DEGENERATE_FACE", [1]),
+    ]
+    assert np.array_equal(positions(result.data)[:5], np.array(VERTICES, np.float32))
+
+
+def test_uvs_and_attributes_follow():
+    add_defective()
+    mesh = fair(levels=1).data
+    vertices = corner_vertices(mesh)
+    own = vertices < len(VERTICES)
+    uv = corner_values(mesh, "Map", "vector", 2, np.float32)
+    assert np.allclose(uv[own], np.array(VERTICES)[vertices[own], :2], rtol=0, atol=1e-6)
+    assert 4 in vertices[own]
+    number = np.empty(len(mesh.polygons), np.int32)
+    mesh.attributes["number"].data.foreach_get("value", number)
+    assert set(number.tolist()) == {10, 12, 13}
+    # each refined corner has the number of a corner of its own face
+    face = np.repeat(number - 10, [len(p.vertices) for p in mesh.polygons])
+    corner = corner_values(mesh, "corner").ravel()
+    assert np.array_equal(corner // 3, face)
+
+
+def test_refuse_says_why():
+    source = add_defective()
+    with pytest.raises(RuntimeError, match="same vertices as another face"):
+        bpy.ops.object.fair_surface(levels=1, repair="REFUSE")
+    assert list(bpy.data.objects) == [source]
+
+
+def test_shape_keys_follow():
+    source = add_defective()
+    source.shape_key_add(name="Basis")
+    key = source.shape_key_add(name="Up")
+    for point in key.data:
+        point.co.z += 1.0
+    keys = fair(levels=1).data.shape_keys.key_blocks
+    moved = [b.co.z - a.co.z for a, b in zip(keys["Basis"].data, keys["Up"].data)]
+    assert np.allclose(moved, 1.0, atol=1e-5)
+
+
+def test_recompute_mends_what_is_there_now():
+    source = add_defective()
+    result = fair(levels=1)
+    faces = len(result.data.polygons)
+    source.data.clear_geometry()
+    source.data.from_pydata(VERTICES, [], FACES[:4])
+    activate(result)
+    bpy.ops.object.fairing_recompute()
+    assert [a["code"] for a in recall(result, "report")["repairs"]] == ["DEGENERATE_FACE"]
+    assert len(result.data.polygons) == faces
+    result.discrete_fairing.repair = "REFUSE"
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.fairing_recompute()
+    assert len(result.data.polygons) == faces
+
+
+def test_a_live_surface_of_a_source_with_defects():
+    source = add_defective()
+    result = fair(levels=2)
+    result.discrete_fairing_live.levels = 1
+    live(result)
+    move(source, index=2)
+    follow()
+    assert np.array_equal(positions(result.data)[:5], positions(source.data))
+    uv = corner_values(result.data, "Map", "vector", 2, np.float32)
+    assert np.isfinite(uv).all() and uv.any()
+
+
+def test_turned_faces_are_told():
+    faces = [CUBE[1][0][::-1], *CUBE[1][1:]]
+    add("Box", CUBE[0], faces)
+    acts = recall(fair(levels=1), "report")["repairs"]
+    assert [(a["code"], a["elements"]) for a in acts] == [("INCONSISTENT_ORIENTATION", [0])]
+
+
+def test_symmetry_is_kept_where_a_vertex_was_merged():
+    points = [*CUBE[0], CUBE[0][0]]
+    faces = [[8 if v == 0 else v for v in CUBE[1][0]], *CUBE[1][1:], (0, 8, 1), (8, 0, 2)]
+    add("Box", points, faces)
+    found = positions(fair(levels=2, keep_symmetry=True).data)
+    image = found * np.array([-1, 1, 1], np.float32)
+    assert set(map(tuple, found + 0.0)) == set(map(tuple, image + 0.0))
+
+
+def test_presets_keep_it():
+    assert "repair" in NAMES and "repair" not in NOT_KEPT and "repair_orientation" not in NAMES
+    settings = bpy.context.scene.discrete_fairing
+    settings.repair_orientation = True  # as presets of development builds do
+    assert settings.repair == "MEND"
+
+
+@pytest.mark.parametrize(
+    "acts, text",
+    [
+        ([], ""),
+        (
+            [("DUPLICATE_FACE", 3), ("INCONSISTENT_ORIENTATION", 12)],
+            "3 duplicate faces dropped, 12 faces turned; Check Mesh shows them.",
+        ),
+        ([("COINCIDENT_VERTICES", 1200)], "1,200 vertices merged; Check Mesh shows them."),
+    ],
+)
+def test_how_it_is_said(acts, text):
+    assert repairs_text([{"code": c, "elements": list(range(n))} for c, n in acts]) == text
+
+
+def write_apart(path, gap=0.0):
+    """A box as an OBJ whose faces have vertices of their own, moved apart by up to `gap`."""
+    points = box()[np.ravel(CUBE[1])] + gap * np.random.default_rng(2).uniform(-1, 1, (24, 3))
+    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in points]
+    lines += [f"f {4 * f + 1} {4 * f + 2} {4 * f + 3} {4 * f + 4}" for f in range(6)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def test_the_command_line_welds(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    write_apart(tmp_path / "in.obj", gap=1e-4)
+    code, (record,) = entries("in.obj", "out.obj", "--levels", 1, "--weld", 0.001)
+    assert code == 0
+    (act,) = record["objects"][0]["report"]["repairs"]
+    assert act["code"] == "COINCIDENT_VERTICES" and len(act["elements"]) == 16
+    assert "in.obj: mended: 16 vertices merged" in capfd.readouterr().err
+    assert len(imported("out.obj")[0]) == 26, "the surface is closed now"
+    assert run("in.obj", "loose.obj", "--levels", 1) == 0
+    assert len(imported("loose.obj")[0]) == 6 * 9
+
+
+def test_the_command_line_refuses_on_request(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    lines = [f"v {x} {y} {z}" for x, y, z in box()]
+    lines += ["f " + " ".join(str(v + 1) for v in face) for face in CUBE[1]]
+    lines += ["f 1 5 2"]
+    flipped = CUBE[1][0][::-1]
+    lines[8] = "f " + " ".join(str(v + 1) for v in flipped)
+    (tmp_path / "in.obj").write_text("\n".join(lines[:14]) + "\n")
+    assert run("in.obj", "out.obj", "--levels", 1, "--repair", "refuse") == 1
+    assert run("in.obj", "out.obj", "--levels", 1, "--repair", "mend") == 0
+    assert "mended: 1 face turned" in capfd.readouterr().err
+    assert run("in.obj", "out.obj", "--repair", "refuse", "--weld", 0) == 2
+    assert run("in.obj", "out.obj", "--weld", -1) == 2
+
+
+@pytest.mark.skipif(not FILES, reason="no shared meshes")
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_files_with_defects(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, (record,) = entries(path, "out.ply", "--levels", 1, "--weld", 0)
+    if code:  # what mending leaves to others: sheets that meet, and one-sided ones
+        left = {"NONMANIFOLD_EDGE", "NONMANIFOLD_VERTEX", "NON_ORIENTABLE"}
+        assert record["error"]["code"] in left
+        return
+    assert np.isfinite(imported("out.ply")[0]).all()

@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""repair="mend", act by act, on meshes made by hand: what is done, what is said, and which input
+faces and corners the result goes back to."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+import tight
+from surfaces import as_lists, half_edges
+
+POINTS, FACES = meshes.icosahedron()
+
+
+def mend(vertices, faces, levels=1, **options):
+    """The result, and (code, elements) of all that was done."""
+    result = tight.fair(vertices, faces, levels, repair="mend", **options)
+    return result, [(r["code"], list(r["elements"])) for r in result.report["repairs"]]
+
+
+def mended_faces(result):
+    """The faces that were faired, as lists."""
+    m = result.mended
+    return [m.corners[a:b].tolist() for a, b in zip(m.offsets[:-1], m.offsets[1:])]
+
+
+def assert_same_surface(result, other):
+    assert result.vertices.tobytes() == other.vertices.tobytes()
+    assert all(np.array_equal(a, b) for a, b in zip(result.faces, other.faces))
+
+
+def open_edges(faces):
+    """Sides without a side that runs against them."""
+    sides = half_edges(faces)
+    return sorted(set(sides) - {(b, a) for a, b in sides})
+
+
+@pytest.mark.parametrize("name", meshes.ALL)
+def test_a_clean_mesh_is_faired_as_ever(name):
+    vertices, faces = meshes.ALL[name]()
+    result, acts = mend(vertices, faces)
+    assert acts == [] and result.mended is None
+    assert_same_surface(result, tight.fair(vertices, faces, 1))
+
+
+def test_refuse_is_the_default():
+    faces = np.concatenate([FACES, FACES[4:5]])
+    for options in ({}, {"repair": "refuse"}):
+        with pytest.raises(df.FairingError) as caught:
+            df.fair(POINTS, faces, 1, **options)
+        assert caught.value.code == "DUPLICATE_FACE"
+
+
+def test_duplicate_faces_are_dropped_and_the_first_is_kept():
+    faces = [*as_lists(FACES[:7]), as_lists(FACES)[3][::-1], *as_lists(FACES[7:])]
+    faces.append(faces[3][1:] + faces[3][:1])
+    result, acts = mend(POINTS, faces)
+    assert acts == [("DUPLICATE_FACE", [7, 21])]
+    assert_same_surface(result, tight.fair(POINTS, FACES, 1))
+    ids = [f for f in range(22) if f not in (7, 21)]
+    assert result.mended.face_origin.tolist() == ids
+    assert result.triangle_polygon.tolist() == np.repeat(ids, 4).tolist()
+    (act,) = result.report["repairs"]
+    assert act["kind"] == "face" and act["message"].startswith("2 faces (7, 21) had the same")
+
+
+def test_a_doubled_corner_goes():
+    faces = as_lists(FACES)
+    a, b, c = faces[6]
+    faces[6] = [a, b, b, c, a]
+    faces += [[3, 3, 5], [2, 2, 2]]
+    result, acts = mend(POINTS, faces)
+    assert acts == [("REPEATED_VERTEX", [6, 20, 21])]
+    assert_same_surface(result, tight.fair(POINTS, FACES, 1))
+    assert result.mended.corner_origin[18:21, 0].tolist() == [18, 19, 21]
+    assert not result.mended.corner_share.any()
+
+
+def test_a_face_that_comes_by_a_vertex_again_is_cut_there():
+    points = [[0, 0, 0.5], [1, 1, 0], [1, -1, 0], [-1, -1, 0], [-1, 1, 0]]
+    faces = [[1, 0, 4, 3, 0, 2], [0, 1, 4], [0, 3, 2]]
+    result, acts = mend(np.array(points), faces)
+    assert acts == [("REPEATED_VERTEX", [0])]
+    assert mended_faces(result) == [[0, 4, 3], [1, 0, 2], [0, 1, 4], [0, 3, 2]]
+    assert result.mended.face_origin.tolist() == [0, 0, 1, 2]
+    assert result.mended.corner_origin[:6, 0].tolist() == [1, 2, 3, 0, 1, 5]
+    assert len(open_edges(mended_faces(result))) == 4
+
+
+def test_faces_with_fewer_than_three_corners_go():
+    faces = [[0, 1], *as_lists(FACES), [4], []]
+    result, acts = mend(POINTS, faces)
+    assert acts == [("BAD_SHAPE", [0, 21, 22])]
+    assert_same_surface(result, tight.fair(POINTS, FACES, 1))
+    assert result.triangle_polygon.min() == 1
+
+
+def test_a_side_without_length_is_merged_and_both_rows_go_together():
+    """Vertex 12 lies on vertex 3 and stands between it and its neighbours in two faces."""
+    points = np.concatenate([POINTS, POINTS[3:4]])
+    faces = as_lists(FACES)
+    with_3 = [f for f, face in enumerate(faces) if 3 in face]
+    sides = {tuple(sorted(set(faces[f]) - {3})) for f in with_3}
+    assert len(sides) == 5
+    moved = with_3[0]
+    faces[moved] = [12 if v == 3 else v for v in faces[moved]]
+    a, b = (v for v in faces[moved] if v != 12)
+    faces += [[3, 12, a], [3, b, 12]]  # no area: they close the slit
+    result, acts = mend(points, faces, 2)
+    assert acts == [("COINCIDENT_VERTICES", [12]), ("DEGENERATE_FACE", [20, 21])]
+    plain = tight.fair(points, FACES, 2)
+    assert_same_surface(result, plain)
+    assert result.mended.vertex_origin.tolist() == [*range(12), 3]
+    assert result.report["warnings"] == [], "vertex 12 is not left over"
+
+
+def test_a_merged_vertex_follows_the_one_it_was_merged_with():
+    points = np.concatenate([POINTS, POINTS[3:4]])
+    faces = [*as_lists(FACES), [3, 12, 7]]
+    result, _ = mend(points, faces, 2, interpolation="approximate", tolerance=0.05)
+    assert not np.array_equal(result.vertices[3], POINTS[3])
+    assert np.array_equal(result.vertices[12], result.vertices[3])
+
+
+def cap_mesh():
+    """Two big triangles over the edge 0-1 of a tent; below the edge two small ones whose common
+    vertex 4 lies on it, and the triangle 0, 4, 1 without area that joins them to what is above."""
+    points = np.array([[0.0, 0, 0], [4, 0, 0], [2, 3, 1], [2, -3, 1], [1, 0, 0]])
+    return points, [[0, 1, 2], [0, 4, 1], [4, 0, 3], [1, 4, 3]]
+
+
+def test_a_cap_goes_and_its_vertex_comes_into_the_neighbour():
+    points, faces = cap_mesh()
+    result, acts = mend(points, faces, 0)
+    assert acts == [("DEGENERATE_FACE", [1])]
+    assert mended_faces(result) == [[0, 4, 1, 2], [4, 0, 3], [1, 4, 3]]
+    assert result.mended.face_origin.tolist() == [0, 2, 3]
+    assert open_edges(mended_faces(result)) == sorted([(1, 2), (2, 0), (0, 3), (3, 1)])
+    # the new corner is a quarter of the way along side 0-1 of face 0
+    assert result.mended.corner_origin[:4].tolist() == [[0, 0], [0, 1], [1, 1], [2, 2]]
+    assert result.mended.corner_share[:4].tolist() == [0, 0.25, 0, 0]
+    assert set(result.triangle_polygon.tolist()) == {0, 2, 3}
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])
+@pytest.mark.parametrize("turn", range(3))
+def test_the_order_of_faces_and_corners_changes_nothing(order, turn):
+    points, faces = cap_mesh()
+    faces = [faces[f][turn:] + faces[f][:turn] for f in order]
+    result, acts = mend(points, faces, 0)
+    assert acts == [("DEGENERATE_FACE", [order.index(1)])]
+
+    def turned(face):
+        at = face.index(min(face))
+        return face[at:] + face[:at]
+
+    found = sorted(map(turned, mended_faces(result)))
+    assert found == [[0, 3, 4], [0, 4, 1, 2], [1, 4, 3]]
+
+
+def test_caps_on_both_sides_of_an_edge_and_a_fan_of_them():
+    """All points of one side of a square in the wrong order: a fan of faces without area."""
+    points = [[0, 0, 0], [5, 0, 0], [5, 5, 1], [0, 5, 0], *([x, 0, 0] for x in (1, 2, 3, 4))]
+    faces = [[0, 1, 2, 3], [0, 4, 5], [0, 5, 6], [0, 6, 7], [0, 7, 1]]
+    below = [[0, -2, 0], [5, -2, 0]]
+    points += below
+    faces += [[4, 0, 8], [5, 4, 8], [6, 5, 8], [7, 6, 8], [1, 7, 8], [1, 8, 9]]
+    result, acts = mend(np.array(points, float), faces, 0)
+    assert acts == [("DEGENERATE_FACE", [1, 2, 3, 4])]
+    assert mended_faces(result)[0] == [0, 4, 5, 6, 7, 1, 2, 3]
+    shares = result.mended.corner_share[1:5]
+    assert np.allclose(shares, [0.2, 0.4, 0.6, 0.8], rtol=0, atol=1e-15)
+    assert result.mended.corner_origin[1:5].tolist() == [[0, 1]] * 4
+    assert len(open_edges(mended_faces(result))) == 6
+
+
+def test_a_needle_loses_its_short_side():
+    points, faces = cap_mesh()
+    points[4] = [1e-12, 0, 0]
+    result, acts = mend(points, faces, 0)
+    assert acts == [("COINCIDENT_VERTICES", [4]), ("DEGENERATE_FACE", [1, 2])]
+    assert mended_faces(result) == [[0, 1, 2], [1, 0, 3]]
+
+
+def test_a_cap_on_a_boundary_just_goes():
+    points, faces = cap_mesh()
+    result, acts = mend(points, faces[1:], 0)
+    assert acts == [("DEGENERATE_FACE", [0])]
+    assert mended_faces(result) == [[4, 0, 3], [1, 4, 3]]
+
+
+def test_a_quad_that_crosses_itself_without_area_is_cut():
+    points = np.array([[0.0, 0, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0]])
+    result, acts = mend(points, [[0, 1, 2, 3]], 0)
+    assert acts == [("DEGENERATE_FACE", [0])]
+    assert [len(f) for f in mended_faces(result)] == [3, 3]
+
+
+def test_faces_look_the_same_way_afterwards():
+    faces = FACES.copy()
+    faces[[3, 11]] = faces[[3, 11], ::-1]
+    faces = np.concatenate([faces[:1], faces])
+    result, acts = mend(POINTS, faces)
+    assert acts == [("DUPLICATE_FACE", [1]), ("INCONSISTENT_ORIENTATION", [4, 12])]
+    assert list(result.report["flipped_faces"]) == [4, 12]
+    assert result.vertices.tobytes() == tight.fair(POINTS, FACES, 1).vertices.tobytes()
+
+
+def cut_apart():
+    """The icosahedron with corners of its own for every face, as in an STL file."""
+    return POINTS[FACES.reshape(-1)], np.arange(60).reshape(-1, 3)
+
+
+def test_coincident_vertices_are_welded_on_request_only():
+    points, faces = cut_apart()
+    loose, acts = mend(points, faces)
+    assert acts == [] and loose.mended is None
+    result, acts = mend(points, faces, weld=0)
+    ((code, merged),) = acts
+    first = {}
+    lead = [first.setdefault(v, k) for k, v in enumerate(FACES.reshape(-1).tolist())]
+    assert code == "COINCIDENT_VERTICES" and merged == [k for k in range(60) if lead[k] != k]
+    assert result.mended.vertex_origin.tolist() == lead
+    assert open_edges(mended_faces(result)) == []
+    ids = np.array(sorted(first.values()))
+    welded = tight.fair(
+        POINTS[FACES.reshape(-1)[ids]], np.searchsorted(ids, np.array(lead).reshape(-1, 3)), 1
+    )
+    assert np.allclose(result.vertices[ids], welded.vertices[:12], rtol=0, atol=1e-12)
+    assert np.allclose(result.vertices[60:], welded.vertices[12:], rtol=0, atol=1e-12)
+
+
+def test_welding_within_a_distance():
+    points, faces = cut_apart()
+    moved = points + np.random.default_rng(1).uniform(-1e-4, 1e-4, points.shape)
+    assert open_edges(mended_faces(mend(moved, faces, weld=1e-3)[0])) == []
+    assert mend(moved, faces, weld=1e-9)[1] == []
+    # no vertex moves farther than that, however close they stand
+    line = np.array([[k * 0.4, y, 0] for k in range(20) for y in (0.0, 5.0)])
+    strip = [[2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1] for k in range(19)]
+    result, _ = mend(line, strip, 0, weld=0.5)
+    origin = result.mended.vertex_origin
+    assert np.linalg.norm(line - line[origin], axis=1).max() <= 0.5
+    assert len(np.unique(origin)) == 20
+
+
+def test_weld_goes_with_mend():
+    for options in ({"weld": 0}, {"weld": -1, "repair": "mend"}, {"weld": "far", "repair": "mend"}):
+        with pytest.raises(df.FairingError) as caught:
+            df.fair(POINTS, FACES, 1, **options)
+        assert caught.value.code == "BAD_OPTION" and "weld" in str(caught.value)
+
+
+def test_what_no_program_can_mend_is_refused_in_the_input_s_ids():
+    lost = POINTS.copy()
+    lost[5] = np.nan
+    with_unused = np.concatenate([[[np.inf, 0, 0]], lost])
+    for vertices, faces, code, elements in [
+        ([], [], "EMPTY_MESH", []),
+        (POINTS, [], "NO_FACES", []),
+        (with_unused, FACES + 1, "NON_FINITE", [6]),
+        (POINTS, [[0, 1, 12]], "INDEX_OUT_OF_RANGE", [0]),
+        (POINTS[[0, 0, 1]], [[0, 1, 2], [2, 2, 1]], "NO_FACES", []),
+    ]:
+        with pytest.raises(df.FairingError) as caught:
+            df.fair(vertices, faces, 1, repair="mend")
+        assert (caught.value.code, list(caught.value.elements)) == (code, elements)
+
+
+def test_a_one_sided_surface_is_named_by_the_faces_of_the_input():
+    strip, quads = meshes.moebius()
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(strip, [quads[0], *quads], 1, repair="mend")
+    ids = [0, *range(2, 8)]
+    assert (caught.value.code, caught.value.elements) == ("NON_ORIENTABLE", ids)
+    assert str(caught.value).startswith("7 faces (0, 2, 3, 4, 5, …) belong to a surface")
+
+
+def test_a_vertex_without_position_and_face_does_no_harm():
+    points = np.concatenate([POINTS, [[np.nan, 0, 0], [0, np.inf, 0]]])
+    result, acts = mend(points, FACES, shapes=[points * 2])
+    assert acts == [("NON_FINITE", [12, 13])]
+    assert np.isfinite(result.vertices).all() and np.isfinite(result.shapes[0]).all()
+    assert np.array_equal(result.vertices[:12], POINTS)
+    assert result.report["warnings"] == []
