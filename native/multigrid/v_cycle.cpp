@@ -30,6 +30,28 @@ struct CoarseSolver::Factor {
   }
 };
 
+namespace {
+
+// Of the diagonal, well above rounding. A valence-three vertex alone cannot see some coarse waves: a
+// trace keeps the factor definite, and the preconditioner as good. What large rings leave over need
+// not be definite at all: more of it balances the error of a solve with its rounding, and both are
+// gone after a refinement.
+constexpr double trace = 1e-12, trace_in_large_ring = 1e-9;
+
+void strengthen_diagonal(AssembledSystem& system) {
+  SparseMatrix& k = system.matrix;
+  const auto unknowns = Eigen::Index(system.unknown_points.size());
+  Eigen::VectorXd share = Eigen::VectorXd::Constant(unknowns, trace), diagonal = k.diagonal();
+  for (Eigen::Index c = unknowns; c < k.cols(); ++c)
+    for (SparseMatrix::InnerIterator entry(k, c); entry && entry.row() < unknowns; ++entry) {
+      share(entry.row()) = trace_in_large_ring;
+      diagonal(entry.row()) += entry.value() * entry.value();
+    }
+  for (Eigen::Index i = 0; i < unknowns; ++i) k.coeffRef(i, i) += share(i) * diagonal(i);
+}
+
+}  // namespace
+
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
                            bool always_direct)
     : op_(op), workers_(workers) {
@@ -41,15 +63,12 @@ CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unkn
 void CoarseSolver::refactor() {
   MemoryLedger::remove(std::exchange(factor_bytes_, 0));
   AssembledSystem system = op_.assemble();
+  strengthen_diagonal(system);
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return;
-  // A valence-three vertex alone cannot see some coarse waves; a trace of the diagonal, well above
-  // rounding, keeps the factor definite, and the preconditioner as good.
-  const Eigen::VectorXd diagonal = system.matrix.diagonal();
-  for (Eigen::Index i = 0; i < system.matrix.rows(); ++i)
-    system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
   factor_->compute(system.matrix);
-  if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0))
+  if (factor_->ldlt.info() != Eigen::Success ||
+      (factor_->ldlt.vectorD().array() > 0).count() != system.matrix.rows() - system.negative)
     throw FairingError(ErrorCode::underdetermined,
                        "The surface is not determined: a part of the mesh has too few fixed "
                        "points. Interpolate more "
@@ -66,7 +85,7 @@ void CoarseSolver::solve(const double* b, double* x) const {
   const auto& points = factor_->points;
   if (points.empty()) return;
   const std::size_t components = op_.components();
-  Eigen::MatrixXd right(Eigen::Index(points.size()), Eigen::Index(components));
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(factor_->ldlt.rows(), Eigen::Index(components));
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
