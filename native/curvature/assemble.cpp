@@ -64,15 +64,6 @@ void border(SparseMatrix& k, Index unknowns, Index rows, const SparseMatrix& u,
   k += whole;
 }
 
-// The squares of the auxiliary rows on K's diagonal.
-Eigen::VectorXd whole_diagonal(const SparseMatrix& k, Index unknowns) {
-  Eigen::VectorXd diagonal = k.diagonal();
-  for (Eigen::Index c = unknowns; c < k.cols(); ++c)
-    for (SparseMatrix::InnerIterator entry(k, c); entry && entry.row() < unknowns; ++entry)
-      diagonal(entry.row()) += entry.value() * entry.value();
-  return diagonal;
-}
-
 }  // namespace
 
 AssembledSystem CurvatureLevel::assemble() const {
@@ -154,7 +145,7 @@ AssembledSystem CurvatureLevel::assemble() const {
     area.setFromTriplets(entries.begin(), entries.end());
     system.matrix += area;
   }
-  const Eigen::VectorXd diagonal = whole_diagonal(system.matrix, unknowns);
+  const Eigen::VectorXd diagonal = system.diagonal();
   for (Eigen::Index i = 0; i < unknowns; ++i) {
     const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
     double extra = diagonal(i) > 0 ? 0.0 : 1.0;

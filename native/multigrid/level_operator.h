@@ -36,6 +36,16 @@ struct AssembledSystem {
   SparseMatrix matrix;                // both triangles stored; without auxiliary unknowns it is K
   std::vector<Index> unknown_points;  // row -> point of the grid; auxiliary rows have none
   Index negative = 0;                 // auxiliary unknowns with -1 on the diagonal
+
+  // Of K, or somewhat more: the squares of w are added.
+  Eigen::VectorXd diagonal() const {
+    const auto unknowns = Eigen::Index(unknown_points.size());
+    Eigen::VectorXd out = matrix.diagonal().head(unknowns);
+    for (Eigen::Index c = unknowns; c < matrix.cols(); ++c)
+      for (SparseMatrix::InnerIterator entry(matrix, c); entry && entry.row() < unknowns; ++entry)
+        out(entry.row()) += entry.value() * entry.value();
+    return out;
+  }
 };
 
 // One step of a smoother for K x = b with the residual r = b - K x, and d the last change of x:

@@ -32,22 +32,16 @@ struct CoarseSolver::Factor {
 
 namespace {
 
-// Of the diagonal, well above rounding. A valence-three vertex alone cannot see some coarse waves: a
-// trace keeps the factor definite, and the preconditioner as good. What large rings leave over need
-// not be definite at all: more of it balances the error of a solve with its rounding, and both are
-// gone after a refinement.
-constexpr double trace = 1e-12, trace_in_large_ring = 1e-9;
+// Of the diagonal. A valence-three vertex alone cannot see some coarse waves; a trace of the
+// diagonal, well above rounding, keeps the factor definite, and the preconditioner as good. The same
+// serves what is left beside large rings. (More of it there spoils the steps: thin faces make K
+// ill-conditioned.)
+constexpr double trace = 1e-12;
 
 void strengthen_diagonal(AssembledSystem& system) {
-  SparseMatrix& k = system.matrix;
-  const auto unknowns = Eigen::Index(system.unknown_points.size());
-  Eigen::VectorXd share = Eigen::VectorXd::Constant(unknowns, trace), diagonal = k.diagonal();
-  for (Eigen::Index c = unknowns; c < k.cols(); ++c)
-    for (SparseMatrix::InnerIterator entry(k, c); entry && entry.row() < unknowns; ++entry) {
-      share(entry.row()) = trace_in_large_ring;
-      diagonal(entry.row()) += entry.value() * entry.value();
-    }
-  for (Eigen::Index i = 0; i < unknowns; ++i) k.coeffRef(i, i) += share(i) * diagonal(i);
+  const Eigen::VectorXd diagonal = system.diagonal();
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+    system.matrix.coeffRef(i, i) += trace * diagonal(i);
 }
 
 }  // namespace
