@@ -67,8 +67,8 @@ void CoarseSolver::refactor() {
                        "The surface is not determined: a part of the mesh has too few fixed "
                        "points. Interpolate more "
                        "control vertices, or give them weights.");
-  factor_bytes_ = std::size_t(factor_->ldlt.matrixL().nestedExpression().nonZeros()) *
-                  (sizeof(double) + sizeof(int));
+  factor_numbers_ = std::size_t(factor_->ldlt.matrixL().nestedExpression().nonZeros());
+  factor_bytes_ = factor_numbers_ * (sizeof(double) + sizeof(int));
   MemoryLedger::add(factor_bytes_);
 }
 
