@@ -28,6 +28,10 @@ constexpr int refinement_steps = 3;
 // On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
 constexpr double settled_margin = 1.03;
 
+// Of a level larger than direct_limit_of_hard that is factored nevertheless: half of what one of that
+// size takes on an even mesh.
+constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
+
 // The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
 // what a factor costs, and above hopeless_degree a factor is cheaper whatever it costs (without
 // that, minimum variation of Suzanne went on for minutes).
@@ -84,7 +88,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
   }
   estimate_eigenvalues(index);
   const bool adapt = adapts(out.direct);
-  const bool may_factor = adapt && unknowns_[index] <= direct_limit_of_hard;
+  const bool may_factor =
+      adapt && (unknowns_[index] <= direct_limit_of_hard || factors_cheaply(index));
   const auto too_hard = [&] {
     return may_factor &&
            cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
@@ -112,6 +117,15 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
   out.largest_eigenvalue = cycle_.levels[index].largest_eigenvalue;
   out.converged = result.converged;
   return out;
+}
+
+// A narrow level, as a disc of thin faces about one vertex, has a factor of few numbers however large
+// it is; the factor of the level below tells.
+bool Hierarchy::factors_cheaply(std::size_t index) const {
+  if (index != cycle_.base + 1 || !coarse_->direct()) return false;
+  const double growth =
+      double(unknowns_[index]) / double(std::max<std::size_t>(unknowns_[index - 1], 1));
+  return growth * double(coarse_->factor_numbers()) <= double(most_factor_numbers);
 }
 
 void Hierarchy::solve_direct(const CoarseSolver& solver, const PcgLimits& limits,

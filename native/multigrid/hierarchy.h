@@ -76,6 +76,7 @@ class Hierarchy {
                     double* x, LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
   void promote_to_coarsest(std::size_t index);
+  bool factors_cheaply(std::size_t index) const;
   void raise_degree(const PcgResult& result, double tolerance);
 
   Workers& workers_;

@@ -23,9 +23,29 @@ constexpr int most_of_single = 32;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // A level's operator as a matrix, for a direct solve.
+//
+// A ring of n points couples all of them: n^2 numbers. Where it has more than this, its rows u are
+// kept as they are, each with an auxiliary unknown z = u . x behind the others:
+//
+//   K = A + u u^T - w w^T   is the Schur complement of   A  u  w
+//                                                        u -1  0
+//                                                        w  0  1
+constexpr std::size_t most_coupled = 64;
+
 struct AssembledSystem {
-  SparseMatrix matrix;                // unknowns by unknowns, both triangles stored
-  std::vector<Index> unknown_points;  // row -> point of the grid
+  SparseMatrix matrix;                // both triangles stored; without auxiliary unknowns it is K
+  std::vector<Index> unknown_points;  // row -> point of the grid; auxiliary rows have none
+  Index negative = 0;                 // auxiliary unknowns with -1 on the diagonal
+
+  // Of K, or somewhat more: the squares of w are added.
+  Eigen::VectorXd diagonal() const {
+    const auto unknowns = Eigen::Index(unknown_points.size());
+    Eigen::VectorXd out = matrix.diagonal().head(unknowns);
+    for (Eigen::Index c = unknowns; c < matrix.cols(); ++c)
+      for (SparseMatrix::InnerIterator entry(matrix, c); entry && entry.row() < unknowns; ++entry)
+        out(entry.row()) += entry.value() * entry.value();
+    return out;
+  }
 };
 
 // One step of a smoother for K x = b with the residual r = b - K x, and d the last change of x:

@@ -33,6 +33,22 @@ struct CoarseSolver::Factor {
   }
 };
 
+namespace {
+
+// Of the diagonal. A valence-three vertex alone cannot see some coarse waves; a trace of the
+// diagonal, well above rounding, keeps the factor definite, and the preconditioner as good. The same
+// serves what is left beside large rings. (More of it there spoils the steps: thin faces make K
+// ill-conditioned.)
+constexpr double trace = 1e-12;
+
+void strengthen_diagonal(AssembledSystem& system) {
+  const Eigen::VectorXd diagonal = system.diagonal();
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+    system.matrix.coeffRef(i, i) += trace * diagonal(i);
+}
+
+}  // namespace
+
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
                            bool always_direct)
     : op_(op), workers_(workers) {
@@ -44,21 +60,18 @@ CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unkn
 void CoarseSolver::refactor() {
   MemoryLedger::remove(std::exchange(factor_bytes_, 0));
   AssembledSystem system = op_.assemble();
+  strengthen_diagonal(system);
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return;
-  // A valence-three vertex alone cannot see some coarse waves; a trace of the diagonal, well above
-  // rounding, keeps the factor definite, and the preconditioner as good.
-  const Eigen::VectorXd diagonal = system.matrix.diagonal();
-  for (Eigen::Index i = 0; i < system.matrix.rows(); ++i)
-    system.matrix.coeffRef(i, i) += 1e-12 * diagonal(i);
   factor_->compute(system.matrix);
-  if (factor_->ldlt->info() != Eigen::Success || !(factor_->ldlt->vectorD().minCoeff() > 0))
+  if (factor_->ldlt->info() != Eigen::Success ||
+      (factor_->ldlt->vectorD().array() > 0).count() != system.matrix.rows() - system.negative)
     throw FairingError(ErrorCode::underdetermined,
                        "The surface is not determined: a part of the mesh has too few fixed "
                        "points. Interpolate more "
                        "control vertices, or give them weights.");
-  factor_bytes_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros()) *
-                  (sizeof(double) + sizeof(int));
+  factor_numbers_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros());
+  factor_bytes_ = factor_numbers_ * (sizeof(double) + sizeof(int));
   MemoryLedger::add(factor_bytes_);
 }
 
@@ -69,7 +82,7 @@ void CoarseSolver::solve(const double* b, double* x) const {
   const auto& points = factor_->points;
   if (points.empty()) return;
   const std::size_t components = op_.components();
-  Eigen::MatrixXd right(Eigen::Index(points.size()), Eigen::Index(components));
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(factor_->ldlt->rows(), Eigen::Index(components));
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];

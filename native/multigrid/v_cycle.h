@@ -27,6 +27,7 @@ class CoarseSolver {
 
   std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
+  std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: none
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
   void solve(double largest_eigenvalue, int degree, SmootherState& state);
@@ -38,7 +39,7 @@ class CoarseSolver {
   LevelOperator& op_;
   Workers& workers_;
   std::unique_ptr<Factor> factor_;
-  std::size_t factor_bytes_ = 0;
+  std::size_t factor_numbers_ = 0, factor_bytes_ = 0;
 };
 
 // Largest levels, in unknowns, that are factored: the coarsest; any other, once smoothing has

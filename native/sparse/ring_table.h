@@ -3,6 +3,8 @@
 // from. 4 bytes a neighbour and 16 a point, so for levels of few points only (has_rows()).
 #pragma once
 
+#include <span>
+
 #include "parallel/memory.h"
 #include "parallel/workers.h"
 #include "sparse/unknown_points.h"
@@ -47,6 +49,26 @@ class RingTable {
   Array<Member> coded_;  // one a point
   Array<Ring> ring_;     // one a point
   Array<Member> member_;
+};
+
+// The rings that hold each unknown, in the order of their centres. 8 bytes a neighbour and 8 a
+// point.
+class RingPlaces {
+ public:
+  struct Place {
+    Index centre;
+    std::uint32_t slot;  // of the unknown among the ring's members
+  };
+  // Throws where the run has been cancelled.
+  explicit RingPlaces(const RingTable& rings);
+
+  std::span<const Place> of(Index p) const {
+    return {place_.data() + begin_[std::size_t(p)], place_.data() + begin_[std::size_t(p) + 1]};
+  }
+
+ private:
+  Array<std::size_t> begin_;
+  Array<Place> place_;
 };
 
 }  // namespace fairing

@@ -123,7 +123,7 @@ FitRows fit(const Chart& chart) {
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
                     std::span<const double> weight) {
   Round round;
-  if (!make(ring, weight, round)) return staged_hessian(ring, difference);
+  if (!make(ring, weight, round)) return StagedHessian(ring)(difference);
   Round::Term sum;
   for (std::size_t j = 0; j < ring.size(); ++j)
     add(round, ring[j], weight.empty() ? difference[j] : weight[j] * difference[j], sum);
@@ -142,12 +142,8 @@ void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
     }
     return;
   }
-  std::vector<double> unit(ring.size(), 0.0);
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    unit[j] = 1;
-    rows[j] = staged_hessian(ring, unit);
-    unit[j] = 0;
-  }
+  const StagedHessian staged(ring);
+  for (std::size_t j = 0; j < ring.size(); ++j) rows[j] = staged.of_neighbour(j);
 }
 
 }  // namespace fairing

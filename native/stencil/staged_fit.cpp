@@ -56,32 +56,46 @@ FitRows staged_fit(const Columns& a, int leading) {
   return rows;
 }
 
-Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> f) {
-  double radius = 0;
-  for (const Vec2& p : ring) radius += p.norm() / double(ring.size());
-  if (!(radius > 0)) return Vec3::Zero();
+StagedHessian::StagedHessian(std::span<const Vec2> ring) : ring_(ring) {
+  for (const Vec2& p : ring) radius_ += p.norm() / double(ring.size());
+  if (!(radius_ > 0)) return;
   Eigen::Matrix<double, 5, 5> gram = Eigen::Matrix<double, 5, 5>::Zero();
-  Coefficients moment = Coefficients::Zero();
   for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Coefficients b = basis(ring[j] / radius);
+    const Coefficients b = basis_at(j);
     gram += b * b.transpose();
-    moment += f[j] * b;
   }
-  const Eigen::Matrix3d first = gram_pseudo_inverse<3>(gram.topLeftCorner<3, 3>());
-  const Eigen::Matrix<double, 3, 2> mixed = first * gram.topRightCorner<3, 2>();
-  Eigen::Matrix2d left = gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed;
+  first_ = gram_pseudo_inverse<3>(gram.topLeftCorner<3, 3>());
+  mixed_ = first_ * gram.topRightCorner<3, 2>();
+  left_ = gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed_;
   const double whole = gram.bottomRightCorner<2, 2>().trace();
   for (int k = 0; k < 2; ++k)
-    if (left(k, k) < undetermined_square * whole) {
-      left.row(k).setZero();
-      left.col(k).setZero();
+    if (left_(k, k) < undetermined_square * whole) {
+      left_.row(k).setZero();
+      left_.col(k).setZero();
     }
-  Eigen::Vector2d rest = moment.tail<2>() - mixed.transpose() * moment.head<3>();
+  left_inverse_ = gram_pseudo_inverse<2>(left_);
+}
+
+Coefficients StagedHessian::basis_at(std::size_t j) const { return basis(ring_[j] / radius_); }
+
+Vec3 StagedHessian::operator()(std::span<const double> difference) const {
+  if (!(radius_ > 0)) return Vec3::Zero();
+  Coefficients moment = Coefficients::Zero();
+  for (std::size_t j = 0; j < ring_.size(); ++j) moment += difference[j] * basis_at(j);
+  return solve(moment);
+}
+
+Vec3 StagedHessian::of_neighbour(std::size_t j) const {
+  return radius_ > 0 ? solve(basis_at(j)) : Vec3(Vec3::Zero());
+}
+
+Vec3 StagedHessian::solve(const Coefficients& moment) const {
+  Eigen::Vector2d rest = moment.tail<2>() - mixed_.transpose() * moment.head<3>();
   for (int k = 0; k < 2; ++k)
-    if (left(k, k) == 0) rest(k) = 0;
-  const Eigen::Vector2d free = gram_pseudo_inverse<2>(left) * rest;
-  const Vec3 leading = first * moment.head<3>() - mixed * free;
-  return Vec3(leading(2), free(0), free(1)) / (radius * radius);
+    if (left_(k, k) == 0) rest(k) = 0;
+  const Eigen::Vector2d free = left_inverse_ * rest;
+  const Vec3 leading = first_ * moment.head<3>() - mixed_ * free;
+  return Vec3(leading(2), free(0), free(1)) / (radius_ * radius_);
 }
 
 }  // namespace fairing

@@ -11,8 +11,26 @@ namespace fairing {
 // norm.
 FitRows staged_fit(const Eigen::MatrixXd& basis, int leading);
 
-// The last three coefficients of the same fit with three leading columns, from differences over a
-// closed ring, by normal equations. Zero for a ring without any extent.
-Vec3 staged_hessian(std::span<const Vec2> ring, std::span<const double> difference);
+// The last three coefficients of the same fit with three leading columns, over a closed ring, by
+// normal equations.
+class StagedHessian {
+ public:
+  explicit StagedHessian(std::span<const Vec2> ring);
+
+  // Of differences, one a neighbour. Zero for a ring without any extent.
+  Vec3 operator()(std::span<const double> difference) const;
+  // Of a one at this neighbour and zeros at all others.
+  Vec3 of_neighbour(std::size_t j) const;
+
+ private:
+  Coefficients basis_at(std::size_t j) const;
+  Vec3 solve(const Coefficients& moment) const;
+
+  std::span<const Vec2> ring_;
+  double radius_ = 0;
+  Eigen::Matrix3d first_;
+  Eigen::Matrix<double, 3, 2> mixed_;
+  Eigen::Matrix2d left_, left_inverse_;
+};
 
 }  // namespace fairing

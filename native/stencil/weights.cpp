@@ -64,4 +64,15 @@ double RegionWeight::face_point(Index f, int i, int j) const {
   return off_joint(std::max(steps, 1.0));  // only points inside the face count
 }
 
+Array<double> point_weights(const GridLevel& grid) {
+  if (grid.mesh().region.whole()) return {};
+  const RegionWeight joint(grid);
+  Array<double> weight(grid.size(), 1.0);
+  for_each_run(grid, [&](const Run& run) {
+    if (!joint.weighs(run)) return;
+    for (std::size_t i = 0; i < run.count; ++i) weight[run.first + i] = joint.point(run, i);
+  });
+  return weight;
+}
+
 }  // namespace fairing

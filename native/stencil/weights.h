@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/runs.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
@@ -62,5 +63,8 @@ class RegionWeight {
   const ControlMesh& mesh_;
   int n_;
 };
+
+// One factor a point; empty: all are one.
+Array<double> point_weights(const GridLevel& grid);
 
 }  // namespace fairing

@@ -3,28 +3,99 @@
 
 #include <cmath>
 
-#include "thin_plate/matrix.h"
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+#include "sparse/unknown_points.h"
+#include "thin_plate/differences.h"
 
 namespace fairing {
 namespace {
 
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Coordinates = Eigen::Vector3d;
 
-// One sweep on K e = r, e updated in place.
-void gauss_seidel(const RowMatrix& k, const Columns& r, Columns& e) {
-  for (Eigen::Index i = 0; i < k.rows(); ++i) {
-    Eigen::RowVector3d rest = r.row(i);
-    double diagonal = 1;
-    for (RowMatrix::InnerIterator entry(k, i); entry; ++entry) {
-      if (entry.col() == i)
-        diagonal = entry.value();
-      else
-        rest -= entry.value() * e.row(entry.col());
-    }
-    e.row(i) = rest / diagonal;
+// Gauss-Seidel sweeps on K e = r without K: a step at one point changes the differences of the rings
+// that hold it, and what they pull at the next point is read from these.
+class Sweeps {
+ public:
+  Sweeps(const GridLevel& grid, const ThinPlateShared& shared, const Array<double>& residual)
+      : plate_(grid, shared.stencils, shared.unknowns, shared.workers),
+        residual_(residual),
+        e_(residual.size()),
+        moment_(3 * residual.size()) {
+    fill_long(e_.data(), e_.size(), 0.0);
+    fill_long(moment_.data(), moment_.size(), 0.0);
   }
-}
+
+  void sweep() {
+    for (std::size_t p = 0; p < plate_.rings().points(); ++p) {
+      stop_if_cancelled(p);
+      if (!plate_.rings().is_unknown(Index(p))) continue;
+      double diagonal = 0;
+      const Coordinates rest = residual_at(Index(p), &diagonal);
+      if (diagonal > 0) move(Index(p), rest / diagonal);
+    }
+  }
+
+  double norm() const {
+    double sum = 0;
+    for (std::size_t p = 0; p < plate_.rings().points(); ++p) {
+      stop_if_cancelled(p);
+      if (plate_.rings().is_unknown(Index(p))) sum += residual_at(Index(p)).squaredNorm();
+    }
+    return std::sqrt(sum);
+  }
+
+  const Array<double>& correction() const { return e_; }
+
+ private:
+  using Column = PlateDifferences::Column;
+
+  Eigen::Map<const Coordinates> e(Index p) const {
+    return Eigen::Map<const Coordinates>(e_.data() + 3 * std::size_t(p));
+  }
+
+  // Of r - K e at an unknown; `diagonal`, if wanted: K's.
+  Coordinates residual_at(Index p, double* diagonal = nullptr) const {
+    Coordinates rest = Eigen::Map<const Coordinates>(residual_.data() + 3 * std::size_t(p));
+    double own = 0;
+    for (const RingPlaces::Place& place : plate_.places().of(p)) {
+      const EnergyRows rows = plate_.rows(place.centre);
+      if (rows.size() == 0) continue;
+      const Column column = plate_.column(place.centre, rows, place.slot);
+      const double* moment = moment_.data() + 9 * std::size_t(place.centre);
+      for (std::size_t c = 0; c < 3; ++c) {
+        rest -= column[c] * Eigen::Map<const Coordinates>(moment + 3 * c);
+        own += column[c] * column[c];
+      }
+    }
+    const MembraneWeights membrane = plate_.membrane(p);
+    if (membrane.size() > 0) {
+      const RingTable::Member* const members = plate_.rings().members(plate_.rings().about(p));
+      rest -= membrane.total() * e(p);
+      for (std::size_t k = 0; k < membrane.size(); ++k)
+        rest += membrane[k] * e(RingTable::id_of(members[k + 1]));
+      own += membrane.total();
+    }
+    if (diagonal) *diagonal = own;
+    return rest;
+  }
+
+  void move(Index p, const Coordinates& by) {
+    Eigen::Map<Coordinates>(e_.data() + 3 * std::size_t(p)) += by;
+    for (const RingPlaces::Place& place : plate_.places().of(p)) {
+      const EnergyRows rows = plate_.rows(place.centre);
+      if (rows.size() == 0) continue;
+      const Column column = plate_.column(place.centre, rows, place.slot);
+      double* const moment = moment_.data() + 9 * std::size_t(place.centre);
+      for (std::size_t c = 0; c < 3; ++c) Eigen::Map<Coordinates>(moment + 3 * c) += column[c] * by;
+    }
+  }
+
+  const PlateDifferences plate_;
+  const Array<double>& residual_;
+  Array<double> e_;       // 3 a point, zero where it is no unknown
+  Array<double> moment_;  // of the ring about a point: 3 differences of e, by 3 coordinates
+};
 
 }  // namespace
 
@@ -35,32 +106,26 @@ void solve_back_leg(ThinPlateSolver& system, std::span<const Vec3> targets, int 
     system.start_level(level, targets, system.surface_below(level, x), x);
     if (level == system.top() && on_prediction) on_prediction(x.data());
     const ThinPlateShared& shared = system.shared();
-    const AssembledSystem assembled = assemble_thin_plate(
-        system.grid(level), shared.stencils, shared.unknowns, shared.weights, shared.workers);
-    const RowMatrix k = assembled.matrix;
-    const std::vector<Index>& points = assembled.unknown_points;
     Array<double> residual(3 * system.grid(level).size());
     system.residual(level, targets, x.data(), residual.data());
-    Columns r(Eigen::Index(points.size()), 3), e = Columns::Zero(Eigen::Index(points.size()), 3);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t a = 0; a < 3; ++a)
-        r(Eigen::Index(i), Eigen::Index(a)) = residual[3 * std::size_t(points[i]) + a];
+    Sweeps gauss_seidel(system.grid(level), shared, residual);
     const double reference = system.reference_residual(level, targets);
     LevelReport report;
     report.level = level;
     report.points = system.grid(level).size();
-    report.unknowns = points.size();
+    report.unknowns = count_unknowns(system.grid(level), shared.unknowns);
     report.iterations = sweeps;
-    const auto relative = [&](double norm) { return reference > 0 ? norm / reference : 0.0; };
-    report.residuals.push_back(relative(r.norm()));
+    const auto note_residual = [&] {
+      report.residuals.push_back(reference > 0 ? gauss_seidel.norm() / reference : 0.0);
+    };
+    note_residual();
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       system.monitor().check_cancelled();
-      gauss_seidel(k, r, e);
-      report.residuals.push_back(relative((r - k * e).norm()));
+      gauss_seidel.sweep();
+      note_residual();
     }
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t a = 0; a < 3; ++a)
-        x[3 * std::size_t(points[i]) + a] += e(Eigen::Index(i), Eigen::Index(a));
+    for_each_index(shared.workers, residual.size(),
+                   [&](std::size_t i) { x[i] += gauss_seidel.correction()[i]; });
     report.residual = report.residuals.back();
     report.converged = true;  // it does what it promises: so many sweeps
     reports.push_back(report);

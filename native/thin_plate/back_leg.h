@@ -7,7 +7,7 @@ namespace fairing {
 
 // The paper's own method [Kobbelt 1997a, §5], for comparison: topological refinement and
 // Gauss-Seidel smoothing in turn, from the coarsest level up, `sweeps` a level, never down again.
-// Works on the assembled matrix, on one thread.
+// On one thread, and without a matrix.
 void solve_back_leg(ThinPlateSolver& system, std::span<const Vec3> targets, int sweeps,
                     Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction);

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/matrix.h"
 
-#include <cmath>
-
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
 using Column = EnergyRows::Column;
-
-// The factor of the energy at each point; empty: all are one.
-Array<double> point_weights(const GridLevel& grid) {
-  if (grid.mesh().region.whole()) return {};
-  const RegionWeight joint(grid);
-  Array<double> weight(grid.size(), 1.0);
-  for_each_run(grid, [&](const Run& run) {
-    if (!joint.weighs(run)) return;
-    for (std::size_t i = 0; i < run.count; ++i) weight[run.first + i] = joint.point(run, i);
-  });
-  return weight;
-}
 
 // Calls visit(member, number) for the membrane's row of a point, on the unknowns of its ring.
 template <class Visit>
@@ -127,56 +113,6 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 }
 
 }  // namespace
-
-AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
-                                    const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers) {
-  const RingTable rings(grid, unknowns, workers);
-  const Array<double> weight = point_weights(grid);
-  const std::vector<Index> number = number_unknowns(grid, unknowns);
-  AssembledSystem system;
-  for (std::size_t p = 0; p < number.size(); ++p)
-    if (number[p] >= 0) system.unknown_points.push_back(Index(p));
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<Column> column;  // the centre's first
-  for (std::size_t p = 0; p < rings.points(); ++p) {
-    stop_if_cancelled(p);
-    const RingTable::Ring& ring = rings.about(Index(p));
-    if (rings.is_unknown(Index(p)))
-      visit_membrane_row({grid.mesh(), stencils, ring.element}, rings.members(ring),
-                         [&](RingTable::Member m, double w) {
-                           entries.emplace_back(number[p], number[std::size_t(m)], w);
-                         });
-    const EnergyRows rows(grid.mesh(), stencils, ring.element);
-    if (rows.size() == 0) continue;
-    const double scale = grid.n() * std::sqrt(weight.empty() ? 1.0 : weight[p]);
-    column.assign(ring.size, {});
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const std::size_t j = rows.by_pairs(k);
-      for (std::size_t c = 0; c < 3; ++c) {
-        column[1 + j][c] = scale * rows[j][c];
-        column[0][c] -= column[1 + j][c];
-      }
-    }
-    const RingTable::Member* const members = rings.members(ring);
-    for (std::size_t a = 0; a < ring.size; ++a) {
-      if (members[a] < 0) continue;
-      for (std::size_t b = 0; b < ring.size; ++b) {
-        if (members[b] < 0) continue;
-        double sum = 0;
-        for (std::size_t c = 0; c < 3; ++c) sum += column[a][c] * column[b][c];
-        entries.emplace_back(number[std::size_t(members[a])], number[std::size_t(members[b])], sum);
-      }
-    }
-  }
-  for (std::size_t v = 0; v < weights.size(); ++v)
-    if (number[v] >= 0) entries.emplace_back(number[v], number[v], weights[v]);
-  const auto size = Index(system.unknown_points.size());
-  system.matrix.resize(size, size);
-  stop_if_cancelled();
-  system.matrix.setFromTriplets(entries.begin(), entries.end());
-  return system;
-}
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers) {

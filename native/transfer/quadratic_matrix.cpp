@@ -174,6 +174,20 @@ class FineRows {
   GridPoint at_{1, 1};
 };
 
+// Numbers in rows about control vertices whose rings are large, at the most and on average over all
+// points: each of a ring's points has a row with all others.
+constexpr std::size_t large_ring = 64, most_in_large_rings = 16;
+
+bool suits(const GridLevel& fine, const Stencils& stencils) {
+  if (!has_rows(fine.n(), fine.size())) return false;
+  std::size_t numbers = 0;
+  for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
+    const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);
+    if (size > large_ring) numbers += size * size;
+  }
+  return numbers <= most_in_large_rings * fine.size();
+}
+
 }  // namespace
 
 std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coarse,
@@ -181,7 +195,7 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
                                                            const Stencils& stencils,
                                                            const Unknowns& unknowns,
                                                            Workers& workers) {
-  if (!has_rows(fine.n(), fine.size())) return nullptr;
+  if (!suits(fine, stencils)) return nullptr;
   std::unique_ptr<AssembledTransfer> transfer(new AssembledTransfer(coarse.size(), fine.size()));
   const HalfWay half(coarse, stencils, unknowns, workers);
   const std::vector<std::uint8_t> unknown = unknown_points(fine, unknowns);
