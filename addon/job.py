@@ -17,7 +17,7 @@ from .errors import JobError
 from .inspection import display
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
-from .mesh.object import new_object, replace_mesh
+from .mesh.object import Reference, new_object, replace_mesh
 from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from .mesh.shape_keys import write_shape_keys
 from .mesh.write import attributes_left_out, write_mesh, write_pad_sizes
@@ -44,8 +44,8 @@ class Job:
         `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
         (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
         """
-        self.source = source
-        self.target = target
+        self._source = Reference(source)
+        self._target = None if target is None else Reference(target)
         self.name = source.name
         self.settings = snapshot(settings)
         evaluated = is_evaluated(self.settings)
@@ -109,31 +109,30 @@ class Job:
             for shape, positions in zip(result.shapes, arguments.get("shapes", ()))
         ]
 
+    @property
+    def source(self) -> Object | None:
+        """Found anew each time: a long run leaves time for undo, and to delete it; None then."""
+        return self._source.find()
+
     def is_writable(self) -> bool:
-        """Whether all objects that writing needs still exist: a long run leaves time to delete
-        them.
-        """
-        try:
-            return all(o.name and o.data for o in (self.source, self.target) if o is not None)
-        except ReferenceError:
-            return False
+        """Whether all objects that writing needs still exist."""
+        return all(r.find() is not None for r in (self._source, self._target) if r is not None)
 
     def write(self, context: Context) -> Object:
         """Makes the object, or gives `target` its new mesh, and returns it."""
-        result, settings = self.result, self.settings
+        result, settings, source = self.result, self.settings, self.source
+        old = None if self._target is None else self._target.find()
+        assert source is not None  # as is_writable has seen
         sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
-        mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, self.source.data.materials)
-        if self.target is None:
-            target = new_object(context, self.source, mesh)
-        else:
-            target = replace_mesh(self.target, mesh)
+        mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, source.data.materials)
+        target = new_object(context, source, mesh) if old is None else replace_mesh(old, mesh)
         write_data(target, self.data, self.carrier, attributes_left_out(settings))
         write_pad_sizes(target.data, result, self.carrier)
         if self.keys:
-            write_shape_keys(target, self.keys, result.shapes, self.source)
-        if wants_modifiers(settings) and self.target is None:
-            self.notes += copy_modifiers(context, self.source, target)
-        memory.remember(target, self.source, settings, result.report)
+            write_shape_keys(target, self.keys, result.shapes, source)
+        if wants_modifiers(settings) and old is None:
+            self.notes += copy_modifiers(context, source, target)
+        memory.remember(target, source, settings, result.report)
         display.refresh(target, context.scene.discrete_fairing_inspection)
         return target
 

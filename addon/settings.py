@@ -53,7 +53,7 @@ def _sources(settings: Any, context: Context) -> list[Object]:
     if owner is None and active is not None and active.type == "MESH":
         owner = active.discrete_fairing.source
     if owner is not None:
-        return [owner]
+        return [owner] if owner.type == "MESH" else []
     chosen = {o.name: o for o in (*context.selected_objects, active) if o is not None}
     return [o for o in chosen.values() if o.type == "MESH"]
 

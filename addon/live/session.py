@@ -23,15 +23,16 @@ from ..core import (
 )
 from ..errors import JobError
 from ..inspection import display
+from ..memory import source_of, source_problem
 from ..mesh.layers import read_data
-from ..mesh.object import session_key
+from ..mesh.object import Reference, session_key
 from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..settings import is_evaluated, snapshot
 from .full_level import PAUSE, FullLevel, is_editing
 from .pace import Clock, Deadline, Pace
-from .registry import Reference, is_in_a_scene
+from .registry import is_in_a_scene
 
 # what is enough to look at, and mostly one step an update; the full level has the core's own
 # accuracy
@@ -83,7 +84,7 @@ class Session:
     def objects(self) -> tuple[Object | None, Object | None]:
         """(source, target), None for what is gone."""
         target = self._target.find()
-        return (target.discrete_fairing.source if target is not None else None), target
+        return (source_of(target) if target is not None else None), target
 
     def _present(self) -> tuple[Object, Object]:
         """(source, target), which are there: nothing is asked of a session before `why_gone`."""
@@ -96,6 +97,8 @@ class Session:
         source, target = self.objects()
         if target is None or not is_in_a_scene(target):
             return SURFACE_GONE
+        if source_problem(target):
+            return f"{source_problem(target)}. Live has ended"
         return SOURCE_GONE if source is None or not is_in_a_scene(source) else ""
 
     def needs_look(self, reshaped: Collection[int | str] = ()) -> bool:

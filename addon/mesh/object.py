@@ -5,7 +5,7 @@ from typing import Any, cast
 
 import bpy
 
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Mesh, Object, all_objects
 
 _TRANSFORM = (
     "rotation_mode",  # first: the others are read by it
@@ -25,6 +25,24 @@ _PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_pa
 def session_key(block: bpy.types.ID) -> int | str:
     """What a data-block is known by until its file is closed, undo or not."""
     return getattr(block, "session_uid", None) or block.name_full
+
+
+class Reference:
+    """Finds its object again, after undo and deleting too, which leave pointers to nowhere; None
+    once the object is gone.
+    """
+
+    def __init__(self, target: Object) -> None:
+        self.key = session_key(target)
+        self._name = target.name
+
+    def find(self) -> Object | None:
+        target = cast(Object | None, bpy.data.objects.get(self._name))
+        if target is None or session_key(target) != self.key:
+            target = next((o for o in all_objects() if session_key(o) == self.key), None)
+        if target is not None:
+            self._name = target.name
+        return target
 
 
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:

@@ -12,6 +12,7 @@ from .. import core
 from ..blender import Answer, Context, Object, registration
 from ..errors import JobError
 from ..job import Job
+from ..memory import no_source_reason, source_of
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
@@ -77,7 +78,8 @@ class _Fairing(ExplainedPoll, ModalRun):
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
             self.report(
-                {"ERROR"}, f"{', '.join(gone)} was deleted during the run: nothing has been made."
+                {"ERROR"},
+                f"{', '.join(gone)} was deleted or undone during the run: nothing has been made.",
             )
             return {"CANCELLED"}
         if context.mode == "EDIT_MESH":
@@ -121,22 +123,16 @@ class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
 
     def after(self, context: Context, jobs: list[Job]) -> None:
         for job in jobs:
-            if self.hide_source and context.view_layer.objects.get(job.source.name) == job.source:
-                job.source.hide_set(True)
+            source = cast(Object, job.source)  # there, as `finish` has seen
+            if self.hide_source and context.view_layer.objects.get(source.name) == source:
+                source.hide_set(True)
 
 
 def faired_objects(context: Context) -> list[Object]:
-    """The selected objects that remember a source; the active one alone if none."""
-    selected = [
-        o for o in context.selected_objects if o.type == "MESH" and o.discrete_fairing.source
-    ]
+    """The selected objects that can be made from their source; the active one alone if none."""
+    selected = [o for o in context.selected_objects if source_of(o)]
     active = context.active_object
-    if (
-        not selected
-        and active is not None
-        and active.type == "MESH"
-        and active.discrete_fairing.source
-    ):
+    if not selected and active is not None and source_of(active):
         selected = [active]
     return sorted(selected, key=lambda o: o == active)
 
@@ -154,14 +150,14 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
             return poll_reason(context)
         targets = faired_objects(context)
         if not targets:
-            return "Select a faired surface whose source still exists"
+            return no_source_reason(context.active_object)
         if any(target.data.library or target.library for target in targets):
             return "A linked object cannot be changed"
         return ""
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [
-            Job(context, target.discrete_fairing.source, target.discrete_fairing, target)
+            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
             for target in faired_objects(context)
         ]
 
@@ -178,17 +174,16 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         active = context.active_object
         if context.mode != "OBJECT":
             return "Go to Object Mode first"
-        if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
-            return "Select a faired surface whose source still exists"
-        source = active.discrete_fairing.source
+        source = source_of(active) if active is not None else None
+        if source is None:
+            return no_source_reason(active)
         if context.view_layer.objects.get(source.name) != source:
             return f"'{source.name}' is not in this view layer"
         return ""
 
     def execute(self, context: Context) -> Answer:
-        active = context.active_object
-        assert active is not None  # as poll_reason has seen
-        source = active.discrete_fairing.source
+        source = source_of(cast(Object, context.active_object))
+        assert source is not None  # as poll_reason has seen
         source.hide_set(False)
         select_only(context, [source])
         return {"FINISHED"}

@@ -2,7 +2,7 @@
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bl_ui.utils import PresetPanel
@@ -10,7 +10,8 @@ from bl_ui.utils import PresetPanel
 from .. import core, size, vertex_values
 from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
-from ..memory import FAIRING_PG_surface
+from ..live import switch
+from ..memory import FAIRING_PG_surface, source_of, source_problem
 from ..mesh.read import read_mesh, source_objects
 from ..queue import Queue, running, status_text
 from ..settings import Settings, copy_settings, is_evaluated, is_near
@@ -41,9 +42,8 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
     bl_label = "Fair Surface"
 
-    def draw_header_preset(self, context: Context) -> None:
-        if remembered(context) is None:
-            VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
+    def draw_header_preset(self, _context: Context) -> None:
+        VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
 
     def draw(self, context: Context) -> None:
         layout = _split(self.layout)
@@ -51,10 +51,13 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             draw_notice(layout, core.why_missing())
             return
         memory = remembered(context)
+        followed = None if memory is not None else live_surface(context)
         if memory is not None:
             _draw_source(layout, memory)
+        elif followed is not None:
+            layout.label(text=f"Live: {followed.name}", icon="REC")
         settings = settings_at_hand(context)
-        sources = source_objects(context) if memory is None else [memory.source]
+        sources = _sources(context, memory)
         triangles = sum(
             size.triangle_count(size.face_sizes(o.data), settings.levels) for o in sources
         )
@@ -74,7 +77,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_progress(layout, queue)
         elif memory is not None:
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
-        else:
+        elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             copy_settings(
                 settings, _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
@@ -92,9 +95,31 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
     return active.discrete_fairing
 
 
+def live_surface(context: Context) -> Object | None:
+    """The surface that follows the active object; None if none does."""
+    active = context.active_object
+    followers = switch.live_surfaces_of(active) if active is not None else []
+    return followers[0] if followers else None
+
+
 def settings_at_hand(context: Context) -> Settings:
-    """Those of the faired surface that is active, else those for the next one."""
-    return remembered(context) or context.scene.discrete_fairing
+    """Those of the faired surface that is active, or that follows the active object; else those for
+    the next one.
+    """
+    followed = live_surface(context)
+    return (
+        remembered(context)
+        or (followed.discrete_fairing if followed is not None else None)
+        or context.scene.discrete_fairing
+    )
+
+
+def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object]:
+    """What the surface of the panel's settings is made from."""
+    if memory is None:
+        return source_objects(context)
+    source = source_of(cast(Object, memory.id_data))
+    return [] if source is None else [source]
 
 
 def tolerance_text(context: Context, settings: Settings, sources: list[Object]) -> str:
@@ -164,6 +189,9 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
+    problem = source_problem(cast(Object, memory.id_data))
+    if problem:
+        draw_notice(layout, problem)
 
 
 def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> Any:
