@@ -5,12 +5,10 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
 from live_scenes import follow, live, session, surface_of
 from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
 
 from addon.live import handlers, pace
-from addon.ui import main
 
 
 def move(source, index=0, by=0.5):
@@ -324,37 +322,3 @@ def test_curvature_colours_follow():
     move(source, by=0.2)
     follow()
     assert [item.value for item in target.data.attributes["fair_mean_curvature"].data] != before
-
-
-def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
-    source = add("Box", *CUBE)
-    target = live(source)
-    activate(source)
-    scene, log = bpy.context.scene.discrete_fairing, draw(main.VIEW3D_PT_fairing)
-    assert f"Live: {target.name}" in log and "object.fair_surface" not in log
-    settings = main.settings_at_hand(bpy.context)
-    assert settings == target.discrete_fairing != scene
-    before = positions(target.data)
-    settings.energy = "TOTAL_CURVATURE"
-    handlers.on_timer()
-    assert not np.array_equal(positions(target.data), before)
-    bpy.ops.object.fairing_live(state="OFF")
-    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
-    assert main.settings_at_hand(bpy.context) == scene
-
-
-def test_with_modifiers_of_a_hidden_source_is_refused_in_words():
-    source = add("Box", *CUBE)
-    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
-    source.modifiers.new("More", "ARRAY")
-    target = live(source)
-    source.hide_viewport = True
-    move(source)
-    follow()
-    handlers.on_timer()
-    assert len(target.data.polygons) == 12 * 4**3
-    source.hide_viewport = False
-    follow()
-    session(target).distrust()
-    handlers.on_timer()
-    assert not session(target).trouble and len(target.data.polygons) == 12 * 4**3

@@ -2,11 +2,13 @@
 """Which object can be the source of a surface, and what is said of one that cannot."""
 
 import bpy
+import numpy as np
 import pytest
 from fake_layout import draw
 from live_scenes import follow, live, move, session
-from scenes import CUBE, activate, add, fair
+from scenes import CUBE, activate, add, fair, positions
 
+from addon.live import handlers
 from addon.memory import why_unfit
 from addon.ui import main
 
@@ -62,3 +64,37 @@ def test_no_ring_of_sources():
     for surface in (source, first, second):
         activate(surface)
         assert not bpy.ops.object.fairing_recompute.poll()
+
+
+def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
+    source = add("Box", *CUBE)
+    target = live(source)
+    activate(source)
+    scene, log = bpy.context.scene.discrete_fairing, draw(main.VIEW3D_PT_fairing)
+    assert f"Live: {target.name}" in log and "object.fair_surface" not in log
+    settings = main.settings_at_hand(bpy.context)
+    assert settings == target.discrete_fairing != scene
+    before = positions(target.data)
+    settings.energy = "TOTAL_CURVATURE"
+    handlers.on_timer()
+    assert not np.array_equal(positions(target.data), before)
+    bpy.ops.object.fairing_live(state="OFF")
+    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert main.settings_at_hand(bpy.context) == scene
+
+
+def test_with_modifiers_of_a_hidden_source_is_refused_in_words():
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    source.modifiers.new("More", "ARRAY")
+    target = live(source)
+    source.hide_viewport = True
+    move(source)
+    follow()
+    handlers.on_timer()
+    assert len(target.data.polygons) == 12 * 4**3
+    source.hide_viewport = False
+    follow()
+    session(target).distrust()
+    handlers.on_timer()
+    assert not session(target).trouble and len(target.data.polygons) == 12 * 4**3
