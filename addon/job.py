@@ -17,10 +17,12 @@ from .errors import JobError
 from .inspection import display
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
-from .mesh.object import Reference, new_object, replace_mesh
+from .mesh.object import Reference, new_object
+from .mesh.own import OwnData, carried_names, read_own, write_own
 from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from .mesh.shape_keys import write_shape_keys
-from .mesh.write import attributes_left_out, write_mesh, write_pad_sizes
+from .mesh.world_shape import world_shape
+from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
 from .settings import Settings, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
@@ -60,18 +62,20 @@ class Job:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
-        self.edge_length = core.mean_edge_length(self.arrays)
+        self.shape = world_shape(source)
+        world = self.shape.of_arrays(self.arrays)
+        self.edge_length = core.mean_edge_length(world)
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
         if too_large:
             raise JobError(f"{self.name}: {too_large}.", code="TOO_LARGE")
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
         self.arguments = core.fair_arguments(
-            self.arrays,
+            world,
             self.settings,
             preferences(),
             region,
-            self.keys.shapes if self.keys else None,
+            self.shape.of(self.keys.shapes) if self.keys else None,
             shares,
             self.edge_length,
         )
@@ -86,12 +90,26 @@ class Job:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
+        self._to_object()
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
         if self.settings.keep_symmetry:
             self._symmetrize()
+
+    def _to_object(self) -> None:
+        """The core's surfaces from the world's shape to the coordinates of the object."""
+        result, sent = self.result, self.arguments
+        result.vertices = self.shape.back(result.vertices, sent["vertices"], self.arrays.positions)
+        result.shapes = [
+            self.shape.back(shape, world, own)
+            for shape, world, own in zip(result.shapes, sent.get("shapes", ()), self._own_shapes())
+        ]
+
+    def _own_shapes(self) -> np.ndarray | tuple[()]:
+        """(k, n, 3): the shape keys but the first, in the coordinates of the object."""
+        return self.keys.shapes if self.keys else ()
 
     def _symmetrize(self) -> None:
         result, arguments = self.result, self.arguments
@@ -106,7 +124,7 @@ class Job:
         result.vertices = symmetrize(result.vertices, mirrors, self.arrays.positions)
         result.shapes = [
             symmetrize(shape, mirrors, positions)
-            for shape, positions in zip(result.shapes, arguments.get("shapes", ()))
+            for shape, positions in zip(result.shapes, self._own_shapes())
         ]
 
     @property
@@ -118,18 +136,30 @@ class Job:
         """Whether all objects that writing needs still exist."""
         return all(r.find() is not None for r in (self._source, self._target) if r is not None)
 
-    def write(self, context: Context) -> Object:
-        """Makes the object, or gives `target` its new mesh, and returns it."""
+    def write(self, context: Context, own: OwnData | None = None) -> Object:
+        """Makes the object, or gives `target` its new mesh, and returns it.
+
+        `own`: what `target` has of its own; None: what it has at this moment.
+        """
         result, settings, source = self.result, self.settings, self.source
         old = None if self._target is None else self._target.find()
         assert source is not None  # as is_writable has seen
         sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
-        mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, source.data.materials)
-        target = new_object(context, source, mesh) if old is None else replace_mesh(old, mesh)
+        carried = carried_names(self.data, self.keys)
+        if old is None:
+            mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, source.data.materials)
+            target = new_object(context, source, mesh)
+        else:
+            target = old
+            own = own or read_own(target, carried, memory.recall(target, "carried") or {})
+            refill_mesh(target, result, sharp_pairs)
         write_data(target, self.data, self.carrier, attributes_left_out(settings))
         write_pad_sizes(target.data, result, self.carrier)
         if self.keys:
             write_shape_keys(target, self.keys, result.shapes, source)
+        if own is not None:
+            self.notes += write_own(target, own)
+        memory.keep(target, "carried", carried)
         if wants_modifiers(settings) and old is None:
             self.notes += copy_modifiers(context, source, target)
         memory.remember(target, source, settings, result.report)

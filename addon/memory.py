@@ -53,6 +53,11 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     readout: StringProperty(
         name="Read-out", description="What Measure has measured, as JSON", options={"HIDDEN"}
     )
+    carried: StringProperty(
+        name="Carried",
+        description="What came from the source, by name, as JSON",
+        options={"HIDDEN"},
+    )
     defects: StringProperty(
         name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
     )
@@ -89,7 +94,7 @@ def remember(
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
-    """Keeps a dict with the object `target`. `name`: report, readout or defects."""
+    """Keeps a dict with the object `target`. `name`: report, readout, carried or defects."""
     setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
 
 

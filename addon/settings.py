@@ -82,7 +82,7 @@ class FairingSettings:
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="How far the surface may pass from a vertex of the source, before the object's scale. "
+        description="How far the surface may pass from a vertex of the source, in scene units. "
         "A small tolerance removes most bumps",
         default=0.01,
         min=0.0,

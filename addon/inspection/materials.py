@@ -108,7 +108,7 @@ def zebra_material(settings: Any) -> bpy.types.Material:
     direction, sharpness, fixed_to.
     """
     key = scene_key(settings)
-    material = tagged(bpy.data.materials, ZEBRA_MODE, key) or _build_zebra(key)
+    material: Any = tagged(bpy.data.materials, ZEBRA_MODE, key) or _build_zebra(key)
     nodes = material.node_tree.nodes
     by_view = settings.fixed_to == "VIEW"
     # upright is y for the view and z for the object

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..blender import Object
+from ..memory import source_problem
 from ..mesh.object import session_key
 
 if TYPE_CHECKING:
@@ -24,6 +25,16 @@ _quiet = 0
 def is_in_a_scene(target: Object) -> bool:
     """Deleting takes an object out of its scenes; it goes itself only if nobody else refers to it."""
     return any(scene.objects.get(target.name) == target for scene in bpy.data.scenes)
+
+
+def why_gone(source: Object | None, target: Object | None) -> str:
+    """Why a surface and its source are not to be followed any more, a sentence; empty if they are."""
+    if target is None or not is_in_a_scene(target):
+        return "The surface was deleted: Live has ended"
+    if source_problem(target):
+        return f"{source_problem(target)}. Live has ended"
+    gone = source is None or not is_in_a_scene(source)
+    return "The source was deleted: Live has ended" if gone else ""
 
 
 def sessions() -> list[Session]:

@@ -64,19 +64,21 @@ def write_groups(target: Object, groups: list[VertexGroup], active: int, carrier
     """
     target.vertex_groups.clear()
     for group in groups:
-        control = group.dense(carrier.control_count)
-        made = (
-            _convert(target, carrier.point(control).ravel())
-            if control.any()
-            else target.vertex_groups.new()
-        )
-        made.name = group.name
-        zero = group.vertices[group.weights == 0.0]
-        if len(zero):  # the operator leaves them out; membership counts even so
-            made.add(zero.tolist(), 0.0, "REPLACE")
-        made.lock_weight = group.lock_weight
+        weights = carrier.point(group.dense(carrier.control_count)).ravel()
+        write_group(target, group, weights, group.vertices[group.weights == 0.0])
     if groups:
         target.vertex_groups.active_index = active
+
+
+def write_group(target: Object, group: VertexGroup, weights: np.ndarray, zero: np.ndarray) -> None:
+    """Gives `target` one more group, named and locked as `group`: with `weights` (N,) that are not
+    0, and the members `zero` (k,) of weight 0.
+    """
+    made = _convert(target, weights) if weights.any() else target.vertex_groups.new()
+    made.name = group.name
+    if len(zero):  # the operator leaves them out; membership counts even so
+        made.add(zero.tolist(), 0.0, "REPLACE")
+    made.lock_weight = group.lock_weight
 
 
 def _convert(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:

@@ -148,8 +148,8 @@ def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceDat
     shape_keys = None if evaluated else read_shape_keys(source, len(mesh.vertices))
     return SurfaceData(
         attributes=attributes,
-        edge_marks=_marks(mesh.edges, EDGE_MARKS),
-        face_marks=_marks(mesh.polygons, FACE_MARKS),
+        edge_marks=read_marks(mesh.edges, EDGE_MARKS),
+        face_marks=read_marks(mesh.polygons, FACE_MARKS),
         active_uv=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         render_uv=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         active_color=mesh.attributes.active_color_name,
@@ -161,7 +161,8 @@ def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceDat
     )
 
 
-def _marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+    """(size,) bool by the `names` of properties, of `elements` of a mesh; those that mark any."""
     found = {}
     for name in names:
         # Blender may be built without Freestyle

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The new object beside its source: same place, same collections, same materials."""
 
+from collections.abc import Collection
 from typing import Any, cast
 
 import bpy
@@ -55,23 +56,6 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     return target
 
 
-def replace_mesh(target: Object, mesh: Mesh) -> Object:
-    """Puts `mesh` in the place of the mesh of `target`, for all objects that share it, and returns
-    `target`.
-
-    The materials are those that the old mesh has by now, and its name goes on.
-    """
-    old = target.data
-    mesh.materials.clear()
-    for material in old.materials:
-        mesh.materials.append(material)
-    name = old.name
-    old.user_remap(mesh)
-    bpy.data.meshes.remove(old)
-    mesh.name = name
-    return target
-
-
 def select_only(context: Context, objects: list[Object]) -> None:
     """Selects `objects` and nothing else; the last one becomes active."""
     for other in context.view_layer.objects.selected[:]:
@@ -105,16 +89,19 @@ def _copy_object_materials(source: Object, target: Object) -> None:
             own.material = theirs.material
 
 
-def copy_drivers(source: Any, target: Any, prefix: str = "") -> None:
+def copy_drivers(
+    source: Any, target: Any, prefix: str = "", leave_out: Collection[str] = ()
+) -> None:
     """Gives `target` the drivers of `source`, a data-block of the same kind, whose path begins with
-    `prefix`.
+    `prefix` and is none to `leave_out`.
     """
     if source.animation_data is None:
         return
     for driver in source.animation_data.drivers:
-        if driver.data_path.startswith(prefix) and _resolves(target, driver.data_path):
+        path = driver.data_path
+        if path.startswith(prefix) and path not in leave_out and _resolves(target, path):
             drivers = target.animation_data_create().drivers
-            old = drivers.find(driver.data_path, index=driver.array_index)
+            old = drivers.find(path, index=driver.array_index)
             if old is not None:
                 drivers.remove(old)
             drivers.from_existing(src_driver=driver)

@@ -56,14 +56,21 @@ def rebuild_mesh(
 
     The mesh, its materials and the object's modifiers stay.
     """
-    mesh = target.data
-    if mesh.shape_keys is not None:
-        target.shape_key_clear()
-    mesh.clear_geometry()
-    fill_mesh(mesh, result, fine_edges(result.faces, result.crease_edges, level))
+    refill_mesh(target, result, fine_edges(result.faces, result.crease_edges, level))
     carrier = Carrier(result, arrays, level)
     write_data(target, data, carrier, attributes_left_out(settings))
-    write_pad_sizes(mesh, result, carrier)
+    write_pad_sizes(target.data, result, carrier)
+
+
+def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
+    """Gives the mesh of `target`, for all objects that share it, the geometry of `result`.
+
+    Its materials, custom properties and name stay; all that lay on the old geometry is gone.
+    """
+    if target.data.shape_keys is not None:
+        target.shape_key_clear()
+    target.data.clear_geometry()
+    fill_mesh(target.data, result, sharp_pairs)
 
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from ..core import mean_edge_length, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_surface, source_of, source_problem
 from ..mesh.read import read_mesh, source_objects
+from ..mesh.world_shape import world_shape
 from ..queue import Queue, running, status_text
 from ..settings import Settings, copy_settings, is_evaluated, is_near
 from .layout import (
@@ -131,7 +132,8 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     mesh = sources[0].data
     if len(mesh.edges) > _MEASURED_WHILE_DRAWING or sources[0].mode == "EDIT":
         return ""
-    length = tolerance(settings, mean_edge_length(read_mesh(mesh)))
+    world = world_shape(sources[0]).of_arrays(read_mesh(mesh))
+    length = tolerance(settings, mean_edge_length(world))
     units = context.scene.unit_settings
     if units.system == "NONE":  # of which Blender's own function makes a crash
         return f"= {length:.4g}"
