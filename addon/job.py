@@ -12,6 +12,7 @@ import numpy as np
 
 from . import core, errors, memory, size
 from .blender import Context, Object
+from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display
@@ -90,8 +91,10 @@ class Job:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
-        self._to_object()
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        world = self.shape.of_arrays(self.arrays)
+        self.faults = find_faults(self.result, self.carrier, world)
+        self._to_object()
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
@@ -162,7 +165,9 @@ class Job:
         memory.keep(target, "carried", carried)
         if wants_modifiers(settings) and old is None:
             self.notes += copy_modifiers(context, source, target)
-        memory.remember(target, source, settings, result.report)
+        self.faults.write(target.data)
+        report = {**result.report, "faults": self.faults.counts}
+        memory.remember(target, source, settings, report)
         display.refresh(target, context.scene.discrete_fairing_inspection)
         return target
 
@@ -173,4 +178,6 @@ class Job:
         told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
         if not told and not core.has_converged(report):
             sentences.append(errors.unfinished_text(self.name, energy_name(self.settings.energy)))
+        if self.faults.counts:
+            sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
         return sentences

@@ -15,6 +15,12 @@ from ..transfer.lattice import fine_edges, mark_pairs
 from .layers import SurfaceData, fill_layer, make_layer, write_data
 
 PAD_SIZES = "fair_pad_size"
+# attributes on points: where something is wrong with the surface, by kind
+FAULTS = {
+    "crossing": "fair_crosses_itself",
+    "far": "fair_far_from_mesh",
+    "folded": "fair_folded",
+}
 
 
 def write_mesh(
@@ -75,7 +81,8 @@ def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    return (PAD_SIZES, "sharp_face") if settings.shade_smooth else (PAD_SIZES,)
+    made = (PAD_SIZES, *FAULTS.values())
+    return (*made, "sharp_face") if settings.shade_smooth else made
 
 
 def write_pad_sizes(mesh: Mesh, result: Any, carrier: Carrier) -> None:

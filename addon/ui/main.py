@@ -7,13 +7,14 @@ from typing import Any, cast
 import bpy
 from bl_ui.utils import PresetPanel
 
-from .. import core, size, vertex_values
+from .. import core, errors, size, vertex_values
 from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
 from ..live import switch
-from ..memory import FAIRING_PG_surface, source_of, source_problem
+from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
+from ..mesh.write import FAULTS
 from ..queue import Queue, running, status_text
 from ..settings import Settings, copy_settings, is_evaluated, is_near
 from .layout import (
@@ -78,6 +79,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_progress(layout, queue)
         elif memory is not None:
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
+            _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             copy_settings(
@@ -94,6 +96,17 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
     if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
         return None
     return active.discrete_fairing
+
+
+def _draw_faults(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
+    """What was found wrong with the surface when it was made, as long as its mesh has the places."""
+    target = cast(Object, memory.id_data)
+    counts = (recall(target, "report") or {}).get("faults", {})
+    if not counts or not any(FAULTS[kind] in target.data.attributes for kind in counts):
+        return
+    summary = errors.faults_summary(counts)
+    draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory)}")
+    layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
 
 
 def live_surface(context: Context) -> Object | None:
