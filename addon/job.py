@@ -6,11 +6,12 @@ run on any thread.
 """
 
 from contextlib import nullcontext
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from . import core, errors, memory, size
+from . import core, errors, memory, prediction, size
 from .blender import Context, Object
 from .check.faults import find_faults
 from .choices import energy_name
@@ -89,6 +90,7 @@ class Job:
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
+        begun = perf_counter()
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
@@ -100,6 +102,21 @@ class Job:
             self.notes.append(given_way)
         if self.settings.keep_symmetry:
             self._symmetrize()
+        self._taken = perf_counter() - begun
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return self.predict(self.settings.energy, self.settings.levels)
+
+    def predict(self, energy: str, levels: int) -> float:
+        """How long it would take by another energy, with other levels."""
+        return prediction.seconds(energy, self._work(levels), self._source.key)
+
+    def _work(self, levels: int) -> int:
+        """Triangles, of the surface and of each shape."""
+        shapes = len(self.arguments.get("shapes", ()))
+        return size.triangle_count(self.arrays.face_sizes, levels) * (1 + shapes)
 
     def _to_object(self) -> None:
         """The core's surfaces from the world's shape to the coordinates of the object."""
@@ -135,6 +152,11 @@ class Job:
         """Found anew each time: a long run leaves time for undo, and to delete it; None then."""
         return self._source.find()
 
+    @property
+    def target(self) -> Object | None:
+        """What gets the surface; None: a new object, or it is gone."""
+        return None if self._target is None else self._target.find()
+
     def is_writable(self) -> bool:
         """Whether all objects that writing needs still exist."""
         return all(r.find() is not None for r in (self._source, self._target) if r is not None)
@@ -145,7 +167,7 @@ class Job:
         `own`: what `target` has of its own; None: what it has at this moment.
         """
         result, settings, source = self.result, self.settings, self.source
-        old = None if self._target is None else self._target.find()
+        old = self.target
         assert source is not None  # as is_writable has seen
         sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
         carried = carried_names(self.data, self.keys)
@@ -169,6 +191,8 @@ class Job:
         report = {**result.report, "faults": self.faults.counts}
         memory.remember(target, source, settings, report)
         display.refresh(target, context.scene.discrete_fairing_inspection)
+        work = self._work(settings.levels)
+        prediction.note(settings.energy, work, self._taken, self._source.key)
         return target
 
     def warnings(self) -> list[str]:

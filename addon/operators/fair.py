@@ -8,7 +8,7 @@ from typing import cast
 
 import bpy
 
-from .. import core
+from .. import core, prediction
 from ..blender import Answer, Context, Object, registration
 from ..errors import JobError
 from ..job import Job
@@ -19,18 +19,16 @@ from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
 from ..settings import FairingSettings
 from ..ui.layout import draw_settings
+from . import fill
 from .modal import ModalRun
-
-# triangles; fewer are done before a progress bar could be read, by the fastest energy
-IMMEDIATE = 200_000
-TIMES_AS_LONG = {"THIN_PLATE": 1, "TOTAL_CURVATURE": 5, "MINIMUM_VARIATION": 15}
 
 
 def poll_reason(context: Context) -> str:
     """Why nothing can be faired here, in one sentence; empty when it can."""
     if core.why_missing():
         return core.why_missing()
-    if running():
+    queue = running()
+    if queue is not None and not queue.gives_way:
         return "A surface is being faired at this moment"
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
         return "Fairing works in Object Mode and Edit Mode"
@@ -46,16 +44,32 @@ class _Fairing(ExplainedPoll, ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if sum(job.triangles * TIMES_AS_LONG[job.settings.energy] for job in jobs) > IMMEDIATE:
+        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)
         return self._block(context, jobs)
 
     def execute(self, context: Context) -> Answer:
         jobs = self._prepare(context)
-        return {"CANCELLED"} if jobs is None else self._block(context, jobs)
+        if jobs is None:
+            return {"CANCELLED"}
+        if self.is_redone() and fill.predicted_seconds(jobs) > prediction.PATIENCE:
+            return self._begin_small(context, jobs)
+        return self._block(context, jobs)
+
+    def is_redone(self) -> bool:
+        """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
+        return self.options.is_repeat and not bpy.app.background
+
+    def _begin_small(self, context: Context, jobs: list[Job]) -> Answer:
+        """Makes small surfaces at once, and lets the whole ones follow in the background."""
+        answer = self._block(context, fill.small_jobs(context, jobs))
+        if answer == {"FINISHED"}:
+            fill.fill_soon(context, self._written, jobs)
+        return answer
 
     def _prepare(self, context: Context) -> list[Job] | None:
         """The jobs, or None after an error has been reported."""
+        fill.give_way()
         try:
             return self.make_jobs(context)
         except JobError as error:
@@ -84,13 +98,13 @@ class _Fairing(ExplainedPoll, ModalRun):
             return {"CANCELLED"}
         if context.mode == "EDIT_MESH":
             bpy.ops.object.mode_set(mode="OBJECT")
-        written = [job.write(context) for job in jobs]
+        self._written = [job.write(context) for job in jobs]
         for job in jobs:
             for sentence in job.notes:
                 self.report({"INFO"}, f"{job.name}: {sentence}")
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        select_only(context, written)
+        select_only(context, self._written)
         self.after(context, jobs)
         return {"FINISHED"}
 
