@@ -11,7 +11,7 @@ from .preferences import preferences
 
 PATIENCE = 0.5  # seconds; a run that is predicted to take longer never stops the window
 _KEPT = 5  # runs of an energy
-_BRIEF = 0.05  # seconds; of shorter runs little is the surface's own
+_BRIEF = 0.1  # seconds; shorter runs say little, as most of them is not spent on triangles
 # seconds a triangle on a machine of two cores, until it has runs of its own
 _AT_FIRST = {"THIN_PLATE": 2e-5, "TOTAL_CURVATURE": 6e-4, "MINIMUM_VARIATION": 1e-3}
 
@@ -28,13 +28,18 @@ def seconds(energy: str, triangles: int, mesh: Hashable = None) -> float:
 
 def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
     """Learns that a run has taken so many seconds."""
-    if not triangles:
+    if taken < _BRIEF or not triangles:
         return
     _of_mesh[mesh, energy] = taken / triangles
-    if taken > _BRIEF:
-        speeds = _speeds()
-        speeds[energy] = [*speeds.get(energy, []), taken / triangles][-_KEPT:]
-        preferences().speeds = json.dumps(speeds)
+    speeds = _speeds()
+    speeds[energy] = [*speeds.get(energy, []), taken / triangles][-_KEPT:]
+    preferences().speeds = json.dumps(speeds)
+
+
+def forget() -> None:
+    """As on a machine that has done nothing yet."""
+    _of_mesh.clear()
+    preferences().speeds = "{}"
 
 
 def text(predicted: float) -> str:

@@ -227,7 +227,7 @@ class Session:
                 self._own = read_own(target, carried_names(data, data.shape_keys), carried)
             rebuild_mesh(target, result, self._arrays, data, self._settings, self._level)
             if self._own is not None:
-                write_own(target, self._own, keys=False)
+                write_own(target, self._own, in_handler=True)
             self._mesh = session_key(target.data)
         else:
             write_positions(target.data, result.vertices)

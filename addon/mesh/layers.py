@@ -251,12 +251,16 @@ def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> No
 
 
 def write_data(
-    target: Object, data: SurfaceData, carrier: Carrier, leave_out: Collection[str] = ()
+    target: Object,
+    data: SurfaceData,
+    carrier: Carrier,
+    leave_out: Collection[str] = (),
+    operators: bool = True,
 ) -> None:
     """Gives the object `target`, in Object Mode with the refined mesh, what `data` (SurfaceData)
     holds; `carrier`: Carrier.
 
-    Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
+    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
     Shape keys: see shape_keys.py; they come last, since attributes of a mesh that has them are
     harder to change.
     """
@@ -267,7 +271,7 @@ def write_data(
         mesh.edges.foreach_set(name, inherit(values, origin))
     for name, values in data.face_marks.items():
         mesh.polygons.foreach_set(name, carrier.face(values))
-    write_groups(target, data.groups, data.active_group, carrier)
+    write_groups(target, data.groups, data.active_group, carrier, operators)
     _choose_active(mesh, data)
     mesh.update()
 

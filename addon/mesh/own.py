@@ -95,9 +95,9 @@ def read_own(target: Object, *carried: Names) -> OwnData | None:
     return found if attributes or found.marks or names or keys or animation else None
 
 
-def write_own(target: Object, own: OwnData, keys: bool = True) -> list[str]:
-    """Gives `target`, with its new mesh, what it had of its own, shape keys and what animates them
-    if asked; what could not be kept as it was, a sentence each.
+def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[str]:
+    """Gives `target`, with its new mesh, what it had of its own; what could not be kept as it was, a
+    sentence each. Shape keys, and what animates them, not where one of Blender's handlers calls.
     """
     mesh = target.data
     samples = Samples(own.mesh, read_mesh(mesh))
@@ -110,11 +110,11 @@ def write_own(target: Object, own: OwnData, keys: bool = True) -> list[str]:
     for group in own.groups:
         weights = samples.values(group.dense(len(own.mesh.positions)), "POINT", True)
         zero = group.vertices[group.weights == 0.0] if samples.same else np.empty(0, np.int32)
-        write_group(target, group, weights, zero)
+        write_group(target, group, weights, zero, operators=not in_handler)
     _choose_active(target, own)
-    for key, relative, away in own.keys if keys else ():
+    for key, relative, away in () if in_handler else own.keys:
         add_shape_key(target, key, relative, samples.values(away, "POINT", True))
-    notes = own.notes + (own.animation.give(target) if own.animation and keys else [])
+    notes = own.notes + (own.animation.give(target) if own.animation and not in_handler else [])
     if lost:
         notes.append(f"{_listed(lost)} dropped: the edges of the surface are others now.")
     moved = [attribute.name for attribute in own.attributes if attribute.name not in lost]

@@ -58,13 +58,13 @@ def rebuild_mesh(
     level: int,
 ) -> None:
     """Gives the mesh of `target` the geometry of `result` and what the control mesh carries, shape
-    keys excepted.
+    keys excepted. For handlers: calls no operator.
 
     The mesh, its materials and the object's modifiers stay.
     """
     refill_mesh(target, result, fine_edges(result.faces, result.crease_edges, level))
     carrier = Carrier(result, arrays, level)
-    write_data(target, data, carrier, attributes_left_out(settings))
+    write_data(target, data, carrier, attributes_left_out(settings), operators=False)
     write_pad_sizes(target.data, result, carrier)
 
 

@@ -12,6 +12,7 @@ from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
+from ..mesh.mesh_changes import coarse_triangles
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
@@ -61,9 +62,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             layout.label(text=f"Live: {followed.name}", icon="REC")
         settings = settings_at_hand(context)
         sources = _sources(context, memory)
-        triangles = sum(
-            size.triangle_count(size.face_sizes(o.data), settings.levels) for o in sources
-        )
+        triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
         draw_shape(
             layout,
             settings,
