@@ -11,7 +11,7 @@ from . import cli, memory, preferences, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
-from .operators import check, fair, inspect, live, presets
+from .operators import check, fair, faults, fill, inspect, live, presets
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
@@ -25,6 +25,8 @@ _MODULES = (
     switch,
     handlers,
     fair,
+    faults,
+    fill,
     live,
     check,
     inspect,

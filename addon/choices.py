@@ -49,7 +49,7 @@ TOLERANCE_UNITS = (
         "As a share of the mean edge length of the control mesh, whatever its size",
         0,
     ),
-    ("SCENE", "Length", "As a length, before the object's scale", 1),
+    ("SCENE", "Length", "As a length in scene units", 1),
 )
 
 REPAIRS = (

@@ -195,6 +195,12 @@ def has_converged(report: Mapping[str, Any]) -> bool:
     return level is None or level["converged"]
 
 
+def folds(report: Mapping[str, Any]) -> int:
+    """How many edges of the finest level are folded; 0 where nobody has looked."""
+    level = _finest_level(report)
+    return 0 if level is None else level["folds"]
+
+
 def step_count(report: Mapping[str, Any]) -> int | None:
     """How many steps the finest level took, None for the thin plate."""
     level = _finest_level(report)

@@ -123,6 +123,43 @@ def unfinished_text(object_name: str, energy: str) -> str:
     )
 
 
+_FAULTS = {
+    "crossing": "crosses itself",
+    "far": "bulges by more than the edges of its source are long",
+    "folded": "is folded",
+}
+
+
+def faults_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
+    """What is wrong with a surface, from the number of points at which it is, and what helps."""
+    told = f"{object_name}: {faults_summary(counts)}. Select Places in the panel shows where"
+    return f"{told}. {faults_remedy(settings)}"
+
+
+def faults_summary(counts: Mapping[str, int]) -> str:
+    """`the surface crosses itself and is folded`, by kinds of faults."""
+    return f"the surface {_listed([_FAULTS[kind] for kind in counts])}"
+
+
+def faults_remedy(settings: Any) -> str:
+    """What to do about it, in one sentence; `settings`: those that the surface was made with."""
+    if settings.energy == "MINIMUM_VARIATION":
+        return "Use Thin Plate, or Total Curvature with Tension."
+    help_by = [] if settings.energy == "THIN_PLATE" else ["use Thin Plate"]
+    if settings.tension < 1.0:
+        help_by.insert(0, "raise Tension")
+    if settings.interpolation == "EXACT":
+        help_by.append("set Vertices to Near")
+    help_by.append("add vertices there")
+    words = _listed(help_by, "or")
+    return _sentence(words[0].upper() + words[1:])
+
+
+def _listed(parts: list[str], last: str = "and") -> str:
+    """`a, b and c`."""
+    return f" {last} ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
 def pads_text(pads: Mapping[str, Any]) -> str:
     """Where pads gave way, in one sentence, from the report's `pads`; empty if none did."""
     narrower, gone = pads.get("narrower", 0), pads.get("gone", 0)

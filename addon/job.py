@@ -6,21 +6,25 @@ run on any thread.
 """
 
 from contextlib import nullcontext
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from . import core, errors, memory, size
+from . import core, errors, memory, prediction, size
 from .blender import Context, Object
+from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
-from .mesh.object import new_object, replace_mesh
+from .mesh.object import Reference, new_object
+from .mesh.own import OwnData, carried_names, read_own, write_own
 from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
 from .mesh.shape_keys import write_shape_keys
-from .mesh.write import attributes_left_out, write_mesh, write_pad_sizes
+from .mesh.world_shape import world_shape
+from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
 from .settings import Settings, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
@@ -44,8 +48,8 @@ class Job:
         `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
         (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
         """
-        self.source = source
-        self.target = target
+        self._source = Reference(source)
+        self._target = None if target is None else Reference(target)
         self.name = source.name
         self.settings = snapshot(settings)
         evaluated = is_evaluated(self.settings)
@@ -60,18 +64,20 @@ class Job:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
-        self.edge_length = core.mean_edge_length(self.arrays)
+        self.shape = world_shape(source)
+        world = self.shape.of_arrays(self.arrays)
+        self.edge_length = core.mean_edge_length(world)
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
         if too_large:
             raise JobError(f"{self.name}: {too_large}.", code="TOO_LARGE")
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
         self.arguments = core.fair_arguments(
-            self.arrays,
+            world,
             self.settings,
             preferences(),
             region,
-            self.keys.shapes if self.keys else None,
+            self.shape.of(self.keys.shapes) if self.keys else None,
             shares,
             self.edge_length,
         )
@@ -84,9 +90,13 @@ class Job:
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
+        begun = perf_counter()
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        world = self.shape.of_arrays(self.arrays)
+        self.faults = find_faults(self.result, self.carrier, world)
+        self._to_object()
         mended = errors.repairs_text(self.result.report["repairs"])
         if mended:
             self.notes.append(mended)
@@ -95,6 +105,34 @@ class Job:
             self.notes.append(given_way)
         if self.settings.keep_symmetry:
             self._symmetrize()
+        self._taken = perf_counter() - begun
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return self.predict(self.settings.energy, self.settings.levels)
+
+    def predict(self, energy: str, levels: int) -> float:
+        """How long it would take by another energy, with other levels."""
+        return prediction.seconds(energy, self._work(levels), self._source.key)
+
+    def _work(self, levels: int) -> int:
+        """Triangles, of the surface and of each shape."""
+        shapes = len(self.arguments.get("shapes", ()))
+        return size.triangle_count(self.arrays.face_sizes, levels) * (1 + shapes)
+
+    def _to_object(self) -> None:
+        """The core's surfaces from the world's shape to the coordinates of the object."""
+        result, sent = self.result, self.arguments
+        result.vertices = self.shape.back(result.vertices, sent["vertices"], self.arrays.positions)
+        result.shapes = [
+            self.shape.back(shape, world, own)
+            for shape, world, own in zip(result.shapes, sent.get("shapes", ()), self._own_shapes())
+        ]
+
+    def _own_shapes(self) -> np.ndarray | tuple[()]:
+        """(k, n, 3): the shape keys but the first, in the coordinates of the object."""
+        return self.keys.shapes if self.keys else ()
 
     def _symmetrize(self) -> None:
         result, arguments = self.result, self.arguments
@@ -110,35 +148,55 @@ class Job:
         result.vertices = symmetrize(result.vertices, mirrors, self.arrays.positions)
         result.shapes = [
             symmetrize(shape, mirrors, positions)
-            for shape, positions in zip(result.shapes, arguments.get("shapes", ()))
+            for shape, positions in zip(result.shapes, self._own_shapes())
         ]
 
-    def is_writable(self) -> bool:
-        """Whether all objects that writing needs still exist: a long run leaves time to delete
-        them.
-        """
-        try:
-            return all(o.name and o.data for o in (self.source, self.target) if o is not None)
-        except ReferenceError:
-            return False
+    @property
+    def source(self) -> Object | None:
+        """Found anew each time: a long run leaves time for undo, and to delete it; None then."""
+        return self._source.find()
 
-    def write(self, context: Context) -> Object:
-        """Makes the object, or gives `target` its new mesh, and returns it."""
-        result, settings = self.result, self.settings
+    @property
+    def target(self) -> Object | None:
+        """What gets the surface; None: a new object, or it is gone."""
+        return None if self._target is None else self._target.find()
+
+    def is_writable(self) -> bool:
+        """Whether all objects that writing needs still exist."""
+        return all(r.find() is not None for r in (self._source, self._target) if r is not None)
+
+    def write(self, context: Context, own: OwnData | None = None) -> Object:
+        """Makes the object, or gives `target` its new mesh, and returns it.
+
+        `own`: what `target` has of its own; None: what it has at this moment.
+        """
+        result, settings, source = self.result, self.settings, self.source
+        old = self.target
+        assert source is not None  # as is_writable has seen
         sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
-        mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, self.source.data.materials)
-        if self.target is None:
-            target = new_object(context, self.source, mesh)
+        carried = carried_names(self.data, self.keys)
+        if old is None:
+            mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, source.data.materials)
+            target = new_object(context, source, mesh)
         else:
-            target = replace_mesh(self.target, mesh)
+            target = old
+            own = own or read_own(target, carried, memory.recall(target, "carried") or {})
+            refill_mesh(target, result, sharp_pairs)
         write_data(target, self.data, self.carrier, attributes_left_out(settings))
         write_pad_sizes(target.data, result, self.carrier)
         if self.keys:
-            write_shape_keys(target, self.keys, result.shapes, self.source)
-        if wants_modifiers(settings) and self.target is None:
-            self.notes += copy_modifiers(context, self.source, target)
-        memory.remember(target, self.source, settings, result.report)
+            write_shape_keys(target, self.keys, result.shapes, source)
+        if own is not None:
+            self.notes += write_own(target, own)
+        memory.keep(target, "carried", carried)
+        if wants_modifiers(settings) and old is None:
+            self.notes += copy_modifiers(context, source, target)
+        self.faults.write(target.data)
+        report = {**result.report, "faults": self.faults.counts}
+        memory.remember(target, source, settings, report)
         display.refresh(target, context.scene.discrete_fairing_inspection)
+        work = self._work(settings.levels)
+        prediction.note(settings.energy, work, self._taken, self._source.key)
         return target
 
     def warnings(self) -> list[str]:
@@ -148,4 +206,6 @@ class Job:
         told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
         if not told and not core.has_converged(report):
             sentences.append(errors.unfinished_text(self.name, energy_name(self.settings.energy)))
+        if self.faults.counts:
+            sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
         return sentences

@@ -8,7 +8,7 @@ from it.
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bpy.app.handlers import persistent
@@ -21,6 +21,23 @@ from .settings import FairingSettings, Settings, copy_settings
 _parsed: dict[tuple[str, str], tuple[str, dict[str, Any] | None]] = {}
 
 
+def why_unfit(target: Object, source: Object) -> str:
+    """Why `source` cannot control the surface `target`, in one sentence; empty if it can."""
+    if source.type != "MESH":
+        return f"'{source.name}' is no mesh: choose a mesh object as the source"
+    seen, above = set(), cast(Object | None, source)
+    while above is not None and above.type == "MESH" and above not in seen:
+        if above == target:
+            return f"'{source.name}' is made from '{target.name}' itself: choose another source"
+        seen.add(above)
+        above = above.discrete_fairing.source
+    return ""
+
+
+def _fits(group: Any, source: Object) -> bool:
+    return not why_unfit(group.id_data, source)
+
+
 class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     """What a faired object remembers: where it comes from, and how it was made."""
 
@@ -28,12 +45,18 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         name="Source",
         description="The object whose mesh controls this surface",
         type=bpy.types.Object,
+        poll=_fits,
     )
     report: StringProperty(
         name="Report", description="What the core has reported, as JSON", options={"HIDDEN"}
     )
     readout: StringProperty(
         name="Read-out", description="What Measure has measured, as JSON", options={"HIDDEN"}
+    )
+    carried: StringProperty(
+        name="Carried",
+        description="What came from the source, by name, as JSON",
+        options={"HIDDEN"},
     )
     defects: StringProperty(
         name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
@@ -71,7 +94,7 @@ def remember(
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
-    """Keeps a dict with the object `target`. `name`: report, readout or defects."""
+    """Keeps a dict with the object `target`. `name`: report, readout, carried or defects."""
     setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
 
 
@@ -95,9 +118,24 @@ def _parse(text: str) -> dict[str, Any] | None:
 
 
 def source_of(target: Object) -> Object | None:
-    """The mesh object that `target` was faired from, or None."""
+    """The mesh object that `target` can be made from, or None."""
+    if target.type != "MESH" or target.discrete_fairing.source is None or source_problem(target):
+        return None
+    return target.discrete_fairing.source
+
+
+def source_problem(target: Object) -> str:
+    """Why `target` cannot be made from the source that it names, in one sentence; empty if it can,
+    or names none. Scripts may name any object.
+    """
     source = target.discrete_fairing.source
-    return source if source is not None and source.type == "MESH" and source != target else None
+    return "" if source is None else why_unfit(target, source)
+
+
+def no_source_reason(target: Object | None) -> str:
+    """Why `target`, which `source_of` knows nothing of, cannot be computed again, in one sentence."""
+    problem = source_problem(target) if target is not None and target.type == "MESH" else ""
+    return problem or "Select a faired surface whose source still exists"
 
 
 def _plain(value: Any) -> Any:

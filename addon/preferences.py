@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.props import IntProperty
+from bpy.props import IntProperty, StringProperty
 
 from .blender import Context, all_scenes, current_context
 
@@ -16,6 +16,7 @@ class Defaults:
     levels = 3
     memory_limit = 0
     threads = 0
+    speeds = "{}"
 
 
 class DiscreteFairingPreferences(bpy.types.AddonPreferences):
@@ -43,6 +44,13 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
         default=Defaults.threads,
         min=0,
         max=1024,
+    )
+
+    speeds: StringProperty(
+        name="Speeds",
+        description="Seconds a triangle of this machine's last runs, by energy, as JSON",
+        default=Defaults.speeds,
+        options={"HIDDEN"},
     )
 
     def draw(self, _context: Context) -> None:

@@ -54,7 +54,7 @@ def _sources(settings: Any, context: Context) -> list[Object]:
     if owner is None and active is not None and active.type == "MESH":
         owner = active.discrete_fairing.source
     if owner is not None:
-        return [owner]
+        return [owner] if owner.type == "MESH" else []
     chosen = {o.name: o for o in (*context.selected_objects, active) if o is not None}
     return [o for o in chosen.values() if o.type == "MESH"]
 
@@ -83,7 +83,7 @@ class FairingSettings:
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="How far the surface may pass from a vertex of the source, before the object's scale. "
+        description="How far the surface may pass from a vertex of the source, in scene units. "
         "A small tolerance removes most bumps",
         default=0.01,
         min=0.0,

@@ -5,7 +5,6 @@ from typing import Any
 
 from ..blender import Mesh, Object, all_objects
 from ..mesh.layers import fill_layer, layer_values, make_layer
-from ..mesh.modifiers import inspection_modifier
 from ..mesh.read import read_mesh
 from . import measures, viewport_material
 from .curvature import curvature
@@ -95,12 +94,12 @@ def show(target: Object, mode: str, settings: Any) -> None:
     if mode == "NONE":
         viewport_material.take_off(target)
     elif mode == "ZEBRA":
-        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings.smooth)
+        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings)
     else:
         if target.mode != "EDIT":
             write_values(target.data)
             write_colours(target.data, mode, settings)
-        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings.smooth)
+        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
 
 
 def refresh(target: Object, settings: Any) -> None:
@@ -133,11 +132,15 @@ def recolour(target: Object, settings: Any) -> None:
         write_colours(target.data, mode, settings)
 
 
-def set_smooth(target: Object, settings: Any) -> None:
-    """Shades `target` smooth or not while it is inspected."""
-    modifier = inspection_modifier(target)
-    if modifier is not None:
-        viewport_material.set_smooth(modifier.node_group, settings.smooth)
+def redraw(target: Object, settings: Any) -> None:
+    """Shows what `target` shows as `settings`, of a scene that it is in, have it by now: stripes,
+    smooth or not. Nothing is measured.
+    """
+    mode = target.discrete_fairing_inspection.mode
+    if mode == "ZEBRA":
+        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings)
+    elif mode in CURVATURES:
+        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
 
 
 def _clear_attributes(target: Object) -> None:

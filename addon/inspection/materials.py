@@ -6,7 +6,11 @@ from typing import Any
 
 import bpy
 
+from ..blender import all_scenes
 from ..mesh.modifiers import INSPECTION_TAG
+
+# which scene's, as zebra and smooth are settings of scenes; none: of the first, and of older files
+SCENE_TAG = "fairing_inspection_scene"
 
 # the colour attribute that the curvature material shows
 COLOUR = "Fairing Curvature"
@@ -43,12 +47,39 @@ class Graph:
         ).outputs[0]
 
 
-def tagged(collection: Any, mode: str) -> Any:
-    """The member of a bpy.data collection that was made for `mode`, or None."""
+def scene_key(settings: Any) -> int:
+    """A number that no other scene has, for what is made by the `settings` of one. A scene that was
+    copied, or is new, gets its own on first use.
+    """
+    others = {
+        scene.discrete_fairing_inspection.key
+        for scene in all_scenes()
+        if scene != settings.id_data and scene.library is None
+    }
+    if settings.key in others:
+        settings.key = max(others) + 1
+    return settings.key
+
+
+def tagged(collection: Any, mode: str, key: int = 0) -> Any:
+    """The member of a bpy.data collection that was made for `mode` in the scene of `key`, or None."""
     return next(
-        (item for item in collection if item.get(INSPECTION_TAG) == mode and item.library is None),
+        (
+            item
+            for item in collection
+            if item.get(INSPECTION_TAG) == mode
+            and item.get(SCENE_TAG, 0) == key
+            and item.library is None
+        ),
         None,
     )
+
+
+def tag(item: Any, mode: str, key: int) -> None:
+    """Lets `tagged` find a material or node group."""
+    item[INSPECTION_TAG] = mode
+    if key:
+        item[SCENE_TAG] = key
 
 
 def lay_out(tree: Any) -> None:
@@ -73,19 +104,11 @@ def lay_out(tree: Any) -> None:
 
 
 def zebra_material(settings: Any) -> bpy.types.Material:
-    """The one zebra material of the file, made if need be and set as `settings` says."""
-    material = tagged(bpy.data.materials, ZEBRA_MODE) or _build_zebra()
-    update_zebra(settings)
-    return material
-
-
-def update_zebra(settings: Any) -> None:
-    """Gives the material, if there is one, the values of `settings`: stripes, direction, sharpness,
-    fixed_to.
+    """The zebra material of the scene whose `settings` these are, made if need be: stripes,
+    direction, sharpness, fixed_to.
     """
-    material = tagged(bpy.data.materials, ZEBRA_MODE)
-    if material is None:
-        return
+    key = scene_key(settings)
+    material: Any = tagged(bpy.data.materials, ZEBRA_MODE, key) or _build_zebra(key)
     nodes = material.node_tree.nodes
     by_view = settings.fixed_to == "VIEW"
     # upright is y for the view and z for the object
@@ -98,12 +121,13 @@ def update_zebra(settings: Any) -> None:
     width = 0.02 + (1.0 - settings.sharpness) * 0.98
     nodes["Edge"].inputs["From Min"].default_value = -width
     nodes["Edge"].inputs["From Max"].default_value = width
+    return material
 
 
-def _begin(name: str, mode: str) -> tuple[bpy.types.Material, Graph]:
+def _begin(name: str, mode: str, key: int = 0) -> tuple[bpy.types.Material, Graph]:
     """A new material that shows a mode of inspection, and its empty graph."""
     material = bpy.data.materials.new(name)
-    material[INSPECTION_TAG] = mode
+    tag(material, mode, key)
     if not material.use_nodes:  # since 5.0 always on, and setting it is deprecated
         material.use_nodes = True
     return material, Graph(material.node_tree)
@@ -121,8 +145,8 @@ def _finish(graph: Graph, emission: bpy.types.Node) -> None:
     lay_out(graph.tree)
 
 
-def _build_zebra() -> bpy.types.Material:
-    material, graph = _begin(ZEBRA_NAME, ZEBRA_MODE)
+def _build_zebra(key: int) -> bpy.types.Material:
+    material, graph = _begin(ZEBRA_NAME, ZEBRA_MODE, key)
 
     geometry = graph.node("ShaderNodeNewGeometry")
     to_surface = graph.node(

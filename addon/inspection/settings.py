@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender import Context, Mesh, attach, detach
-from . import display, materials
+from . import display
 
 MODES = (
     ("NONE", "Off", "The object in its own materials", "SHADING_SOLID", 0),
@@ -50,20 +50,17 @@ def _mode_changed(group: Any, context: Context) -> None:
         display.show(target, group.mode, context.scene.discrete_fairing_inspection)
 
 
-def _zebra_changed(group: Any, _context: Context) -> None:
-    materials.update_zebra(group)
-
-
 def _range_changed(group: Any, context: Context) -> None:
     for target in context.scene.objects:
         if target.type == "MESH":
             display.recolour(target, group)
 
 
-def _smooth_changed(group: Any, context: Context) -> None:
-    for target in context.scene.objects:
+def _drawing_changed(group: Any, _context: Context) -> None:
+    """Of all objects of this scene: one that another scene has too shows what was said last."""
+    for target in group.id_data.objects:
         if target.type == "MESH":
-            display.set_smooth(target, group)
+            display.redraw(target, group)
 
 
 class FAIRING_PG_display(bpy.types.PropertyGroup):
@@ -81,6 +78,12 @@ class FAIRING_PG_display(bpy.types.PropertyGroup):
 class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     """How it is drawn; kept with the scene."""
 
+    key: IntProperty(
+        name="Key",
+        description="Tells the materials of this scene from those of others",
+        options={"HIDDEN"},
+    )
+
     stripes: IntProperty(
         name="Stripes",
         description="How many pairs of light and dark stripes the room around the surface has. "
@@ -89,7 +92,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         min=1,
         max=200,
         soft_max=60,
-        update=_zebra_changed,
+        update=_drawing_changed,
     )
     direction: FloatProperty(
         name="Direction",
@@ -98,7 +101,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         soft_min=radians(-90),
         soft_max=radians(90),
         subtype="ANGLE",
-        update=_zebra_changed,
+        update=_drawing_changed,
     )
     sharpness: FloatProperty(
         name="Sharpness",
@@ -107,7 +110,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         min=0.0,
         max=1.0,
         subtype="FACTOR",
-        update=_zebra_changed,
+        update=_drawing_changed,
     )
     fixed_to: EnumProperty(
         name="Fixed to",
@@ -124,13 +127,13 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
                 "The tubes stand around the object, like lamps in a showroom, and turn with it",
             ),
         ),
-        update=_zebra_changed,
+        update=_drawing_changed,
     )
     smooth: BoolProperty(
         name="Smooth",
         description="Shades the object smooth while it is inspected, whatever its faces say. Sharp edges stay sharp",
         default=True,
-        update=_smooth_changed,
+        update=_drawing_changed,
     )
     range_low: FloatProperty(
         name="Range from",

@@ -14,18 +14,18 @@ import bpy
 
 from ..blender import Object
 from ..mesh.modifiers import INSPECTION_TAG, inspection_modifier
-from .materials import Graph, lay_out, tagged
+from .materials import Graph, lay_out, scene_key, tag, tagged
 
 NAME = "Fairing Inspection"
 
 
-def put_on(target: Object, mode: str, material: bpy.types.Material, smooth: bool) -> None:
-    """Shows `target` in `material`, shaded smooth if asked.
+def put_on(target: Object, mode: str, material: bpy.types.Material, settings: Any) -> None:
+    """Shows `target` in `material`, shaded smooth if the scene's `settings` say so.
 
-    `mode` names what is shown, one node group for each.
+    `mode` names what is shown, one node group for each in a scene.
     """
     modifier: Any = inspection_modifier(target) or target.modifiers.new(NAME, "NODES")
-    modifier.node_group = _group(mode, material, smooth)
+    modifier.node_group = _group(mode, material, settings)
     modifier.show_expanded = False
     modifier.show_viewport = modifier.show_render = True
 
@@ -45,20 +45,17 @@ def take_off(target: Object) -> None:
             collection.remove(item)
 
 
-def set_smooth(tree: bpy.types.NodeTree, smooth: bool) -> None:
-    tree.nodes["Smooth"].mute = not smooth
-
-
-def _group(mode: str, material: bpy.types.Material, smooth: bool) -> bpy.types.NodeTree:
-    tree: Any = tagged(bpy.data.node_groups, mode) or _build(mode)
+def _group(mode: str, material: bpy.types.Material, settings: Any) -> bpy.types.NodeTree:
+    key = scene_key(settings)
+    tree: Any = tagged(bpy.data.node_groups, mode, key) or _build(mode, key)
     tree.nodes["Material"].inputs["Material"].default_value = material
-    set_smooth(tree, smooth)
+    tree.nodes["Smooth"].mute = not settings.smooth
     return tree
 
 
-def _build(mode: str) -> bpy.types.NodeTree:
+def _build(mode: str, key: int) -> bpy.types.NodeTree:
     tree: Any = bpy.data.node_groups.new(f"{NAME} {mode.title()}", "GeometryNodeTree")
-    tree[INSPECTION_TAG] = mode
+    tag(tree, mode, key)
     tree.is_modifier = True
     for in_out in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")

@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces that are live. It exists while Blender runs: files do not keep it.
-
-Objects are remembered so that undo and deleting, which leave pointers to nowhere, do no harm.
-"""
+"""The surfaces that are live. It exists while Blender runs: files do not keep it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import bpy
 
-from ..blender import Object, all_objects
+from ..blender import Object
+from ..memory import source_problem
 from ..mesh.object import session_key
 
 if TYPE_CHECKING:
@@ -24,25 +22,19 @@ _endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sen
 _quiet = 0
 
 
-class Reference:
-    """Finds its object again; None once that is gone."""
-
-    def __init__(self, target: Object) -> None:
-        self.key = session_key(target)
-        self._name = target.name
-
-    def find(self) -> Object | None:
-        target = cast(Object | None, bpy.data.objects.get(self._name))
-        if target is None or session_key(target) != self.key:
-            target = next((o for o in all_objects() if session_key(o) == self.key), None)
-        if target is not None:
-            self._name = target.name
-        return target
-
-
 def is_in_a_scene(target: Object) -> bool:
     """Deleting takes an object out of its scenes; it goes itself only if nobody else refers to it."""
     return any(scene.objects.get(target.name) == target for scene in bpy.data.scenes)
+
+
+def why_gone(source: Object | None, target: Object | None) -> str:
+    """Why a surface and its source are not to be followed any more, a sentence; empty if they are."""
+    if target is None or not is_in_a_scene(target):
+        return "The surface was deleted: Live has ended"
+    if source_problem(target):
+        return f"{source_problem(target)}. Live has ended"
+    gone = source is None or not is_in_a_scene(source)
+    return "The source was deleted: Live has ended" if gone else ""
 
 
 def sessions() -> list[Session]:

@@ -12,34 +12,29 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .. import core, errors, size
+from .. import core, errors, memory, size
 from ..blender import Context, Mesh, Object, current_context
-from ..core import (
-    ControlArrays,
-    are_equal,
-    fair_arguments,
-    mean_edge_length,
-    without_vertices,
-)
+from ..core import ControlArrays, are_equal, fair_arguments, mean_edge_length, without_vertices
 from ..errors import JobError
 from ..inspection import display
+from ..memory import source_of
 from ..mesh.layers import read_data
-from ..mesh.object import session_key
+from ..mesh.object import Reference, session_key
+from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
+from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..settings import is_evaluated, snapshot
 from .full_level import PAUSE, FullLevel, is_editing
 from .pace import Clock, Deadline, Pace
-from .registry import Reference, is_in_a_scene
+from .registry import why_gone
 
 # what is enough to look at, and mostly one step an update; the full level has the core's own
 # accuracy
 _RESIDUAL = 1e-3
 _STEP = 1e-2
 
-SOURCE_GONE = "The source was deleted: Live has ended"
-SURFACE_GONE = "The surface was deleted: Live has ended"
 SURFACE_EDITED = "The surface itself is being edited: Live waits"
 
 
@@ -64,6 +59,7 @@ class Session:
         self._mesh: int | str | None = None  # key of the mesh that was built
         self._due: float | None = None  # when the full level may begin
         self._full: FullLevel | None = None
+        self._own: OwnData | None = None  # of the surface at its full level
         self._forget()
 
     def _forget(self) -> None:
@@ -72,6 +68,7 @@ class Session:
         self._arguments: Any = None
         self._arrays: Any = None
         self._settings: Any = None
+        self._shape = WorldShape(None)
         self._region: np.ndarray | None = None
         self._shares: np.ndarray | None = None
         self._edge_length = (
@@ -83,7 +80,7 @@ class Session:
     def objects(self) -> tuple[Object | None, Object | None]:
         """(source, target), None for what is gone."""
         target = self._target.find()
-        return (target.discrete_fairing.source if target is not None else None), target
+        return (source_of(target) if target is not None else None), target
 
     def _present(self) -> tuple[Object, Object]:
         """(source, target), which are there: nothing is asked of a session before `why_gone`."""
@@ -93,10 +90,7 @@ class Session:
 
     def why_gone(self) -> str:
         """Why there is nothing to follow any more, a sentence; empty if there is."""
-        source, target = self.objects()
-        if target is None or not is_in_a_scene(target):
-            return SURFACE_GONE
-        return SOURCE_GONE if source is None or not is_in_a_scene(source) else ""
+        return why_gone(*self.objects())
 
     def needs_look(self, reshaped: Collection[int | str] = ()) -> bool:
         """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose
@@ -105,7 +99,7 @@ class Session:
         source, target = self._present()
         if self._stale or session_key(source) in reshaped or session_key(source.data) in reshaped:
             return True
-        return not self._has_settings_of(target)
+        return not self._has_settings_of(source, target)
 
     def distrust(self) -> None:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
@@ -129,9 +123,10 @@ class Session:
 
     def _follow(self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph) -> bool:
         clock = Clock()
-        if not self._has_settings_of(target):
+        if not self._has_settings_of(source, target):
             self._forget()
             self._settings, self._chosen = snapshot(target.discrete_fairing), _chosen_level(target)
+            self._shape = world_shape(source)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             self._shares = tolerance_shares(source, mesh, self._settings)
@@ -170,7 +165,10 @@ class Session:
         while True:
             deadline = Deadline()
             try:
-                return self.solver.solve(arrays.positions, progress=deadline)
+                world = self._shape.of(arrays.positions)
+                result = self.solver.solve(world, progress=deadline)
+                result.vertices = self._shape.back(result.vertices, world, arrays.positions)
+                return result
             except core.module().FairingError:
                 if not deadline.is_over:
                     raise
@@ -188,10 +186,11 @@ class Session:
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
+        world = self._shape.of_arrays(arrays)
         if not (self._edge_length and _same_faces(arrays, self._arrays)):
-            self._edge_length = mean_edge_length(arrays)
+            self._edge_length = mean_edge_length(world)
         arguments = fair_arguments(
-            arrays,
+            world,
             self._settings,
             preferences(),
             self._region,
@@ -223,7 +222,12 @@ class Session:
         if self._mesh != session_key(target.data) or not has_faces_of(target.data, result):
             with self._mesh_now(source, depsgraph) as mesh:
                 data = read_data(source, mesh, is_evaluated(self._settings))
+            if self._own is None:
+                carried = memory.recall(target, "carried") or {}
+                self._own = read_own(target, carried_names(data, data.shape_keys), carried)
             rebuild_mesh(target, result, self._arrays, data, self._settings, self._level)
+            if self._own is not None:
+                write_own(target, self._own, in_handler=True)
             self._mesh = session_key(target.data)
         else:
             write_positions(target.data, result.vertices)
@@ -239,10 +243,13 @@ class Session:
         self._stale = False
         self._due = None
 
-    def _has_settings_of(self, target: Object) -> bool:
-        return self._settings == snapshot(
-            target.discrete_fairing
-        ) and self._chosen == _chosen_level(target)
+    def _has_settings_of(self, source: Object, target: Object) -> bool:
+        """The scale of the source counts as one."""
+        return (
+            self._settings == snapshot(target.discrete_fairing)
+            and self._chosen == _chosen_level(target)
+            and self._shape == world_shape(source)
+        )
 
     # --- the full level
 
@@ -306,8 +313,9 @@ class Session:
         if self._present()[1].mode == "EDIT":
             self._due = monotonic() + PAUSE
             return
-        target = full.job.write(context)
         job = full.job
+        target = job.write(context, self._own)
+        self._own = None
         self.level, self.triangles = job.settings.levels, job.triangles
         # the same faces: the next edit need only move them
         self._mesh = session_key(target.data) if job.settings.levels == self._level else None

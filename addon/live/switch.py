@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import core
 from ..blender import Context, Object, all_objects, attach, current_context, detach
+from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..size import count_text
 from . import handlers, registry
@@ -21,9 +22,9 @@ def poll_reason(target: Object) -> str:
     """Why this object cannot be live, in one sentence; empty if it can."""
     if core.why_missing():
         return core.why_missing()
-    source = target.discrete_fairing.source if target.type == "MESH" else None
+    source = source_of(target)
     if source is None:
-        return "Select a faired surface whose source still exists"
+        return no_source_reason(target)
     if any(block.library or block.override_library for block in (target, target.data)):
         return "A linked object cannot be changed"
     if any(block.library for block in (source, source.data)):

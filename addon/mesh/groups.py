@@ -58,25 +58,53 @@ def read_groups(source: Object, mesh: Mesh) -> list[VertexGroup]:
     ]
 
 
-def write_groups(target: Object, groups: list[VertexGroup], active: int, carrier: Carrier) -> None:
+def write_groups(
+    target: Object,
+    groups: list[VertexGroup],
+    active: int,
+    carrier: Carrier,
+    operators: bool = True,
+) -> None:
     """Gives the object `target`, itself in Object Mode, the vertex `groups` (list of VertexGroup)
     with carried weights.
+
+    `operators`: whether Blender's may be called, which they may not from its handlers.
     """
     target.vertex_groups.clear()
     for group in groups:
-        control = group.dense(carrier.control_count)
-        made = (
-            _convert(target, carrier.point(control).ravel())
-            if control.any()
-            else target.vertex_groups.new()
-        )
-        made.name = group.name
-        zero = group.vertices[group.weights == 0.0]
-        if len(zero):  # the operator leaves them out; membership counts even so
-            made.add(zero.tolist(), 0.0, "REPLACE")
-        made.lock_weight = group.lock_weight
+        weights = carrier.point(group.dense(carrier.control_count)).ravel()
+        write_group(target, group, weights, group.vertices[group.weights == 0.0], operators)
     if groups:
         target.vertex_groups.active_index = active
+
+
+def write_group(
+    target: Object,
+    group: VertexGroup,
+    weights: np.ndarray,
+    zero: np.ndarray,
+    operators: bool = True,
+) -> None:
+    """Gives `target` one more group, named and locked as `group`: with `weights` (N,) that are not
+    0, and the members `zero` (k,) of weight 0.
+    """
+    make = _convert if operators and weights.any() else _add
+    made = make(target, weights)
+    made.name = group.name
+    if len(zero):  # the operator leaves them out; membership counts even so
+        made.add(zero.tolist(), 0.0, "REPLACE")
+    made.lock_weight = group.lock_weight
+
+
+def _add(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
+    """A new vertex group of the `weights` (N,) that are not 0, those of one weight at a time."""
+    made = target.vertex_groups.new()
+    members = np.flatnonzero(weights)
+    members = members[np.argsort(weights[members], kind="stable")]
+    found, starts = np.unique(weights[members], return_index=True)
+    for weight, ids in zip(found.tolist(), np.split(members, starts[1:])):
+        made.add(ids.tolist(), weight, "REPLACE")
+    return made
 
 
 def _convert(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:

@@ -148,8 +148,8 @@ def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceDat
     shape_keys = None if evaluated else read_shape_keys(source, len(mesh.vertices))
     return SurfaceData(
         attributes=attributes,
-        edge_marks=_marks(mesh.edges, EDGE_MARKS),
-        face_marks=_marks(mesh.polygons, FACE_MARKS),
+        edge_marks=read_marks(mesh.edges, EDGE_MARKS),
+        face_marks=read_marks(mesh.polygons, FACE_MARKS),
         active_uv=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         render_uv=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         active_color=mesh.attributes.active_color_name,
@@ -161,7 +161,8 @@ def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceDat
     )
 
 
-def _marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+    """(size,) bool by the `names` of properties, of `elements` of a mesh; those that mark any."""
     found = {}
     for name in names:
         # Blender may be built without Freestyle
@@ -250,12 +251,16 @@ def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> No
 
 
 def write_data(
-    target: Object, data: SurfaceData, carrier: Carrier, leave_out: Collection[str] = ()
+    target: Object,
+    data: SurfaceData,
+    carrier: Carrier,
+    leave_out: Collection[str] = (),
+    operators: bool = True,
 ) -> None:
     """Gives the object `target`, in Object Mode with the refined mesh, what `data` (SurfaceData)
     holds; `carrier`: Carrier.
 
-    Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
+    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
     Shape keys: see shape_keys.py; they come last, since attributes of a mesh that has them are
     harder to change.
     """
@@ -266,7 +271,7 @@ def write_data(
         mesh.edges.foreach_set(name, inherit(values, origin))
     for name, values in data.face_marks.items():
         mesh.polygons.foreach_set(name, carrier.face(values))
-    write_groups(target, data.groups, data.active_group, carrier)
+    write_groups(target, data.groups, data.active_group, carrier, operators)
     _choose_active(mesh, data)
     mesh.update()
 

@@ -12,12 +12,14 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
+from .. import size
 from ..blender import Context, Mesh, Scene
 from .object import session_key
 
 _watched: dict[
     int | str, int | None
 ] = {}  # mesh key: checksum of its positions when it was measured
+_triangles: dict[int | str, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
 _changed: set[int | str] = set()  # keys of meshes that have changed since
 
 
@@ -30,6 +32,18 @@ def watch(context: Context, mesh: Mesh) -> list[int]:
     _watched[session_key(mesh)] = None if mesh.is_editmode else _checksum(mesh)
     _changed.discard(session_key(mesh))
     return counts(mesh)
+
+
+def coarse_triangles(mesh: Mesh) -> int:
+    """Triangles that `mesh` stands for, for drawing: counted anew when its numbers of faces or
+    corners are others. In Edit Mode as of the last update.
+    """
+    now = (len(mesh.loops), len(mesh.polygons))
+    known = _triangles.get(session_key(mesh))
+    if known is None or known[0] != now:
+        count = size.coarse_triangles(size.face_sizes(mesh))
+        known = _triangles[session_key(mesh)] = (now, count)
+    return known[1]
 
 
 def counts(mesh: Mesh) -> list[int]:
@@ -49,6 +63,8 @@ def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
 
 @persistent
 def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if not _watched:
+        return
     for update in depsgraph.updates:
         if not isinstance(update.id, Mesh) or not update.is_updated_geometry:
             continue
@@ -66,6 +82,7 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 @persistent
 def _forget(*_: Any) -> None:
     _watched.clear()
+    _triangles.clear()
     _changed.clear()
 
 

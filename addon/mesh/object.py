@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The new object beside its source: same place, same collections, same materials."""
 
+from collections.abc import Collection
 from typing import Any, cast
 
 import bpy
 
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Mesh, Object, all_objects
 
 _TRANSFORM = (
     "rotation_mode",  # first: the others are read by it
@@ -27,6 +28,24 @@ def session_key(block: bpy.types.ID) -> int | str:
     return getattr(block, "session_uid", None) or block.name_full
 
 
+class Reference:
+    """Finds its object again, after undo and deleting too, which leave pointers to nowhere; None
+    once the object is gone.
+    """
+
+    def __init__(self, target: Object) -> None:
+        self.key = session_key(target)
+        self._name = target.name
+
+    def find(self) -> Object | None:
+        target = cast(Object | None, bpy.data.objects.get(self._name))
+        if target is None or session_key(target) != self.key:
+            target = next((o for o in all_objects() if session_key(o) == self.key), None)
+        if target is not None:
+            self._name = target.name
+        return target
+
+
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
     target = cast(Object, bpy.data.objects.new(mesh.name, mesh))
@@ -34,23 +53,6 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
         collection.objects.link(target)
     _copy_place(context, source, target)
     _copy_object_materials(source, target)
-    return target
-
-
-def replace_mesh(target: Object, mesh: Mesh) -> Object:
-    """Puts `mesh` in the place of the mesh of `target`, for all objects that share it, and returns
-    `target`.
-
-    The materials are those that the old mesh has by now, and its name goes on.
-    """
-    old = target.data
-    mesh.materials.clear()
-    for material in old.materials:
-        mesh.materials.append(material)
-    name = old.name
-    old.user_remap(mesh)
-    bpy.data.meshes.remove(old)
-    mesh.name = name
     return target
 
 
@@ -87,16 +89,19 @@ def _copy_object_materials(source: Object, target: Object) -> None:
             own.material = theirs.material
 
 
-def copy_drivers(source: Any, target: Any, prefix: str = "") -> None:
+def copy_drivers(
+    source: Any, target: Any, prefix: str = "", leave_out: Collection[str] = ()
+) -> None:
     """Gives `target` the drivers of `source`, a data-block of the same kind, whose path begins with
-    `prefix`.
+    `prefix` and is none to `leave_out`.
     """
     if source.animation_data is None:
         return
     for driver in source.animation_data.drivers:
-        if driver.data_path.startswith(prefix) and _resolves(target, driver.data_path):
+        path = driver.data_path
+        if path.startswith(prefix) and path not in leave_out and _resolves(target, path):
             drivers = target.animation_data_create().drivers
-            old = drivers.find(driver.data_path, index=driver.array_index)
+            old = drivers.find(path, index=driver.array_index)
             if old is not None:
                 drivers.remove(old)
             drivers.from_existing(src_driver=driver)

@@ -46,9 +46,7 @@ def control_mesh(
         source.update_from_editmode()
     if evaluated:
         known = (
-            nullcontext(source.evaluated_get(depsgraph))
-            if depsgraph
-            else _evaluated(context, source)
+            nullcontext(_of_update(source, depsgraph)) if depsgraph else _evaluated(context, source)
         )
         with known as owner, _copy_of_mesh(owner) as mesh:
             yield mesh
@@ -73,16 +71,29 @@ def _copy_of_mesh(owner: Object) -> Iterator[Mesh]:
 def _evaluated(context: Context, source: Object) -> Iterator[Object]:
     """`source` with its modifiers applied.
 
-    Blender evaluates no object that is hidden, so it is shown meanwhile.
+    Blender evaluates no object that is hidden, disabled, excluded or not in the scene, so a copy
+    that is none of that stands in meanwhile.
     """
-    hidden = source.hide_get()
-    if hidden:
-        source.hide_set(False)
-    try:
+    if source.visible_get():
         yield source.evaluated_get(context.evaluated_depsgraph_get())
+        return
+    shown = source.copy()
+    try:
+        shown.hide_viewport = False
+        context.scene.collection.objects.link(shown)
+        yield shown.evaluated_get(context.evaluated_depsgraph_get())
     finally:
-        if hidden:
-            source.hide_set(True)
+        bpy.data.objects.remove(shown)
+
+
+def _of_update(source: Object, depsgraph: bpy.types.Depsgraph) -> Object:
+    """`source` as `depsgraph` has it, with its modifiers applied; JobError if it has not."""
+    if not source.visible_get(view_layer=depsgraph.view_layer):
+        raise JobError(
+            f"{source.name}: it is hidden, so Blender does not run its modifiers. Show it, "
+            "or set Control Mesh to As Modelled."
+        )
+    return source.evaluated_get(depsgraph)
 
 
 def read_mesh(mesh: Mesh) -> ControlArrays:

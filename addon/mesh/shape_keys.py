@@ -8,8 +8,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import Object
-from .object import copy_drivers
+from ..blender import Mesh, Object
+from .object import copy_drivers, session_key
 
 SETTINGS = (
     "slider_min",
@@ -98,10 +98,7 @@ def write_shape_keys(
     for block, positions in zip(blocks[1:], shapes, strict=True):
         block.data.foreach_set("co", np.ascontiguousarray(positions, np.float32).ravel())
     for block, key in zip(blocks, keys.keys):
-        block.name = key.name
-        block.relative_key = blocks[key.relative_key]
-        for name, value in key.settings.items():
-            setattr(block, name, value)
+        _set_up(block, key, blocks[key.relative_key])
     owner: Any = target.data.shape_keys
     owner.use_relative = keys.use_relative
     owner.eval_time = keys.eval_time
@@ -109,3 +106,66 @@ def write_shape_keys(
     target.show_only_shape_key = keys.show_only
     if source is not None and source.data.shape_keys is not None:
         copy_drivers(source.data.shape_keys, owner)
+
+
+def _set_up(block: bpy.types.ShapeKey, key: ShapeKey, relative: bpy.types.ShapeKey) -> None:
+    block.name = key.name
+    block.relative_key = relative
+    for name, value in key.settings.items():
+        setattr(block, name, value)
+
+
+def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray) -> None:
+    """Gives `target` one more `key`, which is (N, 3) `away` from the key by the name `relative`, or
+    from the first one if there is none by that name.
+    """
+    if target.data.shape_keys is None:
+        target.shape_key_add(name="Basis", from_mix=False)
+    keys: Any = target.data.shape_keys
+    blocks = keys.key_blocks
+    base = blocks.get(relative) or blocks[0]
+    block = target.shape_key_add(name=key.name, from_mix=False)
+    block.data.foreach_set("co", np.float32(_positions(base) + away).ravel())
+    _set_up(block, key, base)
+
+
+@dataclass(frozen=True)
+class KeyAnimation:
+    """What animates the shape keys of a mesh, kept alive while they are made anew."""
+
+    spare: int | str  # key of a copy of the mesh, with its keys and their drivers
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> "KeyAnimation | None":
+        """None if nothing does."""
+        keys = mesh.shape_keys
+        if keys is None or keys.animation_data is None:
+            return None
+        return cls(session_key(mesh.copy()))
+
+    def give(self, target: Object) -> list[str]:
+        """Lets it animate the keys of `target`; what is lost, a sentence each."""
+        spare: Any = next((m for m in bpy.data.meshes if session_key(m) == self.spare), None)
+        new, notes = target.data.shape_keys, []
+        if new is None or spare is None:  # undo may have taken the copy
+            notes.append("The animation of the surface's shape keys is dropped.")
+        else:
+            old = spare.shape_keys
+            its = old.animation_data
+            if its.action is not None:
+                _act(its, new.animation_data_create())
+            driven = (
+                {d.data_path for d in new.animation_data.drivers} if new.animation_data else set()
+            )
+            copy_drivers(old, new, leave_out=driven)
+            if len(its.nla_tracks):
+                notes.append("The NLA tracks of the surface's shape keys are dropped.")
+        if spare is not None:
+            bpy.data.meshes.remove(spare)
+        return notes
+
+
+def _act(old: Any, new: Any) -> None:
+    new.action = old.action
+    if getattr(old, "action_slot", None) is not None:  # since Blender 4.4
+        new.action_slot = old.action_slot

@@ -15,6 +15,12 @@ from ..transfer.lattice import fine_edges, mark_pairs
 from .layers import SurfaceData, fill_layer, make_layer, write_data
 
 PAD_SIZES = "fair_pad_size"
+# attributes on points: where something is wrong with the surface, by kind
+FAULTS = {
+    "crossing": "fair_crosses_itself",
+    "far": "fair_far_from_mesh",
+    "folded": "fair_folded",
+}
 
 
 def write_mesh(
@@ -52,23 +58,31 @@ def rebuild_mesh(
     level: int,
 ) -> None:
     """Gives the mesh of `target` the geometry of `result` and what the control mesh carries, shape
-    keys excepted.
+    keys excepted. For handlers: calls no operator.
 
     The mesh, its materials and the object's modifiers stay.
     """
-    mesh = target.data
-    if mesh.shape_keys is not None:
-        target.shape_key_clear()
-    mesh.clear_geometry()
-    fill_mesh(mesh, result, fine_edges(result.faces, result.crease_edges, level))
+    refill_mesh(target, result, fine_edges(result.faces, result.crease_edges, level))
     carrier = Carrier(result, arrays, level)
-    write_data(target, data, carrier, attributes_left_out(settings))
-    write_pad_sizes(mesh, result, carrier)
+    write_data(target, data, carrier, attributes_left_out(settings), operators=False)
+    write_pad_sizes(target.data, result, carrier)
+
+
+def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
+    """Gives the mesh of `target`, for all objects that share it, the geometry of `result`.
+
+    Its materials, custom properties and name stay; all that lay on the old geometry is gone.
+    """
+    if target.data.shape_keys is not None:
+        target.shape_key_clear()
+    target.data.clear_geometry()
+    fill_mesh(target.data, result, sharp_pairs)
 
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    return (PAD_SIZES, "sharp_face") if settings.shade_smooth else (PAD_SIZES,)
+    made = (PAD_SIZES, *FAULTS.values())
+    return (*made, "sharp_face") if settings.shade_smooth else made
 
 
 def write_pad_sizes(mesh: Mesh, result: Any, carrier: Carrier) -> None:

@@ -8,28 +8,27 @@ from typing import cast
 
 import bpy
 
-from .. import core
+from .. import core, prediction
 from ..blender import Answer, Context, Object, registration
 from ..errors import JobError
 from ..job import Job
+from ..memory import no_source_reason, source_of
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
 from ..settings import FairingSettings
 from ..ui.layout import draw_settings
+from . import fill
 from .modal import ModalRun
-
-# triangles; fewer are done before a progress bar could be read, by the fastest energy
-IMMEDIATE = 200_000
-TIMES_AS_LONG = {"THIN_PLATE": 1, "TOTAL_CURVATURE": 5, "MINIMUM_VARIATION": 15}
 
 
 def poll_reason(context: Context) -> str:
     """Why nothing can be faired here, in one sentence; empty when it can."""
     if core.why_missing():
         return core.why_missing()
-    if running():
+    queue = running()
+    if queue is not None and not queue.gives_way:
         return "A surface is being faired at this moment"
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
         return "Fairing works in Object Mode and Edit Mode"
@@ -45,16 +44,32 @@ class _Fairing(ExplainedPoll, ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if sum(job.triangles * TIMES_AS_LONG[job.settings.energy] for job in jobs) > IMMEDIATE:
+        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)
         return self._block(context, jobs)
 
     def execute(self, context: Context) -> Answer:
         jobs = self._prepare(context)
-        return {"CANCELLED"} if jobs is None else self._block(context, jobs)
+        if jobs is None:
+            return {"CANCELLED"}
+        if self.is_redone() and fill.predicted_seconds(jobs) > prediction.PATIENCE:
+            return self._begin_small(context, jobs)
+        return self._block(context, jobs)
+
+    def is_redone(self) -> bool:
+        """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
+        return self.options.is_repeat and not bpy.app.background
+
+    def _begin_small(self, context: Context, jobs: list[Job]) -> Answer:
+        """Makes small surfaces at once, and lets the whole ones follow in the background."""
+        answer = self._block(context, fill.small_jobs(context, jobs))
+        if answer == {"FINISHED"}:
+            fill.fill_soon(context, self._written, jobs)
+        return answer
 
     def _prepare(self, context: Context) -> list[Job] | None:
         """The jobs, or None after an error has been reported."""
+        fill.give_way()
         try:
             return self.make_jobs(context)
         except JobError as error:
@@ -77,18 +92,19 @@ class _Fairing(ExplainedPoll, ModalRun):
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
             self.report(
-                {"ERROR"}, f"{', '.join(gone)} was deleted during the run: nothing has been made."
+                {"ERROR"},
+                f"{', '.join(gone)} was deleted or undone during the run: nothing has been made.",
             )
             return {"CANCELLED"}
         if context.mode == "EDIT_MESH":
             bpy.ops.object.mode_set(mode="OBJECT")
-        written = [job.write(context) for job in jobs]
+        self._written = [job.write(context) for job in jobs]
         for job in jobs:
             for sentence in job.notes:
                 self.report({"INFO"}, f"{job.name}: {sentence}")
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        select_only(context, written)
+        select_only(context, self._written)
         self.after(context, jobs)
         return {"FINISHED"}
 
@@ -121,22 +137,16 @@ class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
 
     def after(self, context: Context, jobs: list[Job]) -> None:
         for job in jobs:
-            if self.hide_source and context.view_layer.objects.get(job.source.name) == job.source:
-                job.source.hide_set(True)
+            source = cast(Object, job.source)  # there, as `finish` has seen
+            if self.hide_source and context.view_layer.objects.get(source.name) == source:
+                source.hide_set(True)
 
 
 def faired_objects(context: Context) -> list[Object]:
-    """The selected objects that remember a source; the active one alone if none."""
-    selected = [
-        o for o in context.selected_objects if o.type == "MESH" and o.discrete_fairing.source
-    ]
+    """The selected objects that can be made from their source; the active one alone if none."""
+    selected = [o for o in context.selected_objects if source_of(o)]
     active = context.active_object
-    if (
-        not selected
-        and active is not None
-        and active.type == "MESH"
-        and active.discrete_fairing.source
-    ):
+    if not selected and active is not None and source_of(active):
         selected = [active]
     return sorted(selected, key=lambda o: o == active)
 
@@ -154,14 +164,14 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
             return poll_reason(context)
         targets = faired_objects(context)
         if not targets:
-            return "Select a faired surface whose source still exists"
+            return no_source_reason(context.active_object)
         if any(target.data.library or target.library for target in targets):
             return "A linked object cannot be changed"
         return ""
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [
-            Job(context, target.discrete_fairing.source, target.discrete_fairing, target)
+            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
             for target in faired_objects(context)
         ]
 
@@ -178,17 +188,16 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         active = context.active_object
         if context.mode != "OBJECT":
             return "Go to Object Mode first"
-        if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
-            return "Select a faired surface whose source still exists"
-        source = active.discrete_fairing.source
+        source = source_of(active) if active is not None else None
+        if source is None:
+            return no_source_reason(active)
         if context.view_layer.objects.get(source.name) != source:
             return f"'{source.name}' is not in this view layer"
         return ""
 
     def execute(self, context: Context) -> Answer:
-        active = context.active_object
-        assert active is not None  # as poll_reason has seen
-        source = active.discrete_fairing.source
+        source = source_of(cast(Object, context.active_object))
+        assert source is not None  # as poll_reason has seen
         source.hide_set(False)
         select_only(context, [source])
         return {"FINISHED"}

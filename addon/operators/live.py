@@ -52,7 +52,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
                 switch.switch_off(target, context)
             return {"FINISHED"}
         for target in targets or [self._make(context)]:
-            _show(context, target.discrete_fairing.source)
+            _show(context, cast(Object, memory.source_of(target)))
             switch.switch_on(target)
             if switch.problem(target):
                 self.report({"WARNING"}, switch.problem(target))

@@ -6,7 +6,7 @@ import bpy
 from .. import core
 from ..blender import Answer, Context, OperatorBase
 from ..job import Job
-from ..queue import Queue, set_running, status_text
+from ..queue import Queue, running, set_running, status_text
 
 # what may still be done to the view meanwhile
 _NAVIGATION = {
@@ -27,13 +27,16 @@ class ModalRun(OperatorBase):
     all are done.
     """
 
+    # whether others may end the run, and the window goes on meanwhile as if there were none
+    gives_way = False
+
     def finish(self, context: Context, jobs: list[Job]) -> Answer:
         """For the operator to say."""
         raise NotImplementedError
 
     def start(self, context: Context, jobs: list[Job]) -> Answer:
         """Begins; the operator returns what this returns."""
-        self._queue = Queue(jobs, core.module().Monitor)
+        self._queue = Queue(jobs, core.module().Monitor, self.gives_way)
         set_running(self._queue)
         manager = context.window_manager
         self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
@@ -44,11 +47,13 @@ class ModalRun(OperatorBase):
     def modal(self, context: Context, event: bpy.types.Event) -> Answer:
         if event.type == "ESC" and event.value == "PRESS":
             self._queue.cancel()
+            return {"RUNNING_MODAL"}
         if event.type == "TIMER":
             if self._queue.finished:
                 return self._end(context)
             self._show(context, status_text(self._queue) + "     ESC: Cancel")
-        return {"PASS_THROUGH"} if event.type in _NAVIGATION else {"RUNNING_MODAL"}
+        passes = self.gives_way or event.type in _NAVIGATION
+        return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
 
     def cancel(self, context: Context) -> None:
         """Called by Blender when it ends the operator itself, as on quitting."""
@@ -60,15 +65,16 @@ class ModalRun(OperatorBase):
         self._clean_up(context)
         if queue.error:
             self.report({"ERROR"}, queue.error)
-        elif queue.cancelled:
+        elif queue.cancelled and not self.gives_way:
             self.report({"INFO"}, "Fairing was cancelled: nothing has changed")
-        else:
+        elif not queue.cancelled:
             return self.finish(context, list(queue.jobs))
         return {"CANCELLED"}
 
     def _clean_up(self, context: Context) -> None:
         self._queue.join()
-        set_running(None)
+        if running() is self._queue:
+            set_running(None)
         context.window_manager.event_timer_remove(self._timer)
         self._show(context, None)
 

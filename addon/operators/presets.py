@@ -3,7 +3,7 @@
 own folder.
 
 A preset is a script that sets the active operator's properties, as Blender's redo panel has it. The
-panel runs and keeps the same scripts with the scene's settings in the operator's place.
+panel runs and keeps the same scripts with the settings that it shows in the operator's place.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from bpy.props import StringProperty
 
 from ..blender import Answer, Context, registration
 from ..settings import NAMES
-from ..ui.main import PRESET_FOLDER
+from ..ui.main import PRESET_FOLDER, settings_at_hand
 
 _FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
 # belongs to the work at hand, not to the kind of thing that is made
@@ -23,7 +23,7 @@ NOT_KEPT = {"use_selection", "tolerance_group", "memory_limit"}
 
 
 def _settings_as_operator(context: Context) -> Any:
-    return context.temp_override(active_operator=context.scene.discrete_fairing)
+    return context.temp_override(active_operator=settings_at_hand(context))
 
 
 class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):

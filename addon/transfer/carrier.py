@@ -127,6 +127,7 @@ class Carrier:
         """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions,
         edges, corners, offsets).
         """
+        self.levels = levels
         self.control_count = len(arrays.positions)
         self.vertex_count = len(result.vertices)
         self._faired = faired_mesh(result, arrays)
@@ -143,6 +144,11 @@ class Carrier:
             start += fine.size
         self.corner_count = start
         self._polygon = np.concatenate([result.triangle_polygon, result.quad_polygon])
+
+    @property
+    def triangle_count(self) -> int:
+        """Of the refined mesh, a quad counting two."""
+        return sum(len(patch.fine) * (patch.fine.shape[1] - 2) for patch in self.patches)
 
     def used_vertices(self) -> np.ndarray:
         """(n,) bool: which control vertices belong to a face."""

@@ -2,17 +2,21 @@
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bl_ui.utils import PresetPanel
 
-from .. import core, size, vertex_values
+from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
-from ..errors import repairs_text
-from ..memory import FAIRING_PG_surface, recall
+from ..live import switch
+from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
+from ..mesh.mesh_changes import coarse_triangles
+from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
+from ..mesh.world_shape import world_shape
+from ..mesh.write import FAULTS
 from ..queue import Queue, running, status_text
 from ..settings import Settings, copy_settings, is_evaluated, is_near
 from .layout import (
@@ -42,9 +46,8 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
     bl_label = "Fair Surface"
 
-    def draw_header_preset(self, context: Context) -> None:
-        if remembered(context) is None:
-            VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
+    def draw_header_preset(self, _context: Context) -> None:
+        VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
 
     def draw(self, context: Context) -> None:
         layout = _split(self.layout)
@@ -52,18 +55,19 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             draw_notice(layout, core.why_missing())
             return
         memory = remembered(context)
+        followed = None if memory is not None else live_surface(context)
         if memory is not None:
             _draw_source(layout, memory)
             _draw_repairs(layout, context.active_object)
+        elif followed is not None:
+            layout.label(text=f"Live: {followed.name}", icon="REC")
         settings = settings_at_hand(context)
-        sources = source_objects(context) if memory is None else [memory.source]
-        triangles = sum(
-            size.triangle_count(size.face_sizes(o.data), settings.levels) for o in sources
-        )
+        sources = _sources(context, memory)
+        triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
         draw_shape(
             layout,
             settings,
-            size.count_text(triangles) if triangles else "",
+            _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
             missing_group(settings, sources),
         )
@@ -72,11 +76,12 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 layout, size.why_too_large(triangles) or "A large result: this takes a while"
             )
         queue = running()
-        if queue is not None:
+        if queue is not None and not queue.gives_way:
             _draw_progress(layout, queue)
         elif memory is not None:
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
-        else:
+            _draw_faults(layout, memory)
+        elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             copy_settings(
                 settings, _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
@@ -94,9 +99,49 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
     return active.discrete_fairing
 
 
+def _size_text(settings: Settings, sources: list[Object], triangles: int) -> str:
+    """`61,952 triangles, about 12 s`; empty where there are none."""
+    mesh = session_key(sources[0]) if len(sources) == 1 else None
+    time = prediction.text(prediction.seconds(settings.energy, triangles, mesh))
+    return ", ".join(filter(None, (size.count_text(triangles), time))) if triangles else ""
+
+
+def _draw_faults(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
+    """What was found wrong with the surface when it was made, as long as its mesh has the places."""
+    target = cast(Object, memory.id_data)
+    counts = (recall(target, "report") or {}).get("faults", {})
+    if not counts or not any(FAULTS[kind] in target.data.attributes for kind in counts):
+        return
+    summary = errors.faults_summary(counts)
+    draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory)}")
+    layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
+
+
+def live_surface(context: Context) -> Object | None:
+    """The surface that follows the active object; None if none does."""
+    active = context.active_object
+    followers = switch.live_surfaces_of(active) if active is not None else []
+    return followers[0] if followers else None
+
+
 def settings_at_hand(context: Context) -> Settings:
-    """Those of the faired surface that is active, else those for the next one."""
-    return remembered(context) or context.scene.discrete_fairing
+    """Those of the faired surface that is active, or that follows the active object; else those for
+    the next one.
+    """
+    followed = live_surface(context)
+    return (
+        remembered(context)
+        or (followed.discrete_fairing if followed is not None else None)
+        or context.scene.discrete_fairing
+    )
+
+
+def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object]:
+    """What the surface of the panel's settings is made from."""
+    if memory is None:
+        return source_objects(context)
+    source = source_of(cast(Object, memory.id_data))
+    return [] if source is None else [source]
 
 
 def tolerance_text(context: Context, settings: Settings, sources: list[Object]) -> str:
@@ -108,7 +153,8 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     mesh = sources[0].data
     if len(mesh.edges) > _MEASURED_WHILE_DRAWING or sources[0].mode == "EDIT":
         return ""
-    length = tolerance(settings, mean_edge_length(read_mesh(mesh)))
+    world = world_shape(sources[0]).of_arrays(read_mesh(mesh))
+    length = tolerance(settings, mean_edge_length(world))
     units = context.scene.unit_settings
     if units.system == "NONE":  # of which Blender's own function makes a crash
         return f"= {length:.4g}"
@@ -166,12 +212,15 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
+    problem = source_problem(cast(Object, memory.id_data))
+    if problem:
+        draw_notice(layout, problem)
 
 
 def _draw_repairs(layout: bpy.types.UILayout, surface: Object) -> None:
     """What was mended of the source when this surface was made."""
     report = recall(surface, "report") or {}
-    mended = repairs_text(report.get("repairs", ()))
+    mended = errors.repairs_text(report.get("repairs", ()))
     if mended:
         draw_notice(layout, mended, icon="INFO")
 

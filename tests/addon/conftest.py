@@ -11,6 +11,7 @@ sys.path[:0] = [str(HERE.parents[1]), str(HERE)]
 bpy = pytest.importorskip("bpy")
 
 import addon  # noqa: E402
+from addon import prediction  # noqa: E402
 from addon.live import session  # noqa: E402
 
 
@@ -19,6 +20,7 @@ def blender():
     """An empty scene with the add-on registered."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon.register()
+    prediction.forget()
     yield bpy
     addon.unregister()
 

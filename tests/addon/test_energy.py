@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scenes import CUBE, activate, add, fair, positions
 
-from addon import core
+from addon import core, prediction
 from addon.choices import DEFAULT_ENERGY, ENERGIES, energy_name
 from addon.job import Job
 from addon.memory import recall
@@ -82,7 +82,7 @@ def test_a_flat_surface_needs_no_step():
 
 def job_that_stopped(warnings=(), converged=False):
     job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
-    job.settings.levels, job.settings.energy = 1, "TOTAL_CURVATURE"
+    job.settings.energy = "TOTAL_CURVATURE"
     job.compute()
     levels = [
         {"converged": not converged, "steps": [STEP]},
@@ -146,12 +146,11 @@ def test_shape_keys_mix_linearly_with_the_thin_plate_only():
 def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     add("Box", *CUBE)
     started = []
-    monkeypatch.setattr(fair_operators, "IMMEDIATE", 5 * 768)
     fake = type(
         "Fake", (), {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"}
     )
     fake.start = lambda self, context, jobs: started.append(jobs) or "started"
-    job = type("J", (), {"triangles": 768, "settings": type("S", (), {"energy": energy})})
+    job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768})
     answer = fair_operators._Fairing.invoke(fake(), bpy.context, None)
     assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")
 

@@ -39,7 +39,7 @@ PURE_FILES = (
 # behind.
 ROOMS = (
     {"blender", "choices", "core", "poll", "size"},
-    {"errors", "preferences", "queue", "settings", "transfer", "vertex_values"},
+    {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
     {"memory"},
     {"mesh"},
     {"check", "inspection"},

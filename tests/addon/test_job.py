@@ -150,3 +150,55 @@ def test_a_source_that_is_deleted_meanwhile_is_noticed():
     assert job.is_writable()
     bpy.data.objects.remove(source)
     assert not job.is_writable()
+
+
+@pytest.mark.parametrize("again", [False, True])
+def test_undo_meanwhile_is_no_deletion(again):
+    """As in a second window: references of before are dead, the objects are not."""
+    bpy.context.preferences.edit.use_global_undo = True
+    source = add("Box", *CUBE)
+    target = fair(levels=1) if again else None
+    bpy.ops.ed.undo_push(message="before")
+    bpy.context.view_layer.objects.active.location.x += 1.0
+    bpy.ops.ed.undo_push(message="after")
+    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing, target)
+    job.compute()
+    bpy.ops.ed.undo()
+    assert job.is_writable()
+    result = job.write(bpy.context)
+    assert result.name == "Box Fair" and len(result.data.polygons) == 6 * 4**3
+
+
+def unlink(source):
+    for collection in source.users_collection:
+        collection.objects.unlink(source)
+
+
+def exclude(source):
+    unlink(source)
+    parts = bpy.data.collections.new("Parts")
+    bpy.context.scene.collection.children.link(parts)
+    parts.objects.link(source)
+    bpy.context.view_layer.layer_collection.children["Parts"].exclude = True
+
+
+HIDING = {
+    "eye": lambda source: source.hide_set(True),
+    "disabled": lambda source: setattr(source, "hide_viewport", True),
+    "excluded": exclude,
+    "unlinked": unlink,
+}
+
+
+@pytest.mark.parametrize("way", HIDING)
+def test_modifiers_run_wherever_the_source_is(way):
+    source = add("Box", *CUBE)
+    source.modifiers.new("More", "ARRAY")
+    target = fair(levels=1, mesh_source="EVALUATED", hide_source=False)
+    HIDING[way](source)
+    source.modifiers["More"].count = 3
+    objects, scene = set(bpy.data.objects), set(bpy.context.scene.objects)
+    bpy.ops.object.fairing_recompute()
+    assert len(target.data.polygons) == 18 * 4
+    assert set(bpy.data.objects) == objects and set(bpy.context.scene.objects) == scene
+    assert source.visible_get() is False

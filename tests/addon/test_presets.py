@@ -86,3 +86,13 @@ def test_own_preset(tmp_path, monkeypatch):
     settings.metric_exponent = 1.0
     bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Mine.py"))
     assert settings.metric_exponent == 0.25
+
+
+def test_a_preset_is_applied_to_the_surface_that_is_active():
+    add("Box", *CUBE)
+    target = fair(levels=1)
+    levels = bpy.context.scene.discrete_fairing.levels
+    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "scan.py"))
+    assert target.discrete_fairing.interpolation == "APPROXIMATE"
+    assert bpy.context.scene.discrete_fairing.interpolation == "EXACT"
+    assert bpy.context.scene.discrete_fairing.levels == levels

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is wrong with a surface that came out: it crosses itself, runs away, or folds.
+
+Steps that have converged may have ended in such a surface all the same. Computed with the job, on
+any thread; `mathutils` is no part of Blender's data.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from ..blender import Mesh
+from ..core import ControlArrays, folds
+from ..inspection.curvature import cross, unit
+from ..mesh.layers import fill_layer, layer_values, make_layer
+from ..mesh.write import FAULTS
+from ..transfer.carrier import Carrier
+from ..transfer.coarse import coarse_triangles
+
+# triangles that are searched for crossings at a time, some 0.3 seconds; a finer surface is looked at
+# by fewer of its points first
+MOST = 40_000
+# times the length of the edges around: spheres from the vertices of a cube or tetrahedron are at 0.4,
+# inner walls that have broken through the outer ones at 1.5 and more
+FAR = 1.0
+_SHARP = -0.5  # cosine of 120 degrees
+
+
+@dataclass(frozen=True)
+class Faults:
+    """(N,) bool: at which vertices of a surface something is wrong."""
+
+    crossing: np.ndarray  # through another part of the surface, where the control mesh does not
+    far: np.ndarray  # farther from the control mesh than its edges are long there
+    folded: np.ndarray  # at edges where the surface turns back
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """By kind, those that there are any of."""
+        all_of_them = {name: int(getattr(self, name).sum()) for name in FAULTS}
+        return {name: count for name, count in all_of_them.items() if count}
+
+    def write(self, mesh: Mesh) -> None:
+        """As attributes of the vertices, one a kind."""
+        for name in self.counts:
+            fill_layer(make_layer(mesh, FAULTS[name], "BOOLEAN", "POINT"), getattr(self, name))
+
+
+def faulty_vertices(mesh: Mesh) -> np.ndarray:
+    """Ids of the vertices of `mesh` that `write` has marked."""
+    marked = np.zeros(len(mesh.vertices), bool)
+    for name in FAULTS.values():
+        if name in mesh.attributes:
+            marked |= layer_values(mesh.attributes[name])
+    return np.flatnonzero(marked)
+
+
+def find_faults(result: Any, carrier: Carrier, control: ControlArrays) -> Faults:
+    """Of the core's `result` for the mesh `control`, both in the same coordinates."""
+    none = np.zeros(len(result.vertices), bool)
+    return Faults(
+        _crossing(result.vertices, carrier),
+        _departure(result.vertices, carrier, control) > FAR,
+        _folded(result.vertices, result.triangles) if folds(result.report) else none,
+    )
+
+
+def _departure(vertices: np.ndarray, carrier: Carrier, control: ControlArrays) -> np.ndarray:
+    """(N,) from each vertex to its place on the control mesh, in lengths of the edges around."""
+    ends = control.positions[control.edges]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    count = len(control.positions)
+    sums = np.bincount(control.edges.ravel(), np.repeat(length, 2), count)
+    size = sums / np.maximum(np.bincount(control.edges.ravel(), minlength=count), 1)
+    away = np.linalg.norm(vertices - carrier.point(control.positions), axis=1)
+    around = carrier.point(size).ravel()
+    return away / np.where(around > 0.0, around, np.inf)
+
+
+def _folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
+    """(N,) bool: the ends of edges whose two triangles have normals with a `cosine` below this."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    normals = unit(cross(b - a, c - a))
+    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1).astype(np.int64)
+    keys = edges[:, 0] << 32 | edges[:, 1]
+    order = np.argsort(keys, kind="stable")
+    pairs = np.flatnonzero(keys[order][1:] == keys[order][:-1])
+    first, second = order[pairs], order[pairs + 1]
+    against = (normals[first // 3] * normals[second // 3]).sum(axis=1) < cosine
+    marked = np.zeros(len(vertices), bool)
+    marked[edges[first[against]].ravel()] = True
+    return marked
+
+
+def _crossing(vertices: np.ndarray, carrier: Carrier) -> np.ndarray:
+    marked = np.zeros(len(vertices), bool)
+    coarsest, owner = coarse_triangles(carrier, 0)
+    if not 0 < len(coarsest) <= MOST:
+        return marked
+    everywhere = np.ones(owner.max() + 1, bool)
+    triangles, pairs, faces = _look(vertices, carrier, len(coarsest), everywhere)
+    if len(pairs):
+        excused = _Excused(vertices, coarsest, owner)
+        pairs = excused.leave_out(pairs, faces)
+    if len(pairs) and len(triangles) < carrier.triangle_count:
+        # two close walls may seem to cross by few points only: a second look, nearer
+        involved = np.zeros_like(everywhere)
+        involved[faces[pairs]] = True
+        count = int(involved[owner].sum())
+        triangles, pairs, faces = _look(vertices, carrier, count, involved)
+        pairs = excused.leave_out(pairs, faces)
+    marked[triangles[pairs]] = True
+    return marked
+
+
+def _look(
+    vertices: np.ndarray, carrier: Carrier, count: int, chosen: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Triangles (t, 3) over the `chosen` control faces, which are `count` triangles, as fine as may
+    be; pairs (p, 2) of those that cross; and (t,) the control face of each.
+    """
+    levels = 0
+    while levels < carrier.levels and count * 4 ** (levels + 1) <= MOST:
+        levels += 1
+    triangles, faces = coarse_triangles(carrier, levels)
+    here = chosen[faces]
+    triangles, faces = triangles[here], faces[here]
+    return triangles, _pairs(vertices, triangles), faces
+
+
+def _pairs(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(p, 2) triangles that cross, but for those that share an edge, each pair once."""
+    used, local = np.unique(triangles, return_inverse=True)
+    tree: Any = BVHTree.FromPolygons(
+        vertices[used].tolist(), local.reshape(-1, 3).tolist(), all_triangles=True
+    )
+    found = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
+    return found[found[:, 0] < found[:, 1]]
+
+
+class _Excused:
+    """Where the control mesh crosses itself, is folded sharply, or is open between vertices that lie
+    on one another, its surface may well cross itself too: eyes in a head, the rim of a nostril.
+    """
+
+    def __init__(self, vertices: np.ndarray, triangles: np.ndarray, faces: np.ndarray) -> None:
+        """`triangles` (t, 3) of the control mesh, of its `faces` (t,)."""
+        count = int(faces.max()) + 1
+        self._part = _parts(triangles, faces, count)
+        crossing = faces[_pairs(vertices, triangles)]
+        self._parts = {_ordered(a, b) for a, b in self._part[crossing].tolist() if a != b}
+        # within a part: faces that do, and their neighbours
+        self._near = np.zeros(count, bool)
+        at = _on_others(vertices, triangles) | _folded(vertices, triangles, _SHARP)
+        own = crossing[self._part[crossing[:, 0]] == self._part[crossing[:, 1]]]
+        at[triangles[np.isin(faces, own) | at[triangles].any(axis=1)]] = True
+        self._near[faces[at[triangles].any(axis=1)]] = True
+
+    def leave_out(self, pairs: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        """The `pairs` (p, 2) of triangles, of control `faces` (t,), that are to be told."""
+        ends = faces[pairs]
+        parts = self._part[ends]
+        told = [_ordered(a, b) not in self._parts for a, b in parts.tolist()]
+        same = parts[:, 0] == parts[:, 1]
+        return pairs[np.array(told, bool) & ~(same & self._near[ends].all(axis=1))]
+
+
+def _on_others(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(N,) bool: vertices of the `triangles` that lie on others."""
+    used = np.unique(triangles)
+    _, place, count = np.unique(vertices[used], axis=0, return_inverse=True, return_counts=True)
+    on = np.zeros(len(vertices), bool)
+    on[used[count[place.ravel()] > 1]] = True
+    return on
+
+
+def _ordered(a: int, b: int) -> tuple[int, int]:
+    return (a, b) if a < b else (b, a)
+
+
+def _parts(triangles: np.ndarray, faces: np.ndarray, count: int) -> np.ndarray:
+    """(count,) a number for each control face, the same within a connected part."""
+    label = np.arange(int(triangles.max()) + 1)
+    while True:  # each vertex takes the lowest number around, over and over
+        lowest = label[triangles].min(axis=1)
+        new = label.copy()
+        np.minimum.at(new, triangles, lowest[:, None])
+        new = new[new]
+        if np.array_equal(new, label):
+            break
+        label = new
+    part = np.zeros(count, np.int64)
+    part[faces] = label[triangles[:, 0]]
+    return part

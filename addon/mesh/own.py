@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a faired surface has of its own: it stays while the surface is computed anew.
+
+Its own are the vertex groups, attributes, UV maps, colours, marks and shape keys that do not bear
+the name of one of the source. Materials, custom properties and modifiers stay where they are.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..blender import Mesh, Object
+from .groups import VertexGroup, read_groups, write_group
+from .layers import (
+    EDGE_MARKS,
+    FACE_MARKS,
+    Attribute,
+    SurfaceData,
+    fill_layer,
+    make_layer,
+    read_attributes,
+    read_marks,
+)
+from .read import read_mesh
+from .samples import Samples
+from .shape_keys import KeyAnimation, ShapeKey, ShapeKeys, add_shape_key, read_shape_keys
+
+# what the surface has from its creases and settings, whatever it was before
+_MADE_ANEW = {"sharp_edge", "sharp_face"}
+_OURS = ("fair_", "Fairing ")  # how the names of the add-on's attributes begin
+
+Names = dict[str, list[str]]  # kind: names
+
+
+def carried_names(data: SurfaceData, keys: ShapeKeys | None) -> Names:
+    """What a surface has from its source, by name."""
+    return {
+        "attributes": [attribute.name for attribute in data.attributes],
+        "groups": [group.name for group in data.groups],
+        "marks": [*data.edge_marks, *data.face_marks],
+        "keys": [key.name for key in keys.keys] if keys else [],
+    }
+
+
+@dataclass(frozen=True)
+class OwnData:
+    """Read before the mesh of a surface is made anew."""
+
+    mesh: Any  # ControlArrays
+    attributes: list[Attribute]
+    marks: dict[str, np.ndarray]
+    groups: list[VertexGroup]
+    active_group: str
+    active_uv: str
+    active_color: str
+    keys: list[tuple[ShapeKey, str, np.ndarray]]  # key, its relative key, (n, 3) away from that
+    animation: KeyAnimation | None
+    notes: list[str]
+
+
+def read_own(target: Object, *carried: Names) -> OwnData | None:
+    """What the surface `target`, in Object Mode, has beside what is `carried` from its source, now
+    or before; None if there is nothing.
+    """
+    mesh = target.data
+    taken = {
+        kind: {name for names in carried for name in names.get(kind, [])}
+        for kind in ("attributes", "groups", "marks", "keys")
+    }
+    known, unknown = read_attributes(mesh)
+    attributes = [
+        a
+        for a in known
+        if a.name not in taken["attributes"] | _MADE_ANEW and not a.name.startswith(_OURS)
+    ]
+    marks = read_marks(mesh.edges, EDGE_MARKS) | read_marks(mesh.polygons, FACE_MARKS)
+    names = [group.name for group in target.vertex_groups if group.name not in taken["groups"]]
+    groups = read_groups(target, mesh) if names else []
+    keys = _own_keys(target, taken["keys"])
+    animation = KeyAnimation.of(mesh)
+    found = OwnData(
+        mesh=read_mesh(mesh),
+        attributes=attributes,
+        marks={name: values for name, values in marks.items() if name not in taken["marks"]},
+        groups=[group for group in groups if group.name in names],
+        active_group=_name(target.vertex_groups.active),
+        active_uv=_name(mesh.uv_layers.active),
+        active_color=mesh.attributes.active_color_name,
+        keys=keys,
+        animation=animation,
+        notes=[f"The attribute '{name}' of the surface is dropped." for name in unknown],
+    )
+    return found if attributes or found.marks or names or keys or animation else None
+
+
+def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[str]:
+    """Gives `target`, with its new mesh, what it had of its own; what could not be kept as it was, a
+    sentence each. Shape keys, and what animates them, not where one of Blender's handlers calls.
+    """
+    mesh = target.data
+    samples = Samples(own.mesh, read_mesh(mesh))
+    lost = [a.name for a in own.attributes if a.domain == "EDGE" and not samples.same]
+    for attribute in own.attributes:
+        if attribute.name not in lost:
+            layer = make_layer(mesh, attribute.name, attribute.data_type, attribute.domain)
+            fill_layer(layer, samples.of(attribute))
+    lost += _write_marks(mesh, own, samples)
+    for group in own.groups:
+        weights = samples.values(group.dense(len(own.mesh.positions)), "POINT", True)
+        zero = group.vertices[group.weights == 0.0] if samples.same else np.empty(0, np.int32)
+        write_group(target, group, weights, zero, operators=not in_handler)
+    _choose_active(target, own)
+    for key, relative, away in () if in_handler else own.keys:
+        add_shape_key(target, key, relative, samples.values(away, "POINT", True))
+    notes = own.notes + (own.animation.give(target) if own.animation and not in_handler else [])
+    if lost:
+        notes.append(f"{_listed(lost)} dropped: the edges of the surface are others now.")
+    moved = [attribute.name for attribute in own.attributes if attribute.name not in lost]
+    moved += [group.name for group in own.groups] + [key.name for key, *_ in own.keys]
+    if moved and not samples.same:
+        notes.append(f"{_listed(moved)} carried over from the nearest places of the old surface.")
+    return notes
+
+
+def _own_keys(target: Object, taken: set[str]) -> list[tuple[ShapeKey, str, np.ndarray]]:
+    keys = read_shape_keys(target, len(target.data.vertices))
+    if keys is None:
+        return []
+    return [
+        (
+            key,
+            keys.keys[key.relative_key].name,
+            keys.positions[place] - keys.positions[key.relative_key],
+        )
+        for place, key in enumerate(keys.keys)
+        if place and key.name not in taken
+    ]
+
+
+def _write_marks(mesh: Mesh, own: OwnData, samples: Samples) -> list[str]:
+    if not samples.same:
+        return [name.removeprefix("use_") for name in own.marks]
+    for name, values in own.marks.items():
+        elements: Any = mesh.edges if name in EDGE_MARKS else mesh.polygons
+        elements.foreach_set(name, values)
+    return []
+
+
+def _choose_active(target: Object, own: OwnData) -> None:
+    """What was active goes on being it, where it is the surface's own."""
+    mesh, names = target.data, {attribute.name for attribute in own.attributes}
+    if own.active_uv in names:
+        mesh.uv_layers.active = mesh.uv_layers[own.active_uv]
+    if own.active_color in names:
+        mesh.attributes.active_color_name = own.active_color
+    if own.active_group in {group.name for group in own.groups}:
+        target.vertex_groups.active_index = target.vertex_groups[own.active_group].index
+
+
+def _name(item: bpy.types.bpy_struct | None) -> str:
+    return getattr(item, "name", "")
+
+
+def _listed(names: list[str]) -> str:
+    """`'A' and 'B' are`."""
+    quoted = [f"'{name}'" for name in names]
+    first = ", ".join(quoted[:-1])
+    return f"{first} and {quoted[-1]} are" if first else f"{quoted[0]} is"

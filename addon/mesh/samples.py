@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values of one mesh at the places of another: the same if the faces are, else the nearest ones."""
+
+from typing import Any
+
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from ..core import ControlArrays, are_equal
+from .layers import STORAGE, Attribute
+
+_INWARD = 0.05  # of the way to a face's centre: which side of a seam a corner is on
+
+
+class Samples:
+    """From the elements of `old` to those of `new`, two meshes of about the same shape."""
+
+    def __init__(self, old: ControlArrays, new: ControlArrays) -> None:
+        self.same = len(old.positions) == len(new.positions) and are_equal(
+            (old.corners, old.offsets, old.edges), (new.corners, new.offsets, new.edges)
+        )
+        self._old, self._new = old, new
+        self._known: dict[str, tuple[np.ndarray, np.ndarray]] = {}  # by domain
+
+    def of(self, attribute: Attribute) -> np.ndarray:
+        """The values of an attribute of the old mesh on the new one. Not on edges, unless `same`."""
+        return self.values(attribute.values, attribute.domain, STORAGE[attribute.data_type].mixable)
+
+    def values(self, values: np.ndarray, domain: str, mixable: bool) -> np.ndarray:
+        """(size, …) of the old elements of `domain` → of the new ones, mixed if that makes sense."""
+        if self.same:
+            return values
+        if not len(self._triangles()[0]):
+            return np.zeros((self._size(domain), *values.shape[1:]), values.dtype)
+        if domain not in self._known:
+            self._known[domain] = self._find(domain)
+        ids, weights = self._known[domain]
+        if domain == "FACE":
+            return values[ids]
+        if mixable:
+            return np.einsum("ij,ij...->i...", weights, values[ids].astype(np.float64))
+        return values[np.take_along_axis(ids, weights.argmax(axis=1)[:, None], axis=1)[:, 0]]
+
+    def _size(self, domain: str) -> int:
+        new = self._new
+        return {
+            "POINT": len(new.positions),
+            "CORNER": len(new.corners),
+            "FACE": len(new.offsets) - 1,
+        }[domain]
+
+    def _find(self, domain: str) -> tuple[np.ndarray, np.ndarray]:
+        """Old elements with weights (k, 3) for each new one; for faces their ids (k,) alone."""
+        new, (triangles, faces) = self._new, self._triangles()
+        sizes = np.diff(new.offsets)
+        centres = np.add.reduceat(new.positions[new.corners], new.offsets[:-1]) / sizes[:, None]
+        if domain == "FACE":
+            return faces[self._nearest(centres)], np.empty(0)
+        places = new.positions
+        sought = places
+        if domain == "CORNER":
+            places = new.positions[new.corners]
+            sought = places + _INWARD * (np.repeat(centres, sizes, axis=0) - places)
+        found = triangles[self._nearest(sought)]
+        weights = _barycentric(self._old.positions[self._old.corners[found]], places)
+        return (found if domain == "CORNER" else self._old.corners[found]), weights
+
+    def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
+        """(t, 3) corners of the old mesh in triangles, fans of its faces, and (t,) their faces."""
+        offsets = self._old.offsets
+        each = np.diff(offsets) - 2
+        faces = np.repeat(np.arange(len(each)), each)
+        step = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
+        first = offsets[:-1][faces]
+        return np.stack([first, first + step + 1, first + step + 2], axis=1), faces
+
+    def _nearest(self, places: np.ndarray) -> np.ndarray:
+        """(k,) the old triangle that is nearest to each place."""
+        if not hasattr(self, "_tree"):
+            triangles = self._old.corners[self._triangles()[0]]
+            self._tree: Any = BVHTree.FromPolygons(
+                self._old.positions.tolist(), triangles.tolist(), all_triangles=True
+            )
+        find = self._tree.find_nearest
+        return np.array([find(place)[2] or 0 for place in places.tolist()], np.int64)
+
+
+def _barycentric(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """(k, 3) weights of the corners (k, 3, 3) that make the point of their plane below each place."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    p = places - corners[:, 0]
+    aa, ab, bb = ((x * y).sum(axis=1) for x, y in ((a, a), (a, b), (b, b)))
+    pa, pb = (p * a).sum(axis=1), (p * b).sum(axis=1)
+    area = aa * bb - ab * ab
+    safe = np.where(area > 0.0, area, 1.0)
+    u = np.where(area > 0.0, (bb * pa - ab * pb) / safe, 0.0)
+    v = np.where(area > 0.0, (aa * pb - ab * pa) / safe, 0.0)
+    return np.stack([1.0 - u - v, u, v], axis=1)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Adjust Last Operation never waits: it shows a smaller surface, and the whole one follows.
+
+Blender calls `execute` from there, which can neither be modal nor be cancelled.
+"""
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any, cast
+
+import bpy
+
+from .. import prediction
+from ..blender import Answer, Context, Object, current_context, registration
+from ..errors import JobError
+from ..job import Job
+from ..memory import source_of
+from ..mesh.object import Reference
+from ..queue import running
+from ..settings import copy_settings
+from .modal import ModalRun
+
+_WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
+_due: list[Reference] = []  # the surfaces that are still to be made whole
+
+
+def predicted_seconds(jobs: Sequence[Job]) -> float:
+    return sum(job.predicted_seconds for job in jobs)
+
+
+def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
+    """Jobs in the place of `jobs` that take no longer than anyone would wait; raises JobError."""
+    budget = prediction.PATIENCE / len(jobs)
+    return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
+
+
+def _small(job: Job, budget: float) -> SimpleNamespace:
+    """Its settings with as many levels, and if need be the energy, that the `budget` is enough for."""
+    for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, 1)):
+        for levels in range(job.settings.levels, least - 1, -1):
+            if job.predict(energy, levels) <= budget:
+                return SimpleNamespace(**{**vars(job.settings), "levels": levels, "energy": energy})
+    return SimpleNamespace(**{**vars(job.settings), "levels": 1, "energy": _WITHOUT})
+
+
+def fill_soon(context: Context, targets: Sequence[Object], jobs: Sequence[Job]) -> None:
+    """Lets the small surfaces `targets` become those of `jobs`, which they remember from now on."""
+    for target, job in zip(targets, jobs, strict=True):
+        copy_settings(job.settings, target.discrete_fairing)
+    _due[:] = map(Reference, targets)
+    window = context.window
+    if window is not None:
+        place = list(context.window_manager.windows).index(window)
+        bpy.app.timers.register(lambda: _start(place), first_interval=0.01)
+
+
+def _start(place: int) -> None:
+    context, operators = current_context(), cast(Any, bpy.ops.object)
+    windows = context.window_manager.windows
+    if place < len(windows) and not running():
+        with context.temp_override(window=windows[place]):
+            operators.fairing_fill("INVOKE_DEFAULT")
+
+
+def give_way() -> None:
+    """Ends what fills a surface, before a run that somebody has asked for."""
+    _due.clear()
+    queue = running()
+    if queue is not None and queue.gives_way:
+        queue.cancel()
+        queue.join()
+
+
+def due_jobs(context: Context) -> list[Job]:
+    """The jobs of the surfaces that are still to be made whole; raises JobError."""
+    targets = [target for reference in _due if (target := reference.find()) is not None]
+    _due.clear()
+    pairs = [(target, source_of(target)) for target in targets]
+    return [Job(context, s, t.discrete_fairing, t) for t, s in pairs if s is not None]
+
+
+def write_jobs(context: Context, jobs: Sequence[Job]) -> list[str]:
+    """Fills the surfaces that are still there and not being edited; warnings, a sentence each."""
+    said = []
+    for job in jobs:
+        if job.is_writable() and cast(Object, job.target).mode != "EDIT":
+            job.write(context)
+            said += job.warnings()
+    return said
+
+
+class OBJECT_OT_fairing_fill(ModalRun, bpy.types.Operator):
+    """Make the surface whole that Adjust Last Operation has shown with fewer levels"""
+
+    bl_idname = "object.fairing_fill"
+    bl_label = "Complete Surface"
+    bl_options = {"INTERNAL"}
+    gives_way = True
+
+    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        try:
+            jobs = due_jobs(context)
+        except JobError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self.start(context, jobs) if jobs else {"CANCELLED"}
+
+    def finish(self, context: Context, jobs: list[Job]) -> Answer:
+        for sentence in write_jobs(context, jobs):
+            self.report({"WARNING"}, sentence)
+        return {"FINISHED"}
+
+
+register, unregister = registration(OBJECT_OT_fairing_fill)

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A refined surface by fewer of its points. Plain arrays, no Blender."""
+
+import numpy as np
+
+from .carrier import Carrier, Patch
+from .lattice import make_cells
+
+
+def coarse_triangles(carrier: Carrier, levels: int) -> tuple[np.ndarray, np.ndarray]:
+    """(t, 3) triangles of refined vertices as after `levels` refinements, at most those that there
+    were, and (t,) the control face of each, by its place among those of `carrier`. Quads are cut.
+    """
+    triangles, owners = [np.empty((0, 3), np.int32)], [np.empty(0, np.int64)]
+    start = 0
+    for patch in carrier.patches:
+        faces = _coarse_faces(patch, levels)
+        each = faces.shape[1]
+        halves = [[0, 1, 2]] if faces.shape[2] == 3 else [[0, 1, 2], [0, 2, 3]]
+        owner = np.repeat(start + np.arange(len(faces)), each)
+        for half in halves:
+            triangles.append(faces[:, :, half].reshape(-1, 3))
+            owners.append(owner)
+        start += len(faces)
+    return np.concatenate(triangles), np.concatenate(owners)
+
+
+def _coarse_faces(patch: Patch, levels: int) -> np.ndarray:
+    """(F, 4^levels, k) refined vertices."""
+    size = patch.faces.size
+    cells, coarse = patch.cells, make_cells(size, levels)
+    n = int(cells.points.max())
+    place = np.zeros((n + 1, n + 1), np.int32)  # of a point (i, j) among those of the lattice
+    place[cells.points[:, 1], cells.points[:, 0]] = np.arange(len(cells.points))
+    i, j = (coarse.points * (n >> levels)).T
+    corner = cells.first_corner[place[j, i]][coarse.corner_point]
+    fine = patch.fine.reshape(len(patch.faces.polygon), -1)
+    return fine[:, corner].reshape(len(fine), -1, size)

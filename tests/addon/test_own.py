@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a surface has of its own stays when it is computed anew."""
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import follow, live, move
+from scenes import CUBE, activate, add, fair, positions
+
+
+def recompute(target=None):
+    if target is not None:
+        activate(target)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+
+
+def raise_vertex(source, by=0.5):
+    source.data.vertices[0].co.z += by
+    source.data.update()
+
+
+def values(mesh, name, key="value", width=1):
+    flat = np.empty(width * len(mesh.attributes[name].data), np.float32)
+    mesh.attributes[name].data.foreach_get(key, flat)
+    return flat.reshape(-1, width)
+
+
+def adorn(target):
+    """Gives a surface something of every kind that its source has not."""
+    mesh = target.data
+    target.vertex_groups.new(name="Mine").add([0, 5, 20], 0.25, "REPLACE")
+    target.modifiers.new("Dents", "DISPLACE").vertex_group = "Mine"
+    height = mesh.attributes.new("height", "FLOAT", "POINT")
+    height.data.foreach_set("value", positions(mesh)[:, 2])
+    uv = mesh.uv_layers.new(name="Unwrapped")
+    corners = np.array([positions(mesh)[loop.vertex_index][:2] for loop in mesh.loops])
+    uv.uv.foreach_set("vector", np.float32(corners).ravel())
+    colour = mesh.color_attributes.new("Paint", "FLOAT_COLOR", "POINT")
+    colour.data.foreach_set("color", np.ones(4 * len(mesh.vertices), np.float32))
+    upper = mesh.attributes.new("upper", "BOOLEAN", "FACE")
+    upper.data.foreach_set("value", [face.center.z > 0 for face in mesh.polygons])
+    mesh.edges[3].use_seam = True
+    mesh["note"] = "by hand"
+    return mesh
+
+
+@pytest.mark.parametrize("again", [1, 2])
+def test_it_stays_to_the_bit_on_the_same_faces(again):
+    source = add("Box", *CUBE)
+    mesh = adorn(target := fair(levels=2))
+    heights, uv = values(mesh, "height"), values(mesh, "Unwrapped", "vector", 2)
+    for _ in range(again):
+        raise_vertex(source)
+        recompute()
+    mesh = target.data
+    assert positions(mesh)[0][2] == np.float32(-1.0 + 0.5 * again)
+    assert [round(target.vertex_groups["Mine"].weight(i), 3) for i in (0, 5, 20)] == [0.25] * 3
+    assert target.modifiers["Dents"].vertex_group in target.vertex_groups
+    assert np.array_equal(values(mesh, "height"), heights)
+    assert np.array_equal(values(mesh, "Unwrapped", "vector", 2), uv)
+    assert mesh.color_attributes["Paint"].data[7].color[:] == (1.0, 1.0, 1.0, 1.0)
+    assert sum(item.value for item in mesh.attributes["upper"].data) > 0
+    assert mesh.edges[3].use_seam and mesh["note"] == "by hand"
+
+
+@pytest.mark.parametrize("levels", [1, 3])
+def test_other_faces_take_it_over_from_the_nearest(levels, capfd):
+    add("Box", *CUBE)
+    mesh = adorn(target := fair(levels=2))
+    target.discrete_fairing.levels = levels
+    recompute()
+    mesh = target.data
+    assert len(mesh.polygons) == 6 * 4**levels
+    assert np.abs(values(mesh, "height").ravel() - positions(mesh)[:, 2]).max() < 0.15, (
+        "a surface of another level is a little off"
+    )
+    corners = np.array([positions(mesh)[loop.vertex_index][:2] for loop in mesh.loops])
+    assert np.abs(values(mesh, "Unwrapped", "vector", 2) - corners).max() < 0.2
+    wrong = [
+        face.index
+        for face, item in zip(mesh.polygons, mesh.attributes["upper"].data)
+        if item.value != (face.center.z > 0) and abs(face.center.z) > 0.1
+    ]
+    assert not wrong
+    assert target.vertex_groups["Mine"].weight(0) == pytest.approx(0.25, abs=0.01)
+    said = capfd.readouterr().out
+    assert "'height', " in said and "nearest" in said and "'seam' is" in said
+
+
+def test_what_comes_from_the_source_is_renewed_or_goes():
+    source = add("Box", *CUBE)
+    source.vertex_groups.new(name="Theirs").add([0, 1], 0.5, "REPLACE")
+    source.data.attributes.new("old", "FLOAT", "POINT")
+    target = fair(levels=1)
+    target.vertex_groups["Theirs"].add([0], 1.0, "REPLACE")
+    source.data.attributes.remove(source.data.attributes["old"])
+    source.vertex_groups["Theirs"].add([0], 0.75, "REPLACE")
+    recompute()
+    assert target.vertex_groups["Theirs"].weight(0) == 0.75 and len(target.vertex_groups) == 1
+    assert "old" not in target.data.attributes
+
+
+def test_shape_keys_of_its_own_and_their_animation():
+    source = add("Box", *CUBE)
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 0.5
+    target = fair(levels=1)
+    own = target.shape_key_add(name="Bump", from_mix=False)
+    own.data[9].co.z += 0.25
+    keys = target.data.shape_keys
+    for frame, value in ((1, 0.0), (10, 1.0)):
+        keys.key_blocks["Bump"].value = value
+        keys.key_blocks["Bump"].keyframe_insert("value", frame=frame)
+    driver = keys.key_blocks["Up"].driver_add("value").driver
+    driver.expression = "0.5"
+    action = keys.animation_data.action
+    meshes = len(bpy.data.meshes)
+    raise_vertex(source)
+    recompute()
+    keys, basis = target.data.shape_keys, positions(target.data)
+    assert [block.name for block in keys.key_blocks] == ["Basis", "Up", "Bump"]
+    moved = keys.key_blocks["Bump"].data[9].co.z - basis[9][2]
+    assert moved == pytest.approx(0.25, abs=1e-5)
+    assert keys.animation_data.action == action and len(keys.animation_data.drivers) == 1
+    bpy.context.scene.frame_set(10)
+    assert keys.key_blocks["Bump"].value == pytest.approx(1.0)
+    assert len(bpy.data.meshes) == meshes
+
+
+def test_marks_of_the_creases_are_no_data_of_its_own():
+    source = add("Box", *CUBE)
+    crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE")
+    crease.data.foreach_set("value", [1.0] * 12)
+    target = fair(levels=1)
+    source.data.attributes.remove(source.data.attributes["crease_edge"])
+    recompute()
+    assert not any(edge.use_edge_sharp for edge in target.data.edges)
+    assert "crease_edge" not in target.data.attributes
+
+
+def test_live_and_its_full_level_keep_it():
+    source = add("Box", *CUBE)
+    mesh = adorn(target := fair(levels=3))
+    heights = values(mesh, "height")
+    target.discrete_fairing_live.levels = 1
+    live(target)
+    move(source)
+    follow()
+    assert len(target.data.polygons) == 6 * 4 and "Mine" in target.vertex_groups
+    assert target.data["note"] == "by hand"
+    bpy.ops.object.fairing_live(state="OFF")
+    assert len(target.data.polygons) == 6 * 4**3
+    assert np.array_equal(values(target.data, "height"), heights), (
+        "and not by way of the live level"
+    )

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which object can be the source of a surface, and what is said of one that cannot."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from live_scenes import follow, live, move, session
+from scenes import CUBE, activate, add, fair, positions
+
+from addon.live import handlers
+from addon.memory import why_unfit
+from addon.ui import main
+
+
+def add_camera():
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.collection.objects.link(camera)
+    return camera
+
+
+def test_a_camera_is_refused_in_words():
+    add("Box", *CUBE)
+    target = fair(levels=1)
+    target.discrete_fairing.source = camera = add_camera()
+    assert "is no mesh" in why_unfit(target, camera)
+    log = draw(main.VIEW3D_PT_fairing)
+    assert any("no mesh" in line for line in log)
+    for operator in (bpy.ops.object.fairing_recompute, bpy.ops.object.fairing_show_source):
+        assert not operator.poll()
+    with pytest.raises(RuntimeError, match="is no mesh"):
+        bpy.ops.object.fairing_recompute()
+
+
+def test_the_field_offers_what_can_be_a_source():
+    """Blender asks this of every object that it offers."""
+    source = add("Box", *CUBE)
+    target = fair(levels=1)
+    poll = type(target.discrete_fairing).bl_rna.properties["source"]
+    assert poll.type == "POINTER"
+    assert not why_unfit(target, source) and why_unfit(target, add_camera())
+
+
+def test_no_surface_is_its_own_source():
+    source = add("Box", *CUBE)
+    target = live(source)
+    target.discrete_fairing.source = target
+    activate(target)
+    faces = len(target.data.polygons)
+    for _ in range(3):
+        move(target)
+        follow()
+    assert len(target.data.polygons) == faces, "Live refines no output of its own"
+    assert session(target) is None and "itself" in target.discrete_fairing_live.status
+    assert not bpy.ops.object.fairing_recompute.poll()
+
+
+def test_no_ring_of_sources():
+    source = add("Box", *CUBE)
+    first = fair(levels=1)
+    second = fair(levels=1)
+    assert not why_unfit(second, first), "a chain will do"
+    source.discrete_fairing.source = second
+    for surface in (source, first, second):
+        activate(surface)
+        assert not bpy.ops.object.fairing_recompute.poll()
+
+
+def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
+    source = add("Box", *CUBE)
+    target = live(source)
+    activate(source)
+    scene, log = bpy.context.scene.discrete_fairing, draw(main.VIEW3D_PT_fairing)
+    assert f"Live: {target.name}" in log and "object.fair_surface" not in log
+    settings = main.settings_at_hand(bpy.context)
+    assert settings == target.discrete_fairing != scene
+    before = positions(target.data)
+    settings.energy = "TOTAL_CURVATURE"
+    handlers.on_timer()
+    assert not np.array_equal(positions(target.data), before)
+    bpy.ops.object.fairing_live(state="OFF")
+    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert main.settings_at_hand(bpy.context) == scene
+
+
+def test_with_modifiers_of_a_hidden_source_is_refused_in_words():
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    source.modifiers.new("More", "ARRAY")
+    target = live(source)
+    source.hide_viewport = True
+    move(source)
+    follow()
+    handlers.on_timer()
+    assert len(target.data.polygons) == 12 * 4**3
+    source.hide_viewport = False
+    follow()
+    session(target).distrust()
+    handlers.on_timer()
+    assert not session(target).trouble and len(target.data.polygons) == 12 * 4**3

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh is faired in the shape that its object's scale gives it."""
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import follow, live, session
+from mathutils import Matrix
+from scenes import CUBE, activate, add, add_suzanne, fair, positions
+
+from addon.mesh.world_shape import world_shape
+
+UNEVEN = (1.0, 3.0, 0.4)
+
+
+def stretched(source):
+    """Its vertices in the shape of the world."""
+    return world_shape(source).of(positions(source.data).astype(float))
+
+
+def of_applied_scale(source, **settings):
+    """The surface as it is after Apply Scale."""
+    baked = add("Applied", *CUBE)
+    baked.data = source.data.copy()
+    baked.data.vertices.foreach_set("co", np.float32(stretched(source)).ravel())
+    return positions(fair(**settings).data)
+
+
+def in_the_world(result):
+    return world_shape(result).of(positions(result.data).astype(float))
+
+
+@pytest.mark.parametrize("energy", ["THIN_PLATE", "TOTAL_CURVATURE"])
+def test_apply_scale_changes_nothing(energy):
+    source = add("Box", *CUBE)
+    source.scale = UNEVEN
+    result = fair(levels=3, energy=energy)
+    assert np.array_equal(positions(result.data)[:8], positions(source.data)), "to the bit"
+    expected = of_applied_scale(source, levels=3, energy=energy)
+    assert np.abs(in_the_world(result) - expected).max() < 1e-4
+    plain = add("Plain", *CUBE)
+    object_space = positions(fair(levels=3, energy=energy).data)
+    assert np.abs(object_space - positions(result.data)).max() > 0.01, "else the test says nothing"
+    assert plain.scale[0] == 1.0
+
+
+def test_symmetry_is_exact_all_the_same():
+    source = add_suzanne()
+    source.scale = UNEVEN
+    points = positions(fair(levels=2).data)
+    assert {tuple(p) for p in points.tolist()} == {(-x, y, z) for x, y, z in points.tolist()}
+
+
+@pytest.mark.parametrize("scale", [(0.1, 0.1, 0.1), UNEVEN])
+def test_a_tolerance_is_a_length_in_the_scene(scale):
+    source = add("Box", *CUBE)
+    source.scale = scale
+    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.02)
+    missed = np.linalg.norm(in_the_world(result)[:8] - stretched(source), axis=1)
+    assert 0.9 * 0.02 < missed.max() <= 0.02 * (1 + 1e-4)
+
+
+def test_parents_count():
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.collection.objects.link(parent)
+    parent.scale = (1.0, 1.0, 4.0)
+    source = add("Box", *CUBE)
+    source.parent, source.rotation_euler = parent, (0.5, 0.0, 0.0)
+    source.location = (1.0, 2.0, 3.0)
+    shape = world_shape(source)
+    bpy.context.view_layer.update()
+    linear = np.array(source.matrix_world.to_3x3())
+    points = np.random.default_rng(1).normal(size=(5, 3))
+    there = np.linalg.norm(points @ linear.T, axis=1)
+    assert np.allclose(np.linalg.norm(shape.of(points), axis=1), there, rtol=1e-5)
+    assert fair(levels=1) is not None
+
+
+def test_shape_keys_too():
+    source = add("Box", *CUBE)
+    source.scale = UNEVEN
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 0.5
+    result = fair(levels=2)
+    key = result.data.shape_keys.key_blocks["Up"]
+    assert [tuple(p.co) for p in key.data][:8] == [
+        tuple(p.co) for p in source.data.shape_keys.key_blocks["Up"].data
+    ]
+    assert max((a.co - b.co).length for a, b in zip(key.data, result.data.vertices)) < 0.6
+
+
+@pytest.mark.parametrize(
+    "matrix", [Matrix.Diagonal((1, 1, 0, 1)), Matrix.Rotation(0.3, 4, "X"), Matrix.Identity(4)]
+)
+def test_where_there_is_nothing_to_stretch(matrix):
+    source = add("Box", *CUBE)
+    source.matrix_basis = matrix
+    assert world_shape(source).rows is None
+
+
+def test_live_follows_the_scale():
+    source = add("Box", *CUBE)
+    source.scale = UNEVEN
+    target = live(source)
+    before = positions(target.data)
+    expected = of_applied_scale(source, levels=3)
+    assert np.abs(world_shape(source).of(before.astype(float)) - expected).max() < 0.02
+    activate(source)
+    source.scale = (1.0, 1.0, 1.0)
+    follow()
+    assert session(target).updates == 2
+    assert np.abs(positions(target.data) - before).max() > 0.01
+    source.rotation_euler = (1.0, 2.0, 3.0)
+    follow()
+    assert session(target).updates == 2, "a rotation changes no shape"
