@@ -103,6 +103,16 @@ const FairOptions& without_back_leg(const FairOptions& options) {
   return options;
 }
 
+// What a call returns or throws, that it has found no memory by its name.
+template <class Call>
+auto with_named_errors(Call&& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
 }  // namespace
 
 FairingError out_of_memory() {
@@ -111,11 +121,7 @@ FairingError out_of_memory() {
 }
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
-  try {
-    return fair_all(mesh, options, monitor);
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  return with_named_errors([&] { return fair_all(mesh, options, monitor); });
 }
 
 FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) try
@@ -163,8 +169,10 @@ void FairSolver::set_control(std::span<const double> coordinates) {
 }
 
 Report FairSolver::solve(std::span<const double> coordinates, double* out) {
-  if (!coordinates.empty())
-    check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
+  with_named_errors([&] {
+    if (!coordinates.empty())
+      check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
+  });
   return guarded([&] {
     const FairOptions& options = context_.options();
     if (std::exchange(was_far_out_, false)) forget_surfaces();
@@ -237,18 +245,28 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
 }
 
 void FairSolver::rebase(const PolygonMesh& input) {
-  Report report = built_;
-  {
-    Stopwatch watch(report, monitor_);
-    check_positions(std::size_t(context_.mesh().input_vertices), input.coordinates);
-    context_.check(input, watch, report);
-    guarded([&] {
-      recent_.forget();
-      context_.rebase(input.coordinates, watch, control_);
-    });
-  }
-  report.seconds.clear();
-  built_ = std::move(report);
+  with_named_errors([&] {
+    Report report = built_;
+    {
+      Stopwatch watch(report, monitor_);
+      check_positions(std::size_t(context_.mesh().input_vertices), input.coordinates);
+      context_.check(input, watch, report);
+      guarded([&] {
+        recent_.forget();
+        context_.rebase(input.coordinates, watch, control_);
+      });
+    }
+    report.seconds.clear();
+    built_ = std::move(report);
+  });
+}
+
+OutputFaces FairSolver::faces() {
+  return with_named_errors([&] { return make_faces(context_.finest(), context_.workers()); });
+}
+
+Array<std::int32_t> FairSolver::creases() const {
+  return with_named_errors([&] { return crease_edges(context_.mesh()); });
 }
 
 }  // namespace fairing

@@ -48,8 +48,8 @@ class FairSolver {
   // about the positions before, and the next surface starts from nothing.
   void rebase(const PolygonMesh& input);
 
-  OutputFaces faces() { return make_faces(context_.finest(), context_.workers()); }
-  Array<std::int32_t> creases() const { return crease_edges(context_.mesh()); }
+  OutputFaces faces();
+  Array<std::int32_t> creases() const;
   // Of the long arrays and factors that are kept.
   std::size_t bytes() const { return ledger_.current(); }
 
