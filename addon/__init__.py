@@ -7,7 +7,7 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window.
 """
 
-from . import cli, memory, preferences, settings
+from . import cli, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
@@ -44,5 +44,6 @@ def register() -> None:
 
 
 def unregister() -> None:
+    queue.end_all()
     for module in reversed(_MODULES):
         module.unregister()

@@ -21,6 +21,7 @@ _REMEDIES = {
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
     "UNDERDETERMINED": "Use Through instead of Near, or a smaller tolerance",
+    "TOO_EXTREME": "Move these vertices back to the others, or delete them",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
     "OUT_OF_MEMORY": "Use fewer levels",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",

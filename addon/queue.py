@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Jobs one after another on a thread of their own, watched from the main thread. No Blender."""
 
+import atexit
 import sys
 from collections.abc import Callable, Sequence
 from threading import Thread
 from typing import Any, TextIO
+from weakref import WeakSet
 
 from .errors import JobCancelled, JobError
 
@@ -19,6 +21,7 @@ _PHASES = {
     "done": "Done",
 }
 _running = None  # the queue in progress
+_started: "WeakSet[Queue]" = WeakSet()
 
 
 class Queue:
@@ -42,6 +45,7 @@ class Queue:
         self._thread = Thread(target=self._run, name="discrete fairing", daemon=True)
 
     def start(self) -> None:
+        _started.add(self)
         self._thread.start()
 
     @property
@@ -97,6 +101,18 @@ class Queue:
             self.error = str(error)
         except Exception as error:  # an error on a thread would be lost without a word
             self.error = f"{self.job_name}: an unexpected error, please report it: {error!r}"
+
+
+@atexit.register
+def end_all() -> None:
+    """Cancels all queues and waits for their threads: before Blender quits, and before the add-on
+    goes.
+    """
+    queues = [queue for queue in _started if not queue.finished]
+    for queue in queues:
+        queue.cancel()
+    for queue in queues:
+        queue.join()
 
 
 def running() -> Queue | None:

@@ -19,6 +19,9 @@ from shell import DevError, run, say
 from tally import Tally, with_exit_code
 
 REPORTS = BUILD / "reports"
+# tests of one label alone, or all others
+FAULTS = ("--label-regex", "^faults$")
+NO_FAULTS = ("--label-exclude", "^faults$")
 
 
 def read_junit(report: Path) -> Tally:
@@ -47,16 +50,22 @@ def style_suite() -> Tally:
     return Tally(passed=codes.count(0), failed=len(codes) - codes.count(0))
 
 
-def native_suite(preset: str) -> Tally:
-    """GoogleTest through CTest, of one preset."""
-    report = fresh_report(f"native-{preset}")
+def native_suite(preset: str, *chosen: str) -> Tally:
+    """GoogleTest through CTest, of one preset; `chosen`: which tests, in CTest's words."""
+    report = fresh_report("-".join(["native", preset, *(["faults"] if chosen == FAULTS else [])]))
     run("cmake", "--preset", preset)
     run("cmake", "--build", "--preset", preset)
     jobs = str(os.cpu_count() or 1)
     code = run(
-        "ctest", "--preset", preset, "--parallel", jobs, "--output-junit", report, check=False
+        *("ctest", "--preset", preset, "--parallel", jobs, "--output-junit", report, *chosen),
+        check=False,
     )
     return with_exit_code(read_junit(report), code)
+
+
+def faults_suite() -> dict[str, Tally]:
+    """Allocations that fail, as built and where leaks and double frees show."""
+    return {preset: native_suite(preset, *FAULTS) for preset in ("release", "asan-ubsan")}
 
 
 def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
@@ -97,8 +106,9 @@ def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
 # one tally, or several by what they are about
 SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "style": style_suite,
-    "native": lambda: native_suite("release"),
-    "sanitizers": lambda: native_suite("asan-ubsan"),
+    "native": lambda: native_suite("release", *NO_FAULTS),
+    "sanitizers": lambda: native_suite("asan-ubsan", *NO_FAULTS),
+    "faults": faults_suite,
     "python": lambda: pytest_suite("python"),
     "fuzz": fuzz_suite,
     "addon": addon_suite,

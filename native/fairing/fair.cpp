@@ -113,6 +113,16 @@ const FairOptions& without_back_leg(const FairOptions& options) {
   return options;
 }
 
+// What a call returns or throws, that it has found no memory by its name.
+template <class Call>
+auto with_named_errors(Call&& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
 }  // namespace
 
 FairingError out_of_memory() {
@@ -121,7 +131,7 @@ FairingError out_of_memory() {
 }
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
-  try {
+  return with_named_errors([&] {
     const Mending mending = mending_of(mesh, options, monitor);
     FairResult result =
         mending.in_input_ids([&] { return fair_all(mending.mesh(), mending.options(), monitor); });
@@ -131,9 +141,7 @@ FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& mo
     mending.restore(result.report);
     if (mending.mended()) result.mended = *mending.mended();
     return result;
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  });
 }
 
 FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) try
@@ -184,15 +192,17 @@ void FairSolver::set_control(std::span<const double> coordinates) {
 }
 
 Report FairSolver::solve(std::span<const double> coordinates, double* out) {
-  std::vector<double> placed;
-  if (mended() && coordinates.size() == 3 * std::size_t(context_.mesh().input_vertices)) {
-    placed = mending_.placed(coordinates);
-    coordinates = placed;
-  }
-  Report report = mending_.in_input_ids([&] { return solve_mended(coordinates, out); });
-  mending_.restore_points(out);
-  mending_.restore(report);
-  return report;
+  return with_named_errors([&] {
+    std::vector<double> placed;
+    if (mended() && coordinates.size() == 3 * std::size_t(context_.mesh().input_vertices)) {
+      placed = mending_.placed(coordinates);
+      coordinates = placed;
+    }
+    Report report = mending_.in_input_ids([&] { return solve_mended(coordinates, out); });
+    mending_.restore_points(out);
+    mending_.restore(report);
+    return report;
+  });
 }
 
 Report FairSolver::solve_mended(std::span<const double> coordinates, double* out) {
@@ -274,16 +284,20 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
 }
 
 OutputFaces FairSolver::faces() {
-  OutputFaces faces = make_faces(context_.finest(), context_.workers());
-  mending_.restore(faces);
-  return faces;
+  return with_named_errors([&] {
+    OutputFaces faces = make_faces(context_.finest(), context_.workers());
+    mending_.restore(faces);
+    return faces;
+  });
 }
 
 void FairSolver::rebase(const PolygonMesh& input) {
-  if (!mended()) return rebase_mended(input);
-  const std::vector<double> placed = mending_.placed(input.coordinates);
-  const PolygonMesh mesh{placed, mended()->mesh.corners, mended()->mesh.offsets};
-  mending_.in_input_ids([&] { rebase_mended(mesh); });
+  with_named_errors([&] {
+    if (!mended()) return rebase_mended(input);
+    const std::vector<double> placed = mending_.placed(input.coordinates);
+    const PolygonMesh mesh{placed, mended()->mesh.corners, mended()->mesh.offsets};
+    mending_.in_input_ids([&] { rebase_mended(mesh); });
+  });
 }
 
 void FairSolver::rebase_mended(const PolygonMesh& input) {
@@ -299,6 +313,10 @@ void FairSolver::rebase_mended(const PolygonMesh& input) {
   }
   report.seconds.clear();
   built_ = std::move(report);
+}
+
+Array<std::int32_t> FairSolver::creases() const {
+  return with_named_errors([&] { return crease_edges(context_.mesh()); });
 }
 
 }  // namespace fairing

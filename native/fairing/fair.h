@@ -55,7 +55,7 @@ class FairSolver {
   OutputFaces faces();
   // What is faired, where it is not the input itself, else null.
   const MendedMesh* mended() const { return mending_.mended(); }
-  Array<std::int32_t> creases() const { return crease_edges(context_.mesh()); }
+  Array<std::int32_t> creases() const;
   // Of the long arrays and factors that are kept.
   std::size_t bytes() const { return ledger_.current(); }
 

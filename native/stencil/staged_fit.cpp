@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <memory>
+#include <new>
 
 namespace fairing {
 namespace {
@@ -15,16 +17,34 @@ using Columns = Eigen::MatrixXd;
 // Below these no largest value counts: the matrix is zero.
 constexpr double least_singular_value = 1e-12, least_eigenvalue = 1e-300;
 
+// So many rows and columns need no memory but the stack.
+constexpr int most_on_stack = 16;
+using FewColumns =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_on_stack, most_on_stack>;
+
 // Without the undetermined directions.
-Columns pseudo_inverse(const Columns& a) {
-  Eigen::JacobiSVD<Columns> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const auto& sigma = svd.singularValues();
+template <class Matrix>
+Columns pseudo_inverse_of(const Matrix& a) {
+  auto svd = std::make_unique<Eigen::JacobiSVD<Matrix>>();
+  try {
+    svd->compute(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  } catch (const std::bad_alloc&) {
+    static_cast<void>(svd.release());  // it would free once more what it has found no memory for
+    throw;
+  }
+  const auto& sigma = svd->singularValues();
   const double least =
       undetermined * (sigma.size() ? std::max(sigma(0), least_singular_value) : 0.0);
-  Columns middle = svd.matrixU().adjoint();
+  Columns middle = svd->matrixU().adjoint();
   for (Eigen::Index k = 0; k < sigma.size(); ++k)
     middle.row(k) *= sigma(k) > least ? 1 / sigma(k) : 0.0;
-  return svd.matrixV() * middle;
+  const Columns left = svd->matrixV();
+  return left * middle;
+}
+
+Columns pseudo_inverse(const Columns& a) {
+  return std::max(a.rows(), a.cols()) <= most_on_stack ? pseudo_inverse_of(FewColumns(a))
+                                                       : pseudo_inverse_of(a);
 }
 
 // Of a positive semidefinite matrix, by its eigenvectors.

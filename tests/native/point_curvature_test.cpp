@@ -41,6 +41,23 @@ TEST(PointCurvature, StaysExactWhereTheAreaHasItsFloor) {
   }
 }
 
+// Nothing where the ring has shrunk to its point, but no end of it where it is not finite.
+TEST(PointCurvature, IsInfiniteOfARingThatHasBurst) {
+  SurfaceChart chart;
+  const std::vector<std::uint8_t> far(4, 0);
+  const auto of = [&](double x) {
+    const std::vector<Vec3> offset{{x, 0, 0}, {0, 1, 0}, {-1, 0, 0.1}, {0, -1, 0}};
+    return point_curvature({offset, far}, chart);
+  };
+  for (const double x : {double(NAN), double(INFINITY), 1e80, 1e300}) {
+    const PointCurvature point = of(x);
+    EXPECT_TRUE(std::isinf(point.area * point.density())) << x;
+    EXPECT_FALSE(point.has_rows()) << x;
+  }
+  EXPECT_EQ(of(0).area * of(0).density(), 0);
+  EXPECT_TRUE(of(1).has_rows() && of(1e6).has_rows());
+}
+
 TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
   // Quads along and around; the first neighbour lies along the axis, then half-way between, then
   // around.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <new>
 #include <random>
 
 #include "grid/linear.h"
@@ -245,6 +246,31 @@ TEST(Rows, RefuseTooManyColumnsInOnePlace) {
       };
     };
     EXPECT_EQ(matrix.build(workers, writer), columns == 65000);
+  }
+}
+
+// A writer that leaves by an exception, in the middle of a row, leaves nothing to the next builder.
+TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
+  Workers workers(1);
+  constexpr Index size = 40;
+  const auto writer = [&](Index last) {
+    return [last] {
+      return [last](Index row, RowBuilder& builder) {
+        for (Index c = 0; c < size; ++c) {
+          if (row == last && c > size / 2) throw std::bad_alloc();
+          builder.add(c, double(row + c));
+        }
+      };
+    };
+  };
+  for (const Index last : {0, 1, 7}) {
+    AssembledMatrix broken(size, size), whole(size, size);
+    EXPECT_THROW(broken.build(workers, writer(last)), std::bad_alloc);
+    ASSERT_TRUE(whole.build(workers, writer(size)));
+    const Eigen::VectorXf x = Eigen::VectorXf::Ones(size + 16);
+    Eigen::VectorXf y = Eigen::VectorXf::Zero(size + 16);
+    whole.apply<1>(x.data(), workers, y.data());
+    for (Index r = 0; r < size; ++r) EXPECT_EQ(y[r], float(size * r + size * (size - 1) / 2));
   }
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces that are not finite, and a solver whose rebase was stopped.
+#include "fairing/extremes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "fairing/fair.h"
+#include "meshes.h"
+#include "thrown.h"
+
+namespace fairing::test {
+namespace {
+
+TEST(Extremes, NoSurfaceThatIsNotFiniteGoesOut) {
+  const OwnedPolygonMesh polygons = cube();
+  const ControlMesh mesh = make_control_mesh(polygons.view(), {}, {});
+  Workers workers(1);
+  std::vector<double> x(300, 1.0);
+  const auto refusal = [&](std::size_t bad, double value, double factor) {
+    std::vector<Vec3> positions = mesh.positions;
+    positions[7] *= factor;
+    const ControlPositions control = positions_of_mesh(mesh, positions, {}, 1, 0.5);
+    x[bad] = value;
+    const FairingError error =
+        thrown([&] { require_finite(mesh, control, workers, x.size(), x.data()); });
+    x[bad] = 1;
+    require_finite(mesh, control, workers, x.size(), x.data());
+    EXPECT_EQ(error.code, ErrorCode::too_extreme);
+    return error;
+  };
+  for (const double value : {double(NAN), double(INFINITY), -double(INFINITY)})
+    for (const std::size_t bad : {std::size_t(0), std::size_t(299)}) {
+      EXPECT_EQ(refusal(bad, value, 1e6).elements, std::vector<std::int64_t>{7});
+      EXPECT_TRUE(refusal(bad, value, 2).elements.empty());
+    }
+}
+
+struct Rebased {
+  OwnedPolygonMesh mesh = torus(6, 5), other = torus(6, 5);
+  FairOptions options{.levels = 2};
+  Monitor monitor;
+  std::unique_ptr<FairSolver> solver;
+
+  explicit Rebased(Energy energy) {
+    options.energy = energy;
+    options.threads = 1;
+    for (std::size_t i = 0; i < other.coordinates.size(); ++i)
+      other.coordinates[i] *= 1 + 0.05 * std::sin(double(i));
+    solver = std::make_unique<FairSolver>(mesh.view(), options, monitor);
+  }
+  // A monitor that has cancelled stays so: another one, where the solver looks for it.
+  void renew_monitor() {
+    std::destroy_at(&monitor);
+    std::construct_at(&monitor);
+  }
+  std::vector<double> solve(const OwnedPolygonMesh& at) {
+    std::vector<double> out(3 * solver->points());
+    solver->solve(at.coordinates, out.data());
+    return out;
+  }
+};
+
+// The surface is of positions that are neither basis': they would not hide what is built of both.
+TEST(Solver, IsAboutOneBasisWhereverARebaseIsStopped) {
+  for (const Energy energy : {Energy::thin_plate, Energy::total_curvature}) {
+    OwnedPolygonMesh third = Rebased(energy).mesh;
+    third.coordinates[1] += 0.1;
+    Rebased before(energy), after(energy);
+    after.solver->rebase(after.other.view());
+    const std::vector<double> of_old = before.solve(third), of_new = after.solve(third);
+    ASSERT_NE(of_old, of_new);
+    int stopped = 0;
+    for (std::int64_t question = 1;; question += 1 + question / 12, ++stopped) {
+      Rebased run(energy);
+      run.solve(run.mesh);
+      run.renew_monitor();
+      run.monitor.cancel_at_question(question);
+      bool done = true;
+      try {
+        run.solver->rebase(run.other.view());
+      } catch (const FairingError& error) {
+        EXPECT_EQ(error.code, ErrorCode::cancelled);
+        done = false;
+      }
+      run.renew_monitor();
+      EXPECT_EQ(run.solve(third), done ? of_new : of_old) << "question " << question;
+      if (done) break;
+    }
+    EXPECT_GE(stopped, 12);
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test
