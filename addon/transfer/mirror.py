@@ -75,14 +75,17 @@ def refined_mirror(
         found, face, turn = _image_faces(
             vertices, opposites, side=0
         )  # which never ends at a centre
-        if len(found) < len(vertices):
-            return None
-        image = _corner_images(vertices, face, turn)
+        image = np.full_like(vertices, SEVERAL)
+        image[found] = _corner_images(vertices, face, turn)
+        flat = _in_the_plane(patch, opposites)
+        image[flat] = vertices[flat]
         centre = vertices[:, -1] >= len(opposites)
         control[vertices[centre, -1]] = image[centre, -1]
         if not np.array_equal(control[vertices], image):
             return None
-        _spread(patch, face, turn, fine)
+        _spread(patch, found, face, turn, fine)
+        ids = patch.fine.reshape(len(vertices), -1)[flat].ravel()
+        fine[ids] = ids
     return Mirror(axis, opposites, fine)
 
 
@@ -178,13 +181,26 @@ def _corner_images(vertices: np.ndarray, face: np.ndarray, turn: np.ndarray) -> 
     return vertices[face[:, None], (turn[:, None] - np.arange(size)) % size]
 
 
-def _spread(patch: Patch, face: np.ndarray, turn: np.ndarray, fine: np.ndarray) -> None:
-    """Writes the images of all lattice points of the faces in `patch`."""
-    ids = patch.fine.reshape(len(face), -1)[:, patch.cells.first_corner]
+def _in_the_plane(patch: Patch, opposites: np.ndarray) -> np.ndarray:
+    """(F,) bool: which faces are their own images, as a wall between two halves is: those of
+    polygons whose vertices all lie in the plane.
+    """
+    vertices = patch.faces.vertices
+    own = np.append(opposites, np.arange(len(opposites), vertices.max() + 1))[vertices] == vertices
+    _, polygon = np.unique(patch.faces.polygon, return_inverse=True)
+    outside = np.bincount(polygon.ravel(), ~own.all(axis=1))
+    return outside[polygon.ravel()] == 0
+
+
+def _spread(
+    patch: Patch, found: np.ndarray, face: np.ndarray, turn: np.ndarray, fine: np.ndarray
+) -> None:
+    """Writes the images of all lattice points of the faces `found` in `patch`."""
+    ids = patch.fine.reshape(len(patch.faces.vertices), -1)[:, patch.cells.first_corner]
     size = patch.faces.size
     for t in range(size):
         chosen = turn % size == t
-        fine[ids[chosen]] = ids[face[chosen]][:, _turned_points(patch.cells, t)]
+        fine[ids[found[chosen]]] = ids[face[chosen]][:, _turned_points(patch.cells, t)]
 
 
 def _turned_points(cells: Cells, turn: int) -> np.ndarray:

@@ -65,6 +65,7 @@ struct EdgeMoves {
 void apply(const EdgeMoves& moves, ControlMesh& control) {
   std::vector<Edge> edges(control.edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    stop_if_cancelled(e);
     Edge edge = control.edges[e];
     if (moves.turned[e]) {
       std::swap(edge.vertex[0], edge.vertex[1]);
@@ -114,6 +115,7 @@ std::vector<Index> cut_into_sheets(OwnedPolygonMesh& mesh) {
   std::vector<Index> copied;
   std::vector<std::int32_t> fan;
   for (const auto& [v, k] : further_fans(half_edges, vertices)) {
+    stop_if_cancelled(copied.size());
     fan.clear();
     half_edges.visit_fan(k, [&](std::int32_t corner) { fan.push_back(corner); });
     for (const std::int32_t corner : fan)
@@ -158,6 +160,7 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
       groups.join(control.edges[std::size_t(e)].vertex[h],
                   control.edges[std::size_t(control.original_edge(e))].vertex[h]);
   for (Index v = 0; v < control.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     first_.push_back(groups.first(v));
     if (first_.back() != v) others_.emplace_back(first_.back(), v);
   }
@@ -166,10 +169,14 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
 
 SheetNumbers number_sheets(const ControlMesh& control) {
   Groups groups(control.vertex_count());
-  for (const Edge& edge : control.edges) groups.join(edge.vertex[0], edge.vertex[1]);
+  for (std::size_t e = 0; e < control.edges.size(); ++e) {
+    stop_if_cancelled(e);
+    groups.join(control.edges[e].vertex[0], control.edges[e].vertex[1]);
+  }
   SheetNumbers sheets;
   Index next = 0;
   for (Index v = 0; v < control.vertex_count(); ++v) {
+    stop_if_cancelled(std::size_t(v));
     const Index first = groups.first(v);
     sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[std::size_t(first)]);
     sheets.count += first == v && !control.ring(v).empty();

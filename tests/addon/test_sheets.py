@@ -115,3 +115,18 @@ def test_exact_symmetry():
     arrays = control_arrays([twice[v] for v in used], [[used.index(v) for v in f] for f in faces])
     mirrors, notes = find_mirrors(core_run(arrays, 2)[1], arrays)
     assert [mirror.axis for mirror in mirrors] == [0] and not notes
+
+
+def test_a_wall_in_the_plane_of_symmetry():
+    mirrors, notes = mirrors_of(FACES)  # the third page lies in x = 0
+    assert [mirror.axis for mirror in mirrors] == [0] and not notes
+    bent = [(*point[:2], point[2] + 0.2 * point[1]) for point in POINTS]
+    source = add("Book", bent, FACES)
+    x = positions(fair(levels=3).data)[:, 0]
+    assert np.array_equal(np.sort(x), np.sort(-x)) and (x == 0).sum() == 9 * 17
+    assert source.data.polygons[4].normal.x != 0
+
+
+def mirrors_of(faces):
+    arrays = control_arrays(POINTS, faces)
+    return find_mirrors(core_run(arrays, 2)[1], arrays)

@@ -64,6 +64,15 @@ void expect_a_mirror(const ControlMesh& mesh, const Mirror& mirror) {
   }
 }
 
+// Vertices at one place are told apart by their sheets.
+TEST(Mirror, OfSheetsThatMeet) {
+  for (const ControlMesh& mesh : {working(control(two_cubes())), turned(control(two_cubes()))}) {
+    const std::vector<Mirror> found = mirrors(mesh);
+    EXPECT_EQ(found.size(), 3u);
+    for (const Mirror& mirror : found) expect_a_mirror(mesh, mirror);
+  }
+}
+
 TEST(Mirror, OfSymmetricMeshes) {
   const std::pair<OwnedPolygonMesh, std::size_t> cases[] = {
       {cube(), 3},        {octahedron(), 3},  {icosahedron(), 3},    {dodecahedron(), 3},

@@ -8,6 +8,7 @@ import pytest
 import tight
 from mesh_files import read_mesh, weld
 from shared_data import shared_files
+from sheet_meshes import mirrored_book
 from surfaces import assert_same_points, assert_same_positions, random_rotation, size_of
 
 ENERGIES = ["total_curvature", "minimum_variation"]
@@ -147,3 +148,11 @@ def test_welded_suzanne_stays_symmetric(path, energy, levels):
     result = tight.fair(points, faces, levels, energy)
     size = size_of(points)
     assert_same_positions(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_of_sheets_that_meet(energy):
+    vertices, faces = mirrored_book()
+    result = tight.fair(vertices, faces, 2, energy)
+    assert result.report["sheets"]["count"] == 4
+    assert_symmetric(result.vertices)
