@@ -168,9 +168,9 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
 
 
-def _draw_repairs(layout: bpy.types.UILayout, surface: Object) -> None:
+def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
     """What was mended of the source when this surface was made."""
-    report = recall(surface, "report") or {}
+    report = (recall(surface, "report") if surface else None) or {}
     mended = repairs_text(report.get("repairs", ()))
     if mended:
         draw_notice(layout, mended, icon="INFO")
