@@ -10,6 +10,7 @@ import numpy as np
 
 from ..blender import Mesh, Object, current_context
 from .places import file_format
+from .replacing import replacing, why_incomplete
 
 # Named alike both ways, no axis moves: the numbers in a file are those of the mesh.
 _AXES = {"forward_axis": "Y", "up_axis": "Z"}
@@ -46,31 +47,43 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
 
 
 def write_file(path: Path) -> None:
-    """All objects of the scene as one file. A failure leaves no half of it."""
+    """All objects of the scene as one file. After a failure the file that was there is as it was."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(path) as part:
+            part.write_bytes(b"")  # says why not better than the exporters do
+            _export(part)
+    except (OSError, _NotWritten) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+
+
+class _NotWritten(Exception):
+    """Why an exporter has made no whole file."""
+
+
+def _export(path: Path) -> None:
     export: dict[str, Any] = {
         "obj": _write_obj,
         "ply": bpy.ops.wm.ply_export,
         "stl": bpy.ops.wm.stl_export,
     }
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(b"")  # says why not better than the exporters do
-    except OSError as error:
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {error.strerror}.") from error
-    try:
         export[file_format(path)](filepath=str(path), check_existing=False, **_AXES)
-        reason = "Blender wrote nothing." if not path.stat().st_size else ""
     except RuntimeError as error:
-        reason = _reason(error)
-    if reason:
-        path.unlink(missing_ok=True)
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}")
+        raise _NotWritten(_reason(error).rstrip(".")) from error
+    meshes = [o.data for o in current_context().scene.objects if o.type == "MESH"]
+    faces, corners = (sum(len(getattr(m, of)) for m in meshes) for of in ("polygons", "loops"))
+    incomplete = why_incomplete(path, faces, corners)
+    if incomplete:
+        raise _NotWritten(incomplete)
 
 
 def write_text(path: str, text: str) -> None:
     """For the report."""
     try:
-        Path(path).write_text(text, encoding="utf-8")
+        with replacing(Path(path)) as part:
+            part.write_text(text, encoding="utf-8")
     except OSError as error:
         raise FileError("UNWRITABLE", f"{path} cannot be written: {error.strerror}.") from error
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which file each input goes to: paths only, nothing is read or written."""
+"""Which file each input goes to: paths only, no file is read or written."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Place:
 
 def places(inputs: Sequence[str], output: str, chosen_format: str | None = None) -> list[Place]:
     """A Place for each input. Raises BadPlaces before anything is touched."""
-    sources = [Path(name) for name in inputs]
+    sources = [Path(name) for pattern in inputs for name in _expanded(pattern)]
     for source in sources:
         _supported(source)
     found = [
@@ -36,6 +36,17 @@ def places(inputs: Sequence[str], output: str, chosen_format: str | None = None)
 def file_format(path: Path) -> str:
     """`obj`, `ply` or `stl`, by the name alone."""
     return Path(path).suffix.lower().removeprefix(".")
+
+
+def _expanded(name: str) -> list[str]:
+    """What a pattern stands for, where no shell has seen to that: `*.obj`."""
+    if not any(sign in name for sign in "*?[") or Path(name).exists():
+        return [name]
+    root = Path(Path(name).anchor)
+    found = sorted(str(path) for path in root.glob(str(Path(name).relative_to(root.anchor))))
+    if not found:
+        raise BadPlaces(f"No file is called like {name}.")
+    return found
 
 
 def _target(source: Path, output: str, chosen_format: str | None, count: int) -> Path:

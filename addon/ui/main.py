@@ -217,9 +217,9 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
         draw_notice(layout, problem)
 
 
-def _draw_repairs(layout: bpy.types.UILayout, surface: Object) -> None:
+def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
     """What was mended of the source when this surface was made."""
-    report = recall(surface, "report") or {}
+    report = (recall(surface, "report") if surface else None) or {}
     mended = errors.repairs_text(report.get("repairs", ()))
     if mended:
         draw_notice(layout, mended, icon="INFO")

@@ -15,7 +15,8 @@ BINDING = ROOT / "native" / "binding" / "discrete_fairing"
 MAY_USE_FILES = {
     "addon/cli/files.py",  # looks whether an input can be read, makes the output and its folder
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
-    "addon/cli/places.py",  # paths, to see whether two are the same file
+    "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
+    "addon/cli/replacing.py",  # puts an output in its place when it is complete
     "addon/operators/presets.py",  # the name of the folder that the shipped presets lie in
 }
 

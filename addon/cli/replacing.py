@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files written beside their place first: what is there stays until the new one is complete."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+_BLOCK = 1 << 20
+
+
+@contextmanager
+def replacing(target: Path) -> Iterator[Path]:
+    """A name beside `target`, of its type, to write to inside the `with`.
+
+    What is written takes the place of `target` at its end; after an error nothing has changed, and
+    nothing is left over. Whatever is no file, such as a pipe, is written to itself.
+    """
+    own = Path(os.path.realpath(target))  # a link stays one
+    if own.exists() and not own.is_file():
+        yield own
+        return
+    part = own.with_name(f".{own.stem}.{os.getpid()}.part{own.suffix}")
+    try:
+        yield part
+        material = part.with_suffix(".mtl")
+        if own.suffix.lower() == ".obj" and material.exists():
+            _name_materials(part, material.name, own.with_suffix(".mtl").name)
+            material.replace(own.with_suffix(".mtl"))
+        part.replace(own)
+    finally:
+        for left in (part, part.with_suffix(".mtl"), _rewritten(part)):
+            left.unlink(missing_ok=True)
+
+
+def why_incomplete(path: Path, faces: int, corners: int) -> str:
+    """What is missing of an OBJ, PLY or STL file with so many faces and corners of them, in a few
+    words; else empty.
+    """
+    size = path.stat().st_size if path.exists() else 0
+    if not size:
+        return "nothing was written"
+    checks = {".obj": _obj_has_all, ".ply": _ply_has_all, ".stl": _stl_has_all}
+    complete = checks[path.suffix.lower()](path, size, faces, corners)
+    return "" if complete else "the file ends too early; is the disk full?"
+
+
+def _obj_has_all(path: Path, _size: int, faces: int, _corners: int) -> bool:
+    found, before = 0, b"\n"
+    with path.open("rb") as stream:
+        while block := stream.read(_BLOCK):
+            text = before + block  # a line may begin in the block before
+            found += text.count(b"\nf ")
+            before = text[-2:]
+    return found == faces and before.endswith(b"\n")
+
+
+def _ply_has_all(path: Path, size: int, faces: int, corners: int) -> bool:
+    """Of a binary one as Blender writes it: a byte for the size of each face, then 4 a corner."""
+    with path.open("rb") as stream:
+        header, vertex_bytes, vertices = 0, 0, 0
+        element = b""
+        for line in stream:
+            header += len(line)
+            words = line.split()
+            if words[:1] == [b"element"]:
+                element = words[1]
+                if element == b"vertex":
+                    vertices = int(words[2])
+            elif words[:1] == [b"property"] and element == b"vertex":
+                vertex_bytes += _PLY_BYTES.get(words[1], 0)
+            elif words == [b"end_header"]:
+                return size >= header + vertices * vertex_bytes + faces + 4 * corners
+    return False
+
+
+_PLY_BYTES = {b"float": 4, b"double": 8, b"uchar": 1, b"int": 4, b"uint": 4, b"short": 2}
+
+
+def _stl_has_all(path: Path, size: int, _faces: int, _corners: int) -> bool:
+    with path.open("rb") as stream:
+        head = stream.read(84)
+    return len(head) == 84 and size == 84 + 50 * int.from_bytes(head[80:], "little")
+
+
+def _rewritten(part: Path) -> Path:
+    return part.with_name(part.name + ".named")
+
+
+def _name_materials(part: Path, old: str, new: str) -> None:
+    """Writes the name that the file of materials will have into an OBJ."""
+    own = _rewritten(part)
+    with part.open("rb") as source, own.open("wb") as out:
+        for line in source:
+            if line.startswith(b"mtllib"):
+                out.write(line.replace(old.encode(), new.encode()))
+                break
+            out.write(line)
+        shutil.copyfileobj(source, out, _BLOCK)
+    own.replace(part)

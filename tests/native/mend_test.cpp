@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/mend/mend.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/validate/check.h"
+#include "meshes.h"
+#include "parallel/cancel.h"
+#include "thrown.h"
+
+namespace fairing::test {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+using Indices = std::vector<Index>;
+
+std::vector<Polygon> faces_of(const MendedMesh& mended) {
+  std::vector<Polygon> faces;
+  const PolygonMesh mesh = mended.mesh.view();
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f)
+    faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+  return faces;
+}
+
+// Vertex 4 inside the side 0-1 of the first face; the second has no area and fills the gap.
+OwnedPolygonMesh cap() {
+  return make_mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, -3, 1}, {1, 0, 0}},
+                   {{0, 1, 2}, {0, 4, 1}, {4, 0, 3}, {1, 4, 3}});
+}
+
+TEST(Mend, LeavesAloneWhatIsSoundOrNotItsBusiness) {
+  for (const OwnedPolygonMesh& mesh :
+       {tetrahedron(), cube(), dodecahedron(), torus(6, 5), fan(360), grid(4, 3), open_cone(7),
+        u_shape(), quad_doublet(), mobius(5), two_fans(), hourglass(), three_on_an_edge(),
+        flipped_cube_face()}) {
+    const MendedMesh mended = mend(mesh.view());
+    EXPECT_FALSE(mended.changed());
+    EXPECT_TRUE(mended.mesh.corners.empty());
+  }
+}
+
+TEST(Mend, OfTwoFacesWithTheSameVerticesKeepsTheFirst) {
+  const MendedMesh mended = mend(pillow().view());
+  ASSERT_EQ(mended.acts.size(), 1u);
+  EXPECT_EQ(mended.acts[0].code, "DUPLICATE_FACE");
+  EXPECT_EQ(mended.acts[0].elements, Ids{1});
+  EXPECT_EQ(mended.face_origin, Indices{0});
+}
+
+TEST(Mend, AFaceWithoutAreaLeavesNoTJunction) {
+  const MendedMesh mended = mend(cap().view());
+  EXPECT_EQ(faces_of(mended), (std::vector<Polygon>{{0, 4, 1, 2}, {4, 0, 3}, {1, 4, 3}}));
+  EXPECT_EQ(mended.face_origin, (Indices{0, 2, 3}));
+  const CornerOrigin& inside = mended.corner_origin[1];
+  EXPECT_EQ(inside.from, 0);
+  EXPECT_EQ(inside.beside, 1);
+  EXPECT_EQ(inside.share, 0.25);
+  ASSERT_EQ(mended.cut_edges.size(), 1u);
+  EXPECT_EQ(mended.cut_edges[0].low, 0);
+  EXPECT_EQ(mended.cut_edges[0].high, 1);
+  EXPECT_EQ(mended.cut_edges[0].between, Indices{4});
+  EXPECT_TRUE(find_defects(mended.mesh.view()).defects.empty());
+}
+
+TEST(Mend, AllFacesAcrossASideGetItsVertex) {
+  OwnedPolygonMesh mesh = cap();  // a third sheet at the long side
+  mesh.coordinates.insert(mesh.coordinates.end(), {2, 0, 5});
+  mesh.corners.insert(mesh.corners.end(), {1, 0, 5});
+  mesh.offsets.push_back(15);
+  const auto faces = faces_of(mend(mesh.view()));
+  EXPECT_EQ(faces, (std::vector<Polygon>{{0, 4, 1, 2}, {4, 0, 3}, {1, 4, 3}, {1, 4, 0, 5}}));
+}
+
+TEST(Mend, WeldingJoinsEachVertexWithTheLowestInReach) {
+  const OwnedPolygonMesh mesh =
+      make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1e-3}, {0, 1, 0}, {1, 1, 0}},
+                {{0, 1, 2}, {3, 5, 4}});
+  EXPECT_FALSE(mend(mesh.view()).changed());
+  EXPECT_EQ(mend(mesh.view(), {.weld = 0}).vertex_origin, (Indices{0, 1, 2, 3, 2, 5}));
+  const MendedMesh welded = mend(mesh.view(), {.weld = 2e-3});
+  EXPECT_EQ(welded.vertex_origin, (Indices{0, 1, 2, 1, 2, 5}));
+  EXPECT_EQ(welded.mesh.coordinates[11], 0) << "the merged vertex goes where the other is";
+  EXPECT_EQ(faces_of(welded), (std::vector<Polygon>{{0, 1, 2}, {1, 5, 2}}));
+}
+
+TEST(Mend, RefusesWhatNoProgramCanMend) {
+  OwnedPolygonMesh mesh = cube();
+  mesh.coordinates[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).elements, Ids{1});
+  mesh = cube();
+  mesh.corners[5] = 8;
+  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).code, ErrorCode::index_out_of_range);
+  mesh = single_triangle();
+  std::fill(mesh.coordinates.begin(), mesh.coordinates.end(), 1.0);
+  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).code, ErrorCode::no_faces);
+}
+
+TEST(Mend, CanBeCancelledAtEveryQuestion) {
+  OwnedPolygonMesh mesh = triangulated(torus(60, 40));
+  mesh.corners.insert(mesh.corners.end(), {0, 1, 1, 0, 1, 2});
+  mesh.offsets.insert(mesh.offsets.end(),
+                      {std::int64_t(mesh.corners.size()) - 3, std::int64_t(mesh.corners.size())});
+  int cancelled = 0;
+  for (std::int64_t question = 1;; ++question) {
+    Monitor monitor;
+    monitor.cancel_at_question(question);
+    const CancelScope scope(&monitor);
+    try {
+      mend(mesh.view(), {.weld = 0});
+      break;
+    } catch (const FairingError& error) {
+      ASSERT_EQ(error.code, ErrorCode::cancelled);
+      ++cancelled;
+    }
+  }
+  EXPECT_GT(cancelled, 20);
+}
+
+}  // namespace
+}  // namespace fairing::test
