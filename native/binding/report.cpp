@@ -28,6 +28,7 @@ py::dict to_python(const LevelReport& l) {
   d["largest_eigenvalue"] = l.largest_eigenvalue;
   d["smoother_degree"] = l.smoother_degree;
   d["direct"] = l.direct;
+  d["blocks"] = l.blocks;
   d["converged"] = l.converged;
   d["residuals"] = l.residuals;
   d["pad_corrections"] = l.pad_corrections;

@@ -113,15 +113,24 @@ void LevelOperator::subtract_product(const float* x, float* room, float* y, Work
   for_each_index(workers, size(), [=](std::size_t i) { y[i] -= room[i]; });
 }
 
-void smooth(LevelOperator& op, Workers& workers, double largest_eigenvalue, int degree,
-            SmoothFrom from, bool last_residual, SmootherState& s) {
+void smooth(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
+            double largest_eigenvalue, int degree, SmoothFrom from, bool last_residual,
+            SmootherState& s) {
   const auto first_step = float(4.0 / 3.0 / largest_eigenvalue);
   const auto relax = [&](float momentum, float step, bool adds_d) {
-    op.relax({s.step.data(), s.next.data(), s.x.data(), s.residual.data(), momentum, step, adds_d},
-             workers);
+    const SmoothingStep now{s.step.data(), s.next.data(), s.x.data(), s.residual.data(),
+                            momentum,      step,          adds_d};
+    if (blocks) {
+      op.apply(now.d, now.next);
+      blocks->finish_step(now);
+    } else {
+      op.relax(now, workers);
+    }
     std::swap(s.step, s.next);
   };
-  if (from == SmoothFrom::zero)
+  if (from == SmoothFrom::zero && blocks)
+    blocks->start_from_zero(first_step, s.residual.data(), s.x.data(), s.step.data());
+  else if (from == SmoothFrom::zero)
     start_from_zero(op, workers, first_step, s);
   else
     relax(0, first_step, true);
@@ -131,24 +140,30 @@ void smooth(LevelOperator& op, Workers& workers, double largest_eigenvalue, int 
   if (last_residual) op.subtract_product(s.step.data(), s.next.data(), s.residual.data(), workers);
 }
 
-double largest_eigenvalue(LevelOperator& op, Workers& workers, const float* start) {
+double largest_eigenvalue(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
+                          const float* start) {
   const std::size_t components = op.components(), size = op.size();
   const Array<float>& inverse = op.inverse_diagonal();
-  Array<float> roots(size);
-  workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      std::fill_n(roots.data() + components * p, components, float(std::sqrt(double(inverse[p]))));
-  });
-  const auto root = [&](std::size_t i) { return double(roots[i]); };
-  // Lanczos for D^-1/2 K D^-1/2: v are its vectors, `scaled` is what K is applied to.
+  Array<float> roots(blocks ? 0 : size);
+  if (!blocks)
+    workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p)
+        std::fill_n(roots.data() + components * p, components,
+                    float(std::sqrt(double(inverse[p]))));
+    });
+  const auto root = [&](std::size_t i) { return blocks ? 1.0 : double(roots[i]); };
+  // Lanczos for D^-1/2 K D^-1/2, or L^-1 K L^-T: v are its vectors, `scaled` is what K is applied
+  // to.
   Array<float> v(size), before(size), scaled(size + vector_room), product(size);
+  for_each_index(workers, size, [&](std::size_t i) { scaled[i] = start[i]; });
+  if (blocks) blocks->forward(scaled.data());
   const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
-    const double s = double(start[i]) * root(i);
+    const double s = double(scaled[i]) * root(i);
     return s * s;
   }));
   if (!(length > 0) || !std::isfinite(length)) return 4.0;  // nothing to solve; any safe value
   for_each_index(workers, size, [&](std::size_t i) {
-    v[i] = float(double(start[i]) * root(i) / length);
+    v[i] = float(double(scaled[i]) * root(i) / length);
     before[i] = 0;
   });
   Eigen::VectorXd diagonal(lanczos_steps), off(lanczos_steps);
@@ -156,7 +171,9 @@ double largest_eigenvalue(LevelOperator& op, Workers& workers, const float* star
   double beta = 0;
   for (; m < lanczos_steps; ++m) {
     for_each_index(workers, size, [&](std::size_t i) { scaled[i] = float(v[i] * root(i)); });
+    if (blocks) blocks->backward(scaled.data());
     op.apply(scaled.data(), product.data());
+    if (blocks) blocks->forward(product.data());
     for_each_index(workers, size, [&](std::size_t i) {
       product[i] = float(product[i] * root(i) - beta * before[i]);
     });

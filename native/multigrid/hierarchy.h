@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The operators of all levels, and linear solves on any of them: conjugate gradients around
 // V-cycles, with a direct solve where the cycle ends. It adapts to what it meets: skew makes a mesh
-// hard, on all levels alike; the smoother's degree then rises, and a level that stays hard is
-// factored.
+// hard, on all levels alike; the smoother then works on blocks in place of the diagonal, its degree
+// rises, and a level that stays hard is factored.
 #pragma once
 
 #include <functional>
@@ -21,6 +21,7 @@ constexpr std::size_t tiny_level = 1200;
 struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen from how the solves go
   bool always_factor = false;  // the coarsest level is ill-conditioned, however large
+  bool may_block = false;      // whether the smoother may work on blocks (block_jacobi.h)
   // Unknowns of a level up to which a factor costs little.
   std::size_t cheap_factor = direct_limit_of_hard;
   // From this level on, the coarsest being 0, the largest eigenvalue is that of the level below.
@@ -34,6 +35,7 @@ struct LevelSolve {
   double largest_eigenvalue = 0;          // that the smoother worked with
   int smoother_degree = 0;                // at the end; 0: no smoother was asked
   bool direct = false, converged = false;
+  bool blocks = false;            // whether the smoother worked on blocks
   std::vector<double> residuals;  // after 0, 1, … iterations
 };
 
@@ -71,19 +73,32 @@ class Hierarchy {
   void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance);
 
  private:
+  // Of a level's solves: iterations, and what they have gained, as a logarithm.
+  struct Pace {
+    int iterations = 0;
+    double gained = 0;
+    Pace after(const PcgResult& result) const;
+  };
+
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
   void solve_direct(const CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
                     double* x, LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
+  bool is_too_hard(std::size_t index) const;
+  bool wants_blocks(std::size_t index, const Pace& pace) const;
+  void take_blocks(std::size_t index);
+  PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
+                    const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   void promote_to_coarsest(std::size_t index);
   bool factors_cheaply(std::size_t index) const;
-  void raise_degree(const PcgResult& result, double tolerance);
+  void raise_degree(std::size_t index, const PcgResult& result, double tolerance);
 
   Workers& workers_;
   HierarchyOptions options_;
   bool adapts_ = true;
   std::size_t factor_price_ = 1;
   std::vector<std::size_t> unknowns_;
+  std::vector<Pace> pace_;  // with the diagonal
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;
   PcgState pcg_;

@@ -10,6 +10,7 @@
 #include "base/types.h"
 #include "parallel/memory.h"
 #include "parallel/workers.h"
+#include "sparse/matrix.h"
 
 namespace fairing {
 
@@ -85,6 +86,9 @@ class LevelOperator {
   virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
 
   virtual AssembledSystem assemble() const = 0;  // small levels only
+  // K in single precision, a row a point, empty where it is no unknown. None: there is too much of
+  // it.
+  virtual SymmetricRows rows() const { return {}; }
 };
 
 }  // namespace fairing

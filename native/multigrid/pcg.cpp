@@ -90,6 +90,8 @@ class Iteration {
     }
     if (is_single && drifted_) replace();
     result_.residual = relative(length_);
+    result_.residual_scale = residual_scale_;
+    result_.energy_scale = energy_scale_;
     return result_;
   }
 

@@ -25,7 +25,8 @@ struct PcgResult {
   double residual = 0;      // relative to the scale, at the end
   double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
   bool converged = false;
-  std::vector<double> history;  // relative residual, the start's first
+  double residual_scale = 0, energy_scale = 0;  // what both are relative to
+  std::vector<double> history;                  // relative residual, the start's first
 };
 
 // The linear system of a level: r = b - K x, in double.

@@ -92,10 +92,11 @@ void CoarseSolver::solve(const double* b, double* x) const {
       x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
 }
 
-void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& state) {
+void CoarseSolver::solve(const BlockJacobi* blocks, double largest_eigenvalue, int degree,
+                         SmootherState& state) {
   if (!factor_) {
     // As much as on any other level: more gains no iteration, and small faces are dear.
-    smooth(op_, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
+    smooth(op_, blocks, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
     return;
   }
   const std::size_t size = op_.size();
@@ -109,15 +110,19 @@ void CoarseSolver::solve(double largest_eigenvalue, int degree, SmootherState& s
 void VCycle::run(std::size_t top) {
   CycleLevel& level = levels[top];
   if (top == base) {
-    coarse->solve(level.largest_eigenvalue, degree, level.state);
+    coarse->solve(level.blocks.get(), level.largest_eigenvalue, degree, level.state);
     return;
   }
   SmootherState& s = level.state;
-  smooth(*level.op, workers_, level.largest_eigenvalue, degree, SmoothFrom::zero, true, s);
+  const auto smooth_from = [&](SmoothFrom from, bool last_residual) {
+    smooth(*level.op, level.blocks.get(), workers_, level.largest_eigenvalue, degree, from,
+           last_residual, s);
+  };
+  smooth_from(SmoothFrom::zero, true);
   level.transfer->restrict_to(s.residual.data(), levels[top - 1].state.residual.data());
   run(top - 1);
   level.transfer->prolong(levels[top - 1].state.x.data(), s.step.data());
-  smooth(*level.op, workers_, level.largest_eigenvalue, degree, SmoothFrom::correction, false, s);
+  smooth_from(SmoothFrom::correction, false);
 }
 
 }  // namespace fairing

@@ -30,7 +30,8 @@ class CoarseSolver {
   std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: none
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
-  void solve(double largest_eigenvalue, int degree, SmootherState& state);
+  void solve(const BlockJacobi* blocks, double largest_eigenvalue, int degree,
+             SmootherState& state);
   // x <- K^-1 b in double; direct() only.
   void solve(const double* b, double* x) const;
 
@@ -52,7 +53,8 @@ constexpr std::size_t direct_limit_of_steps = 16000;
 // One level as the cycle sees it.
 struct CycleLevel {
   LevelOperator* op = nullptr;
-  LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
+  LevelTransfer* transfer = nullptr;    // to the next coarser level; null on the coarsest
+  std::unique_ptr<BlockJacobi> blocks;  // of the smoother; null: the diagonal serves
   double largest_eigenvalue = 0;
   SmootherState state;
 };

@@ -137,8 +137,8 @@ float AssembledMatrix::diagonal(std::size_t row) const {
   return sum;
 }
 
-AssembledMatrix::Columns AssembledMatrix::by_columns() const {
-  Columns out;
+MatrixColumns AssembledMatrix::by_columns() const {
+  MatrixColumns out;
   out.first.assign(columns_ + 1, 0);
   for (const RowChunk& chunk : chunk_) {
     stop_if_cancelled();

@@ -123,6 +123,17 @@ class RowBuilder {
   std::vector<float> number_;
 };
 
+// Numbers column by column: first[c] … first[c + 1] of (row, number), rows ascending.
+struct MatrixColumns {
+  std::vector<std::size_t> first;
+  std::vector<std::pair<Index, float>> entry;
+
+  std::size_t bytes() const {
+    return first.capacity() * sizeof(first[0]) + entry.capacity() * sizeof(entry[0]);
+  }
+};
+using SymmetricRows = MatrixColumns;
+
 class AssembledMatrix {
  public:
   AssembledMatrix(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns) {}
@@ -159,12 +170,7 @@ class AssembledMatrix {
   // The number of a row in its own column; 0 where the row is zero.
   float diagonal(std::size_t row) const;
 
-  // Its numbers column by column: first[c] … first[c + 1] of (row, number), rows ascending.
-  struct Columns {
-    std::vector<std::size_t> first;
-    std::vector<std::pair<Index, float>> entry;
-  };
-  Columns by_columns() const;
+  MatrixColumns by_columns() const;
 
   // Calls finish(row, count, product) on blocks of rows, in parallel, with product the matrix times
   // x there, C numbers a row, 1 or 3: what comes after the product is done while it is in the

@@ -94,6 +94,14 @@ class ThinPlateLevel final : public LevelOperator {
     return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
                                shared_.workers);
   }
+  SymmetricRows rows() const override {
+    if (matrix_) return matrix_->rows();
+    const std::unique_ptr<PlateMatrix> matrix = PlateMatrix::make(
+        grid_, shared_.stencils, shared_.unknowns, shared_.workers, /*passing=*/true);
+    if (!matrix) return {};
+    matrix->set_weights(shared_.weights);
+    return matrix->rows();
+  }
 
  private:
   ThinPlateShared& shared_;

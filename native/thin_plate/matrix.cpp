@@ -103,7 +103,6 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
 constexpr std::size_t most_products = 128;
 
 bool suits(const GridLevel& grid, const Stencils& stencils) {
-  if (!has_rows(grid.n(), grid.size())) return false;
   std::size_t products = 81 * grid.size();
   for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
     const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);
@@ -115,8 +114,9 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 }  // namespace
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
-                                               const Unknowns& unknowns, Workers& workers) {
-  if (!suits(grid, stencils)) return nullptr;
+                                               const Unknowns& unknowns, Workers& workers,
+                                               bool passing) {
+  if (!has_rows(passing ? 2 : grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
   std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const PlateRings plate(grid, stencils, unknowns, workers);
   const auto writer = [&] {
@@ -129,6 +129,14 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
   weight_.clear();
   for (std::size_t v = 0; v < weights.size(); ++v)
     weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
+}
+
+SymmetricRows PlateMatrix::rows() const {
+  SymmetricRows out = rows_.by_columns();
+  for (std::size_t v = 0; 3 * v < weight_.size(); ++v)
+    for (std::size_t k = out.first[v]; k < out.first[v + 1]; ++k)
+      if (out.entry[k].first == Index(v)) out.entry[k].second += weight_[3 * v];
+  return out;
 }
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {

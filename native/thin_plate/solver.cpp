@@ -43,6 +43,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
+  out.may_block = true;
   out.settled = unknowns.any_vertex ? settled_from_level_0 : settled_from_level_1;
   if (tense) out.settled += settled_under_tension;
   return out;

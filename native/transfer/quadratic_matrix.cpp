@@ -205,7 +205,7 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
     };
   };
   if (!transfer->prolongation_.build(workers, fine_writer)) return nullptr;
-  const AssembledMatrix::Columns columns = transfer->prolongation_.by_columns();
+  const MatrixColumns columns = transfer->prolongation_.by_columns();
   const auto coarse_writer = [&] {
     return [&columns](Index p, RowBuilder& row) {
       for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1];
