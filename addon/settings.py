@@ -284,6 +284,19 @@ def copy_settings(source: Settings, target: Any) -> None:
         setattr(target, name, getattr(source, name))
 
 
+def fill_in(settings: Settings, target: Any) -> None:
+    """`settings` onto operator properties where nobody has set them; those of the last run do not
+    count.
+    """
+    given = {name for name in NAMES if target.is_property_set(name)}
+    unit = target.tolerance_unit
+    for name in NAMES:
+        if name not in given:
+            setattr(target, name, getattr(settings, name))
+    if given & {"tolerance", "relative_tolerance", "tolerance_unit"}:
+        target.tolerance_unit = unit  # which setting the other tolerance has changed
+
+
 def snapshot(settings: Settings) -> SimpleNamespace:
     """The settings as plain values, which stay as they are."""
     return SimpleNamespace(**{name: getattr(settings, name) for name in NAMES})
