@@ -236,8 +236,9 @@ class FairingSettings:
     )
     shade_smooth: BoolProperty(
         name="Shade Smooth",
-        description="Shades every face of the result smooth. Off: each face is shaded like the one it comes from",
-        default=False,
+        description="Shades every face of the result smooth; creases and edges marked sharp stay sharp. "
+        "Off: each face is shaded like the one it comes from",
+        default=True,
     )
     memory_limit: IntProperty(
         name="Memory Limit",
