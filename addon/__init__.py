@@ -15,6 +15,7 @@ from .operators import check, fair, faults, fill, inspect, live, presets
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
+from .ui import menus
 
 _MODULES = (
     settings,
@@ -34,6 +35,7 @@ _MODULES = (
     main_panel,
     check_panel,
     inspect_panel,
+    menus,
     cli,
 )
 

@@ -47,6 +47,8 @@ _WHAT = {
     ),
     "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
 }
+# whose sentence from the core is followed by one that says what to do
+_WITH_REMEDY = {*_WHAT, "NON_ORIENTABLE"} - {"COINCIDENT_VERTICES", "ISOLATED_VERTICES"}
 _WHOLE = {
     "EMPTY_MESH": "The mesh is empty",
     "NO_FACES": "The mesh has no faces",
@@ -92,11 +94,10 @@ def remedy(code: str) -> str:
 
 def error_text(object_name: str, error: Any) -> str:
     """One paragraph for a FairingError: which object, what is wrong where, what to do."""
-    return " ".join(
-        _sentence(part)
-        for part in (f"{object_name}: {error}", _REMEDIES.get(error.code, ""))
-        if part
-    )
+    what, help_by = str(error), _REMEDIES.get(error.code, "")
+    if help_by and error.code in _WITH_REMEDY:  # ours knows Blender, and one is enough
+        what = what.partition(". ")[0]
+    return " ".join(_sentence(part) for part in (f"{object_name}: {what}", help_by) if part)
 
 
 @contextmanager

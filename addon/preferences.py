@@ -7,7 +7,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.props import IntProperty, StringProperty
 
-from .blender import Context, all_scenes, current_context
+from .blender import Context, Scene, all_scenes, current_context
 
 
 class Defaults:
@@ -72,20 +72,27 @@ def preferences() -> Preferences:
 @persistent
 def give_scenes_default_levels(*_: Any) -> None:
     """Scenes whose levels nobody has chosen get the user's default."""
-    levels = preferences().levels
     for scene in all_scenes():
-        settings = scene.discrete_fairing
-        if (
-            scene.library is None
-            and not settings.is_property_set("levels")
-            and settings.levels != levels
-        ):
-            settings.levels = levels
+        _give_default_levels(scene)
+
+
+def _give_default_levels(scene: Scene) -> None:
+    settings, levels = scene.discrete_fairing, preferences().levels
+    chosen = settings.is_property_set("levels") or settings.levels == levels
+    if scene.library is None and not chosen:
+        settings.levels = levels
+
+
+@persistent
+def _look_at_scene(scene: Scene, _depsgraph: Any = None) -> None:
+    """A scene that was added meanwhile: Blender tells of it by its first update."""
+    _give_default_levels(scene)
 
 
 def register() -> None:
     bpy.utils.register_class(DiscreteFairingPreferences)
     bpy.app.handlers.load_post.append(give_scenes_default_levels)
+    bpy.app.handlers.depsgraph_update_post.append(_look_at_scene)
     # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
     # Without a window no timer
     # ever runs, and one that waits would keep the bpy module from ending.
@@ -96,5 +103,6 @@ def register() -> None:
 def unregister() -> None:
     if bpy.app.timers.is_registered(give_scenes_default_levels):
         bpy.app.timers.unregister(give_scenes_default_levels)
+    bpy.app.handlers.depsgraph_update_post.remove(_look_at_scene)
     bpy.app.handlers.load_post.remove(give_scenes_default_levels)
     bpy.utils.unregister_class(DiscreteFairingPreferences)

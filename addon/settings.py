@@ -237,8 +237,9 @@ class FairingSettings:
     )
     shade_smooth: BoolProperty(
         name="Shade Smooth",
-        description="Shades every face of the result smooth. Off: each face is shaded like the one it comes from",
-        default=False,
+        description="Shades every face of the result smooth; creases and edges marked sharp stay sharp. "
+        "Off: each face is shaded like the one it comes from",
+        default=True,
     )
     memory_limit: IntProperty(
         name="Memory Limit",
@@ -284,6 +285,19 @@ def copy_settings(source: Settings, target: Any) -> None:
     """Every setting of `source` onto `target` (operator properties or property group)."""
     for name in NAMES:
         setattr(target, name, getattr(source, name))
+
+
+def fill_in(settings: Settings, target: Any) -> None:
+    """`settings` onto operator properties where nobody has set them; those of the last run do not
+    count.
+    """
+    given = {name for name in NAMES if target.is_property_set(name)}
+    unit = target.tolerance_unit
+    for name in NAMES:
+        if name not in given:
+            setattr(target, name, getattr(settings, name))
+    if given & {"tolerance", "relative_tolerance", "tolerance_unit"}:
+        target.tolerance_unit = unit  # which setting the other tolerance has changed
 
 
 def snapshot(settings: Settings) -> SimpleNamespace:

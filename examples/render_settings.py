@@ -179,7 +179,10 @@ FIGURES = {
     "shade_smooth": Figure(
         meshes.suzanne,
         View(3.1, turn=20, height=0.85),
-        (Variant("Shade Smooth off"), Variant("Shade Smooth on", {"shade_smooth": True})),
+        (
+            Variant("Shade Smooth off", {"shade_smooth": False}),
+            Variant("Shade Smooth on", {"shade_smooth": True}),
+        ),
         {"levels": 2, "energy": "THIN_PLATE"},
     ),
     "shape_keys": Figure(

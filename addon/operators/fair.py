@@ -17,7 +17,7 @@ from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
-from ..settings import FairingSettings
+from ..settings import FairingSettings, fill_in
 from ..ui.layout import draw_settings
 from . import fill
 from .modal import ModalRun
@@ -131,6 +131,11 @@ class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
 
     def draw(self, _context: Context) -> None:
         draw_settings(cast(bpy.types.UILayout, self.layout), self, self.bl_idname)
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        """From buttons, menus and search: with the settings of the panel."""
+        fill_in(context.scene.discrete_fairing, self.properties)
+        return super().invoke(context, event)
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [Job(context, source, self) for source in source_objects(context)]

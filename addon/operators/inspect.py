@@ -7,7 +7,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, Object, registration
-from ..inspection import display, readout
+from ..inspection import display, readout, viewport_shading
+from ..inspection.display import CURVATURES
 from ..inspection.settings import MODES
 from ..memory import source_of
 from ..poll import ExplainedPoll, mesh_poll_reason
@@ -45,9 +46,24 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     def description(cls, _context: Context, properties: Any) -> str:
         return next(text for key, _, text, *_ in MODES if key == properties.mode)
 
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            return "Inspecting works in Object Mode and Edit Mode"
+        return mesh_poll_reason(meshes(context))
+
+    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        """From a button: in the viewport beside it, what was asked for is to be seen."""
+        space = cast(Any, context.space_data)
+        if space is not None and space.type == "VIEW_3D":
+            viewport_shading.show(space, self.mode)
+        return self.execute(context)
+
     def execute(self, context: Context) -> Answer:
         for target in meshes(context):
             target.discrete_fairing_inspection.mode = self.mode
+        if self.mode in CURVATURES and context.mode == "EDIT_MESH":
+            self.report({"INFO"}, "Curvature is measured in Object Mode: press Tab, then Refresh")
         return {"FINISHED"}
 
 
@@ -96,10 +112,7 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
         return "" if space is not None and space.type == "VIEW_3D" else "Only in a 3D viewport"
 
     def execute(self, context: Context) -> Answer:
-        shading = cast(bpy.types.SpaceView3D, context.space_data).shading
-        shading.type = "MATERIAL" if self.shading == "MATERIAL" else "SOLID"
-        if self.shading == "ATTRIBUTE":
-            shading.color_type = "VERTEX"
+        viewport_shading.switch(cast(Any, context.space_data), self.shading)
         return {"FINISHED"}
 
 

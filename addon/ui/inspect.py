@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from ..blender import Context, Object, registration
-from ..inspection import display, readout
+from ..inspection import display, readout, viewport_shading
 from ..inspection.display import CURVATURES
 from ..inspection.settings import MODES
 from ..memory import recall
@@ -64,11 +64,8 @@ def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
 
 
 def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> None:
-    """A button if this viewport shows nothing of it; it is never switched unasked."""
-    shading = getattr(context.space_data, "shading", None)
-    if shading is None or shading.type in {"MATERIAL", "RENDERED"}:
-        return
-    if mode in CURVATURES and shading.type == "SOLID" and shading.color_type == "VERTEX":
+    """A button if this viewport, another than the one where it was asked for, shows nothing of it."""
+    if viewport_shading.shows(context.space_data, mode):
         return
     draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
     row = layout.row(align=True)

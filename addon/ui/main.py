@@ -18,7 +18,7 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
 from ..queue import Queue, running, status_text
-from ..settings import Settings, copy_settings, is_evaluated, is_near
+from ..settings import Settings, is_evaluated, is_near
 from .layout import (
     Folded,
     Sidebar,
@@ -83,9 +83,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            copy_settings(
-                settings, _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
-            )
+            _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
         draw_live(layout, context)
 
 
@@ -225,11 +223,11 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
         draw_notice(layout, mended, icon="INFO")
 
 
-def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> Any:
-    """The one large button; returns its operator's properties."""
+def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
+    """The one large button."""
     row = layout.row()
     row.scale_y = 1.5
-    return row.operator(operator, text=text, icon=icon)
+    row.operator(operator, text=text, icon=icon)
 
 
 def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:

@@ -20,6 +20,9 @@ class Layout:
     def panel(self, _name, **_):
         return Layout(self.log), Layout(self.log)
 
+    def separator(self):
+        pass
+
     def label(self, text="", **_):
         self.log.append(text)
 

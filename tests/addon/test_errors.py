@@ -70,6 +70,15 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
     assert errors.error_text("Wire", Refusal("no")) == "Wire: no."
 
 
+def test_no_remedy_is_given_twice():
+    add("Twice", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 2)])
+    with pytest.raises(RuntimeError) as refusal:
+        fair(levels=1)
+    said = str(refusal.value)
+    assert said.count("elete") == 1 and "Delete one of each pair." in said
+    assert "same vertices" in said, "and what is wrong"
+
+
 def test_size_sentence():
     assert size.why_too_large(10**6) == ""
     assert "fewer levels" in size.why_too_large(10**9)

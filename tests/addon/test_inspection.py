@@ -199,8 +199,9 @@ def test_smooth_while_inspected_is_not_the_mesh():
 def test_edit_mode_says_why_not():
     add("Box", *CUBE)
     bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.fairing_inspect.poll() and not bpy.ops.object.fairing_measure.poll()
+    bpy.ops.object.mode_set(mode="SCULPT")
     assert not bpy.ops.object.fairing_inspect.poll()
-    assert not bpy.ops.object.fairing_measure.poll()
 
 
 def test_flat_is_the_middle_colour_and_beyond_the_ends_nothing_changes():

@@ -106,7 +106,7 @@ def test_materials_and_shading_follow_the_faces():
         source.data.materials.append(bpy.data.materials.new(name))
     source.data.polygons.foreach_set("material_index", [0, 1, 2, 0, 1, 2])
     source.data.polygons.foreach_set("use_smooth", [True, False, True, False, True, False])
-    result = fair(levels=2)
+    result = fair(levels=2, shade_smooth=False)
     assert [m.name for m in result.data.materials] == ["Red", "Green", "Blue"]
     centres, normals = np.zeros((96, 3)), [tuple(p.normal) for p in source.data.polygons]
     result.data.polygons.foreach_get("center", flat := np.empty(3 * 96, np.float32))
@@ -122,9 +122,17 @@ def test_materials_and_shading_follow_the_faces():
     )
 
 
-def test_shade_smooth():
-    add("Box", *CUBE).data.polygons.foreach_set("use_smooth", [False] * 6)
-    assert face_values(fair(levels=1, shade_smooth=True).data, "use_smooth", bool).all()
+def test_smooth_by_default_and_sharp_where_the_source_is():
+    source = add("Box", *CUBE)
+    source.data.polygons.foreach_set("use_smooth", [False] * 6)
+    rim = [(1, 3), (3, 7), (5, 7), (1, 5)]
+    set_edge_attribute(source.data, "sharp_edge", "BOOLEAN", rim, True)
+    result = fair(levels=1)
+    assert face_values(result.data, "use_smooth", bool).all()
+    assert sum(edge.use_edge_sharp for edge in result.data.edges) == 2 * len(rim)
+    corners = np.array([n.vector[:] for n in result.data.corner_normals])
+    at = np.array([loop.vertex_index for loop in result.data.loops]) == 1
+    assert len(np.unique(corners[at].round(4), axis=0)) > 1, "two sides of a sharp edge"
 
 
 def test_materials_held_by_the_object():

@@ -24,6 +24,14 @@ def test_new_files_begin_with_the_default_levels(monkeypatch):
     assert bpy.context.scene.discrete_fairing.levels == 5
 
 
+def test_new_scenes_too(monkeypatch):
+    prefer(monkeypatch, levels=5)
+    bpy.ops.scene.new(type="EMPTY")
+    add("Box", *CUBE)
+    bpy.context.view_layer.update()
+    assert bpy.context.scene.discrete_fairing.levels == 5
+
+
 def test_chosen_levels_are_left_alone(monkeypatch):
     prefer(monkeypatch, levels=5)
     bpy.context.scene.discrete_fairing.levels = 3

@@ -15,7 +15,7 @@ from addon.settings import NAMES
 from addon.ui.main import PRESET_FOLDER
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
-SHIPPED = ("default", "organic", "hull", "mechanical_with_creases", "scan")
+SHIPPED = ("Default", "Organic", "Hull", "Mechanical_with_Creases", "Scan")
 
 
 def values(name):
@@ -52,7 +52,7 @@ def test_menu_applies_them(name):
 
 def test_the_default_is_that_of_a_new_file():
     new = bpy.context.scene.discrete_fairing
-    for key, value in values("default").items():
+    for key, value in values("Default").items():
         expected = pytest.approx(value) if isinstance(value, float) else value
         assert getattr(new, key) == expected, key
 
@@ -92,7 +92,12 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     add("Box", *CUBE)
     target = fair(levels=1)
     levels = bpy.context.scene.discrete_fairing.levels
-    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "scan.py"))
+    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Scan.py"))
     assert target.discrete_fairing.interpolation == "APPROXIMATE"
     assert bpy.context.scene.discrete_fairing.interpolation == "EXACT"
     assert bpy.context.scene.discrete_fairing.levels == levels
+
+
+def test_menus_show_them_in_proper_case():
+    shown = [bpy.path.display_name(path.name, title_case=False) for path in FOLDER.glob("*.py")]
+    assert set(shown) == {"Default", "Organic", "Hull", "Mechanical with Creases", "Scan"}

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel computes and draws, on a layout that only remembers."""
 
+from types import SimpleNamespace
+
 import bpy
 import pytest
 from fake_layout import Layout, draw
 from scenes import CUBE, add, add_suzanne, face_values
 
+import addon
 from addon import core, size
 from addon.choices import ENERGIES, ENERGY_MEANINGS
-from addon.settings import NAMES, copy_settings
+from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
-from addon.ui import main, notice
+from addon.ui import main, menus, notice
 from addon.ui.layout import Sidebar
 
 
@@ -86,11 +89,57 @@ def test_what_an_energy_means_fits_the_sidebar():
     assert all(len(meaning) <= notice.WIDTH for meaning in ENERGY_MEANINGS.values())
 
 
-def test_button_carries_the_settings():
+class Given(SimpleNamespace):
+    """An operator's properties, some of them set by whoever calls it."""
+
+    def is_property_set(self, name):
+        return name in self.given
+
+
+def test_what_is_not_said_is_that_of_the_panel():
+    settings = bpy.context.scene.discrete_fairing
+    settings.levels, settings.tension = 4, 0.5
+    settings.relative_tolerance = 0.125
+    given = Given(given={"tension"}, **vars(snapshot(settings)))
+    given.levels, given.tension, given.relative_tolerance = 1, 0.25, 0.0
+    fill_in(settings, given)
+    assert (given.levels, given.tension, given.relative_tolerance) == (4, 0.25, 0.125)
+
+
+def test_a_tolerance_that_is_said_keeps_its_unit():
+    settings = bpy.context.scene.discrete_fairing
+    settings.relative_tolerance = 0.125
+    given = Given(given={"tolerance"}, **vars(snapshot(settings)))
+    given.tolerance, given.tolerance_unit = 0.5, "SCENE"
+    fill_in(settings, given)
+    assert (given.tolerance, given.tolerance_unit) == (0.5, "SCENE")
+
+
+def test_drawing_touches_no_operator():
     add("Box", *CUBE)
-    bpy.context.scene.discrete_fairing.levels = 4
+    before = dict(vars(Layout.button))
     draw(main.VIEW3D_PT_fairing)
-    assert Layout.button.levels == 4
+    assert dict(vars(Layout.button)) == before
+
+
+def test_menus_have_every_operator():
+    """Blender's search finds what stands in a menu."""
+    add("Box", *CUBE)
+    log = draw(menus.VIEW3D_MT_fairing)
+    own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fair")}
+    # those of a line, a viewport or a preset, and what Adjust Last Operation calls
+    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill"}
+    assert own - {f"object.fairing_{name}" for name in others} == {
+        entry for entry in log if entry.startswith("object.")
+    }
+
+
+@pytest.mark.parametrize("name", menus._ENTRIES)
+def test_blender_draws_the_menus(name):
+    assert menus._ENTRIES[name] in getattr(bpy.types, name)._dyn_ui_initialize()
+    addon.unregister()
+    assert menus._ENTRIES[name] not in getattr(bpy.types, name)._dyn_ui_initialize()
+    addon.register()
 
 
 def test_a_large_result_is_announced():

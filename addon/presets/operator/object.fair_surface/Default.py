@@ -28,4 +28,4 @@ op.repair = "MEND"
 op.use_shape_keys = True
 op.copy_modifiers = False
 op.hide_source = True
-op.shade_smooth = False
+op.shade_smooth = True

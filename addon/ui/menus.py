@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entries in Blender's own menus, which is also where its search (F3) finds operators."""
+
+from typing import Any
+
+import bpy
+
+from ..blender import Context
+from ..inspection.settings import MODES
+
+
+class VIEW3D_MT_fairing(bpy.types.Menu):
+    bl_label = "Fairing"
+
+    def draw(self, _context: Context) -> None:
+        layout: Any = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator("object.fair_surface", icon="SURFACE_DATA")
+        layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
+        layout.operator("object.fairing_live")
+        layout.operator("object.fairing_show_source")
+        layout.separator()
+        layout.operator("object.fairing_check")
+        layout.operator("object.fairing_select_faults")
+        layout.separator()
+        layout.operator("object.fairing_measure")
+        layout.operator("object.fairing_refresh")
+        for mode, label, *_ in MODES:
+            button: Any = layout.operator("object.fairing_inspect", text=f"Inspect: {label}")
+            button.mode = mode
+
+
+def _draw_all(menu: Any, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.menu(VIEW3D_MT_fairing.__name__)
+
+
+def _draw_one(menu: Any, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.operator_context = "INVOKE_DEFAULT"
+    menu.layout.operator("object.fair_surface", icon="SURFACE_DATA")
+
+
+def _draw_faces(menu: Any, _context: Context) -> None:
+    """In Edit Mode: the faces that are selected."""
+    menu.layout.separator()
+    menu.layout.operator_context = "INVOKE_DEFAULT"
+    button = menu.layout.operator(
+        "object.fair_surface", text="Fair Selected Faces", icon="SURFACE_DATA"
+    )
+    button.use_selection = True
+
+
+_ENTRIES = {
+    "VIEW3D_MT_object": _draw_all,
+    "VIEW3D_MT_object_context_menu": _draw_one,
+    "VIEW3D_MT_edit_mesh": _draw_all,
+    "VIEW3D_MT_edit_mesh_context_menu": _draw_faces,
+    "VIEW3D_MT_edit_mesh_faces": _draw_faces,
+}
+
+
+def register() -> None:
+    bpy.utils.register_class(VIEW3D_MT_fairing)
+    for name, draw in _ENTRIES.items():
+        getattr(bpy.types, name).append(draw)
+
+
+def unregister() -> None:
+    for name, draw in _ENTRIES.items():
+        getattr(bpy.types, name).remove(draw)
+    bpy.utils.unregister_class(VIEW3D_MT_fairing)
