@@ -203,8 +203,10 @@ class Session:
             "step_tolerance": _STEP,
         }
         arguments["energy"] = self._pace.energy(arguments["energy"])
-        if self.solver is not None and are_equal(
-            without_vertices(arguments), without_vertices(self._arguments)
+        if (
+            self.solver is not None
+            and are_equal(without_vertices(arguments), without_vertices(self._arguments))
+            and _together(arrays.positions, self.solver.vertex_origin)
         ):
             return False
         self.solver = self._mesh = None
@@ -337,6 +339,15 @@ class Session:
         if self._level < self._chosen:
             less.append(f"Level {self._level} instead of {self._chosen}, to keep up")
         return less
+
+
+def _together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
+    """Whether vertices that a solver has merged still are at one place."""
+    if origin is None:
+        return True
+    rows = np.flatnonzero(origin != np.arange(len(origin)))
+    here, there = positions[rows], positions[origin[rows]]
+    return bool(((here == there) | ~np.isfinite(here)).all())
 
 
 def _chosen_level(target: Object) -> int:

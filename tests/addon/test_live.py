@@ -8,6 +8,7 @@ import pytest
 from live_scenes import follow, live, session, surface_of
 from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
 
+from addon import core
 from addon.live import handlers, pace
 
 
@@ -228,6 +229,7 @@ def test_an_error_leaves_the_last_surface_and_it_goes_on():
 def test_what_cannot_be_faired_anew_is_said_with_the_full_level():
     """A face that collapses in passing does not stop the edit: charts are those of its beginning."""
     source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.repair = "REFUSE"
     target = live(source)
     source.data.vertices[0].co = source.data.vertices[1].co
     source.data.update()
@@ -239,6 +241,25 @@ def test_what_cannot_be_faired_anew_is_said_with_the_full_level():
     move(source, by=-1.0)
     follow()
     assert not session(target).trouble and session(target).is_waiting
+
+
+def test_vertices_that_were_together_part_again():
+    """The solver made while they were together has merged them."""
+    source = add("Box", *CUBE)
+    target = live(source)
+    source.data.vertices[0].co = source.data.vertices[1].co
+    source.data.update()
+    follow()
+    session(target).complete(bpy.context)
+    now = positions(source.data).astype(float)
+    fresh = core.module().Solver(**{**session(target)._arguments, "vertices": now})
+    session(target).solver = fresh
+    assert fresh.vertex_origin[1] == 0
+    move(source, index=1, by=-0.25)
+    follow()
+    assert not session(target).trouble
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    assert session(target).solver.vertex_origin is None
 
 
 def test_an_empty_mesh_is_said():

@@ -77,6 +77,14 @@ class Solver:
         """The memory of the long arrays and factorizations that are kept from call to call."""
         return self._native.bytes
 
+    @property
+    def vertex_origin(self) -> np.ndarray | None:
+        """(n,) int32, where repair="mend" merged vertices: the one that each follows, most often
+        itself; else None.
+        """
+        mended = self._constants["mended"]
+        return mended["vertex_origin"] if mended else None
+
     def solve(
         self,
         vertices: ArrayLike | None = None,
