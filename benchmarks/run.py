@@ -25,6 +25,7 @@ import shared
 import side_by_side
 import sizes
 import subdivision
+import uneven
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -44,6 +45,7 @@ BENCHMARKS = {
     "pads": pads.run,
     "clean": clean_meshes.run,
     "live": live.run,
+    "uneven": uneven.run,
 }
 
 
