@@ -26,6 +26,7 @@ import shared
 import side_by_side
 import sizes
 import subdivision
+import uneven
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -46,6 +47,7 @@ BENCHMARKS = {
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "live": live.run,
+    "uneven": uneven.run,
 }
 
 

@@ -68,8 +68,8 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
-// that proves hard while the run is on its way is factored then (multigrid/v_cycle.h); that comes
-// on top.
+// that proves hard while the run is on its way gets blocks (multigrid/block_jacobi.h), or is factored
+// (v_cycle.h); that comes on top.
 std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense) {
   const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;

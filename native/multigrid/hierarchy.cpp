@@ -22,10 +22,10 @@ constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which takes the hardest part away.
 constexpr int most_degree_over_factor = 12;
 
-// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 13 to
-// 1e-4, where even meshes take five to nine. Blocks serve better then, with this degree to begin
+// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 18 to
+// 1e-4, where even meshes take five to ten. Blocks serve better then, with this degree to begin
 // with. Odd degrees gain less than the even ones below them.
-constexpr double slow_gain = 0.7;
+constexpr double slow_gain = 0.5;
 constexpr int degree_of_blocks = 2;
 
 // Solves with a factor, each on the residual that the one before has left.
@@ -169,7 +169,7 @@ bool Hierarchy::is_too_hard(std::size_t index) const {
 // Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
 bool Hierarchy::wants_blocks(std::size_t index, const Pace& pace) const {
   if (!options_.may_block || cycle_.levels[index].blocks) return false;
-  return (index > 0 && cycle_.levels[index - 1].blocks) ||
+  return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
          (pace.iterations >= first_probe && pace.gained < slow_gain * pace.iterations);
 }
 

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thin faces: the smoother's blocks keep iterations few, where levels had to be factored."""
+
+import numpy as np
+import pytest
+import sliver_meshes as slivers
+from control_meshes import icosahedron, random_hull, torus
+from discrete_fairing import fair
+
+# Mesh, levels, the most iterations of the finest level with point forces. All three had their two
+# finest levels factored when the smoother knew the diagonal only.
+HARD = {
+    "strips across the caps": (lambda: slivers.prism(), 3, 45),
+    "fans from the rim": (lambda: slivers.prism(height=0.2, cap=slivers.rim_fan), 3, 45),
+    "hull stretched by 100": (lambda: slivers.stretched(random_hull(400), 100), 3, 45),
+}
+
+
+def above_the_coarsest(result):
+    """Reports of the levels that are too large to be solved directly as a matter of course."""
+    return [level for level in result.report["levels"][1:] if level["unknowns"] > 1200]
+
+
+@pytest.mark.parametrize("pad_size", [0, 1])
+@pytest.mark.parametrize("name", HARD)
+def test_no_level_is_factored(name, pad_size):
+    make, levels, most = HARD[name]
+    result = fair(*make(), levels, pad_size=pad_size, measure=False)
+    hard = above_the_coarsest(result)
+    assert len(hard) == 2
+    assert all(level["converged"] and not level["direct"] for level in hard)
+    assert hard[-1]["blocks"]
+    assert 0 < hard[-1]["iterations"] <= most
+
+
+def test_threads_leave_no_trace():
+    mesh = slivers.stretched(random_hull(400), 100)
+    one, two = (fair(*mesh, 3, threads=n, measure=False) for n in (1, 2))
+    assert one.report["levels"][-1]["blocks"]
+    assert np.array_equal(one.vertices, two.vertices)
+
+
+def test_blocks_and_diagonal_come_to_the_same_surface():
+    vertices, faces = slivers.stretched_sheet(200, 100)
+    # Point forces: how wide pads are hangs on rough solves.
+    settings = {"pad_size": 0, "relative_residual": 1e-9, "max_iterations": 2000}
+    blocks = fair(vertices, faces, 3, measure=False, **settings)
+    diagonal = fair(vertices, faces, 3, smoother_degree=24, measure=False, **settings)
+    assert blocks.report["levels"][-1]["blocks"] and not diagonal.report["levels"][-1]["blocks"]
+    assert np.abs(blocks.vertices - diagonal.vertices).max() < 1e-5 * np.ptp(vertices)
+
+
+def test_blocks_follow_weights():
+    """A tolerance changes the weights of control vertices, and so the matrix, from round to
+    round."""
+    vertices, faces = slivers.stretched(random_hull(300), 30)
+    result = fair(vertices, faces, 3, interpolation="approximate", tolerance=1e-2, measure=False)
+    finest = result.report["levels"][-1]
+    assert finest["converged"] and not finest["direct"]
+    assert result.report["largest_deviation"] <= 1e-2 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("make", [icosahedron, torus])
+def test_even_meshes_keep_the_diagonal(make):
+    result = fair(*make(), 5, measure=False)
+    assert not any(level["blocks"] for level in result.report["levels"])
