@@ -203,10 +203,59 @@ def near() -> dict[str, Any]:
     return result
 
 
+def near_along_normals() -> dict[str, Any]:
+    """Total curvature: control vertices within a tolerance, on points and on pads of 1.
+
+    Solves are linear ones, on all levels. Tolerances are shares of the mean control edge.
+    """
+    result: dict[str, Any] = {}
+    rows = []
+    meshes = [*curvature_peaks.control_meshes(), ("fender", *fender(), LEVELS)]
+    for name, vertices, faces, levels in meshes:
+        sides = [(face[i - 1], face[i]) for face in faces for i in range(len(face))]
+        corners = vertices[np.array(sides)]
+        edge = np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1).mean()
+        for size in (0.0, 1.0):
+            for share in (0.0, 0.02, 0.1):
+                bound = {"interpolation": "approximate", "tolerance": share * edge} if share else {}
+                surface = df.fair(
+                    vertices,
+                    faces,
+                    levels,
+                    "total_curvature",
+                    pad_size=size,
+                    boundary="linear" if name == "fender" else "curve",
+                    **bound,
+                )
+                triangles = surface.triangles.astype(np.int64)
+                found = curvature_peaks.ratios(surface.vertices, triangles, len(vertices))
+                entry = curvature_peaks.summary(found)
+                by_level = surface.report["curvature"]
+                entry["energy"] = by_level[-1]["energy"] / (8 * np.pi)
+                entry["steps"] = [len(level["steps"]) for level in by_level]
+                entry["solves"] = [
+                    sum(step["pad_corrections"] + 1 for step in level["steps"])
+                    for level in by_level
+                ]
+                entry["gap"] = surface.report["constraint_gap"]
+                result[f"{name}, {size}, {share}"] = entry
+                cost = [" ".join(map(str, entry[key])) for key in ("steps", "solves")]
+                peaks = f"{entry['peaks']} of {entry['vertices']}"
+                figures = [f"{x:.2f}" for x in entry["over_mean"]]
+                energy = f"{entry['energy']:.4f}"
+                rows.append([f"{name}, L = {levels}", size, share, *figures, peaks, energy, *cost])
+    heads = ["mesh", "pad size", "tolerance, of an edge", "median", "95 %", "largest", "peaks"]
+    table.show(
+        "Near under total curvature", [*heads, "E / 8π", "steps by level", "solves by level"], rows
+    )
+    return result
+
+
 def run() -> dict[str, Any]:
     """All tables."""
     result: dict[str, Any] = {"inscribed": energies_of_inscribed(), "real": peaks_and_costs()}
     result["near"] = near()
+    result["near along normals"] = near_along_normals()
     rows = []
     for energy in ("thin_plate", "total_curvature", "minimum_variation"):
         for size in SIZES if energy == "thin_plate" else SIZES[:1]:  # others have no pads yet

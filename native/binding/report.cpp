@@ -48,6 +48,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["variation"] = l.variation;
   d["folds_before"] = l.folds_before;
   d["folds"] = l.folds;
+  d["constraint_gap"] = l.constraint_gap;
   d["converged"] = l.converged;
   d["accurate"] = l.accurate;
   py::list steps;
@@ -62,6 +63,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
     step["residual"] = s.residual;
     step["direct"] = s.direct;
     step["pad_corrections"] = s.pad_corrections;
+    step["constraint_rounds"] = s.constraint_rounds;
     steps.append(step);
   }
   d["steps"] = steps;

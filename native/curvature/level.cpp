@@ -52,7 +52,8 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
   } else {
     apply_rows(x, y);
   }
-  add_diagonal(x, y);
+  for (std::size_t v = 0; v < shared_.weights.size(); ++v) y[v] += T(weight(v)) * x[v];
+  add_damping(x, y);
 }
 
 template void CurvatureLevel::apply_any(const double*, double*, ElementSlots<double, 1>&);
@@ -61,13 +62,11 @@ template void CurvatureLevel::apply_any(const float*, float*, ElementSlots<float
 void CurvatureLevel::apply_on(const Unknowns& rows, const double* x, double* y) {
   apply_square(rows_, rows, shared_.workers, shared_.double_slots, x, y);
   if (is_tense()) area_->add_product(rows, shared_.workers, x, y);
-  add_diagonal(x, y);
+  add_damping(x, y);
 }
 
-// What control vertices' weights and damping add.
 template <class T>
-void CurvatureLevel::add_diagonal(const T* x, T* y) const {
-  for (std::size_t v = 0; v < vertex_weight_.size(); ++v) y[v] += T(vertex_weight_[v]) * x[v];
+void CurvatureLevel::add_damping(const T* x, T* y) const {
   if (!damping_.empty())
     for_each_index(shared_.workers, damping_.size(),
                    [&](std::size_t i) { y[i] += T(damping_[i]) * x[i]; });
@@ -94,10 +93,18 @@ void CurvatureLevel::set_damping(const Array<float>& mu) {
     damping_.resize(grid_.size());
     for (std::size_t i = 0; i < damping_.size(); ++i) damping_[i] = mu[i] * diagonal_[i];
   }
-  for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
-    const float d = diagonal_[i] + (mu.empty() ? 0.0f : damping_[i]);
-    inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
-  }
+  for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) invert_diagonal(i);
+}
+
+void CurvatureLevel::update_weights() {
+  for (std::size_t v = 0; v < shared_.weights.size(); ++v) invert_diagonal(v);
+}
+
+void CurvatureLevel::invert_diagonal(std::size_t i) {
+  float d = diagonal_[i];
+  if (i < shared_.weights.size()) d += float(weight(i));
+  if (!damping_.empty()) d += damping_[i];
+  inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
 }
 
 // For the variation that of J^T diag(L + share W) J, which is as good a scale as its own.
@@ -115,7 +122,6 @@ void CurvatureLevel::update_diagonal() {
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
                   varies() ? weight.data() : nullptr, diagonal_.data());
   if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
-  for (std::size_t v = 0; v < vertex_weight_.size(); ++v) diagonal_[v] += float(vertex_weight_[v]);
   set_damping({});
 }
 

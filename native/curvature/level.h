@@ -30,9 +30,8 @@ struct CurvatureShared {
   Unknowns unknowns;
   CurvatureEnergy energy;
   Workers& workers;
-  VertexWeights weights{};  // w |p - target|^2 is added to the energy; empty: none
-  std::vector<Vec3> targets{};
-  double tension = 0;                // tension times area is added to the energy
+  VertexWeights weights{};  // of springs at control vertices along the normals; empty: none
+  double tension = 0;       // tension times area is added to the energy
   double total_curvature_share = 0;  // minimum variation: of W beside L
   // The unknowns and the control vertices on pads: total curvature's force is wanted there too.
   // Null: on the unknowns alone.
@@ -66,13 +65,11 @@ class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
-  // K about the surface x (3 numbers a point). Returns the energy, the parts of tension and weights
-  // included.
+  // K about the surface x (3 numbers a point). Returns the energy, tension's part included.
   double linearize(const double* x, Linearization* out = nullptr);
 
-  // The latest energy without the weights' part: what surfaces are compared by.
+  // The latest energy: what surfaces are compared by. Then without tension's part.
   double fairness() const { return bending_ + tension_; }
-  // Without tension's part as well.
   double bending() const { return bending_; }
 
   // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what apply() and
@@ -84,14 +81,18 @@ class CurvatureLevel final : public LevelOperator {
 
   // mu_i K_ii is added to the diagonal from here on; empty: nothing.
   void set_damping(const Array<float>& mu);
+  // Call after shared.weights has changed.
+  void update_weights();
 
-  const Array<float>& diagonal() const { return diagonal_; }  // zero where a point is no unknown
+  // Of K without weights and damping; zero where a point is no unknown.
+  const Array<float>& diagonal() const { return diagonal_; }
 
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override { apply_any(x, y, shared_.double_slots); }
   void apply(const float* x, float* y) override { apply_any(x, y, shared_.float_slots); }
-  // y <- K x on `rows`, for an x that is zero off the unknowns. Total curvature only.
+  // y <- K x on `rows` without the weights, for an x that is zero off the unknowns. Total curvature
+  // only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
   bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
@@ -100,7 +101,6 @@ class CurvatureLevel final : public LevelOperator {
  private:
   struct Tensors;
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
-  double add_vertex_weights(const double* x, const double* normal, double* force);
   template <class T>
   void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
   void apply_rows(const double* x, double* y);
@@ -109,7 +109,11 @@ class CurvatureLevel final : public LevelOperator {
     return shared_.pad_rows && !varies() ? *shared_.pad_rows : shared_.unknowns;
   }
   template <class T>
-  void add_diagonal(const T* x, T* y) const;
+  void add_damping(const T* x, T* y) const;
+  double weight(std::size_t v) const {
+    return shared_.unknowns.vertex[v] ? shared_.weights[v] : 0.0;
+  }
+  void invert_diagonal(std::size_t i);
   bool is_tense() const { return area_ && shared_.tension > 0; }
   bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
 
@@ -120,7 +124,6 @@ class CurvatureLevel final : public LevelOperator {
   std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
   std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
   bool suits_square_, square_is_old_ = true;
-  std::vector<double> vertex_weight_;       // of the control vertices' weights, along their normals
   std::unique_ptr<Connection> connection_;  // minimum variation only
   std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;

@@ -236,28 +236,8 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
   } else {
     tension_ = 0;
   }
-  const double total =
-      add_vertex_weights(x, wants_points ? to.normal.data() : nullptr, to.force.data());
   update_diagonal();
-  return total;
-}
-
-// The weights that hold control vertices: their part of K and of the force (without normals: not
-// wanted). Returns the whole energy.
-double CurvatureLevel::add_vertex_weights(const double* x, const double* normal, double* force) {
-  double total = fairness();
-  vertex_weight_.assign(shared_.weights.size(), 0.0);
-  for (std::size_t v = 0; v < shared_.weights.size(); ++v) {
-    const double weight = shared_.weights[v];
-    if (!shared_.unknowns.vertex[v] || !(weight > 0)) continue;
-    const Vec3 away = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) - shared_.targets[v];
-    total += weight * away.squaredNorm();
-    vertex_weight_[v] = weight;
-    if (normal)
-      force[v] -= weight * (normal[3 * v] * away[0] + normal[3 * v + 1] * away[1] +
-                            normal[3 * v + 2] * away[2]);
-  }
-  return total;
+  return fairness();
 }
 
 // L about the surface, and with it the force: minus J^T L M. Returns the energy M . L M.

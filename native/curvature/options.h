@@ -41,6 +41,9 @@ struct StepReport {
   // Of the loads on pads: how often they were corrected, and the work of a full step against them.
   int pad_corrections = 0;
   double load_work = 0;
+  // Within tolerances: with other weights, and how far they leave the energy above the least one.
+  int constraint_rounds = 0;
+  double constraint_gap = 0;
 };
 
 // Energies are of curvature alone where the solver returns; steps judge by tension's part too.
@@ -51,6 +54,7 @@ struct CurvatureLevelReport {
   double energy = 0;        // of the surface returned
   // Minimum variation's energy before its steps and after them; on the finest level alone.
   double start_variation = 0, variation = 0;
+  double constraint_gap = 0;  // of the last step
   // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
   std::size_t folds_before = 0, folds = 0;
   std::vector<StepReport> steps;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "curvature/hold.h"
 #include "curvature/start.h"
 #include "curvature/total_curvature.h"
 #include "hold/pad_widths.h"
@@ -55,31 +54,29 @@ constexpr double most_over_plate = 1.2;
 GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
                                      const std::vector<CurvatureGrid>& levels, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
-                                     const GaussNewtonOptions& options, ControlHold hold,
-                                     double epsilon, const Pads* pads, Mirrors mirrors,
-                                     Workers& workers, Monitor& monitor)
+                                     const GaussNewtonOptions& options, HoldAlongNormals hold,
+                                     const Pads* pads, Mirrors mirrors, Workers& workers,
+                                     Monitor& monitor)
     : options_(options),
-      epsilon_(epsilon),
       hold_(std::move(hold)),
       pads_(pads),
       system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
               monitor),
       iterate_{system_},
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
-      steps_(iterate_, hold_, options_),
+      steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
       variation_(iterate_, options_) {
-  system_.shared().weights = hold_.weights();
-  if (hold_.any()) system_.shared().targets.assign(hold_.targets().begin(), hold_.targets().end());
+  system_.hold_by(&hold_);
 }
 
 CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
   CurvatureLevelReport report;
   report.level = level;
   if (level < system_.base()) return report;
-  if (system_.stand_on(pads_)) iterate_.current.loads.clear();
+  if (system_.stand_on(pads_)) iterate_.current.held.loads.clear();
   choose_start(iterate_, level, plate, plate_below_, report);
-  const StepStart start{iterate_.current.points, iterate_.current.loads, report};
+  const StepStart start{iterate_.current.points, iterate_.current.held, report};
   if (system_.pads() && level == std::clamp(widths_level, system_.base(), system_.finest()))
     choose_widths(start, report);
   else
@@ -104,7 +101,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
   LinearizedSurface plain = iterate_.current;
   const CurvatureLevelReport plain_report = std::exchange(report, start.report);
   iterate_.current.points = start.points;
-  iterate_.current.loads = start.loads;
+  iterate_.current.held = start.held;
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
   steps_.run_damped(damping, report);
   if (is_accurate) steps_.polish_damped(report);
@@ -137,7 +134,7 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
   for (int round = 0;; ++round) {
     surface() = needles;
     iterate_.is_linearized = false;
-    StepStart again{needles, iterate_.current.loads, start.report};
+    StepStart again{needles, iterate_.current.held, start.report};
     again.report.plate_energy = std::max(start.report.plate_energy, energy_of_needles);
     report = again.report;
     minimize(again, is_finest(), report);
@@ -149,15 +146,15 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     const std::vector<int> halvings = halvings_of_pads(system_.grid(0), *system_.pads(),
                                                        curvature_limits, energy, of_needles, round);
     if (halvings.empty()) break;
-    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
+    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
   }
   if (report.energy <= crumpled * energy_of_needles) return;
   // No widths will do.
   const std::vector<int> all(of_needles.size(), to_nothing);
-  narrow_pads<1>(all, *system_.pads(), iterate_.current.loads);
+  narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
   surface() = needles;
   iterate_.is_linearized = false;
-  const StepStart again{needles, iterate_.current.loads, start.report};
+  const StepStart again{needles, iterate_.current.held, start.report};
   report = again.report;
   minimize(again, is_finest(), report);
 }
@@ -176,8 +173,8 @@ void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport
         any = true;
       }
     if (!any) return;
-    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.loads);
-    const StepStart again{surface(), iterate_.current.loads, start.report};
+    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
+    const StepStart again{surface(), iterate_.current.held, start.report};
     iterate_.is_linearized = false;
     report = start.report;
     minimize(again, true, report);
@@ -189,14 +186,23 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
                                CurvatureLevelReport& report) {
   if (system_.pads()) leave_folds(start, report);
   unfolding_.run(start, report);
-  if (hold_.any()) fix_held(iterate_, hold_, steps_, report);
-  if (epsilon_ > 0) release_by_epsilon(iterate_, epsilon_, steps_, report);
+  if (hold_.any()) fix_held(report);
   if (!(report.energy <= energy_bound(report))) fall_back(plate, report);
   if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
   solved_folds_ = report.folds = unfolding_.find().count();
   solved_energy_ = report.energy;
   leave_out_tension(start, plate, report);
   is_sound_ = report.converged;
+}
+
+void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
+  system_.shared().unknowns = hold_.without_held();
+  system_.hold_by(nullptr);
+  iterate_.current.held.bounds.clear();
+  if (!hold_.active()) return;
+  hold_.enforce(surface().data());
+  iterate_.linearize();
+  steps_.polish(short_patience, equal_energy * iterate_.current.energy, report);
 }
 
 double GaussNewtonSolver::tension_of(const Array<double>& x) {
@@ -226,7 +232,7 @@ double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
 bool GaussNewtonSolver::can_move() const {
-  return is_sound_ && stepping_ == Stepping::plain && !hold_.any() && !(epsilon_ > 0);
+  return is_sound_ && stepping_ == Stepping::plain && !hold_.any();
 }
 
 void GaussNewtonSolver::leave_plate(const Array<double>& plate) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of least total curvature, or of least variation of curvature: Gauss-Newton steps along
 // the normals, level by level, from the thin plate's surface. What is done in which order; how, is
-// with the parts: start.h, steps.h, unfold.h, hold.h, variation.h.
+// with the parts: start.h, steps.h, unfold.h, variation.h.
 #pragma once
 
 #include "curvature/unfold.h"
@@ -11,15 +11,14 @@ namespace fairing {
 
 class GaussNewtonSolver {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns. `epsilon` in working units: how
-  // far interpolated control vertices are let go at the end; 0: not at all. `pads`: what control
-  // vertices stand on while total curvature is minimized, or null; their widths may change before
+  // `levels`: all from 0 on; those below `base` have no unknowns. `hold`: what holds control
+  // vertices that move, and where all of them belong. `pads`: what control vertices stand on while total curvature is minimized, or null; their widths may change before
   // each level. `mirrors`: the symmetries that the surface is to keep. The references must outlive
   // the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
-                    const GaussNewtonOptions& options, ControlHold hold, double epsilon,
-                    const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);
+                    const GaussNewtonOptions& options, HoldAlongNormals hold, const Pads* pads,
+                    Mirrors mirrors, Workers& workers, Monitor& monitor);
 
   // The surface of a level, from `plate`, the thin plate's (3 numbers a point, in working
   // coordinates). Levels have to come in order; on each but the first the level below helps to
@@ -48,6 +47,9 @@ class GaussNewtonSolver {
   void choose_widths(const StepStart& start, CurvatureLevelReport& report);
   // On the finest level: pads beside folds are gone, and the surface follows.
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);
+  // From here on held control vertices stay where they are. The surface follows by a few plain
+  // steps, if these settle.
+  void fix_held(CurvatureLevelReport& report);
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
   // What the surface of a level may have of total curvature.
   double energy_bound(const CurvatureLevelReport& report);
@@ -62,8 +64,7 @@ class GaussNewtonSolver {
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   GaussNewtonOptions options_;
-  double epsilon_;
-  ControlHold hold_;
+  HoldAlongNormals hold_;
   const Pads* pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;

@@ -94,7 +94,7 @@ void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate
     candidates.try_refined(below.points, below.linearization.normal);
   if (report.start_energy > desperately_above * below.energy)
     candidates.try_refined(below.points, Array<double>(below.points.size(), 0.0));
-  iterate.current.loads = below.loads;  // densities, which hardly change from level to level
+  iterate.current.held = below.held;  // densities, which hardly change from level to level
 }
 
 }  // namespace fairing

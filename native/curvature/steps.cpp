@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "curvature/anderson.h"
+#include "hold/anderson.h"
+#include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
@@ -52,6 +53,7 @@ constexpr double unchecked_decrement = 1e-2;
 
 // Decrement below which steps are accelerated: each then leaves a fixed share of the error.
 constexpr double accelerated_decrement = 0.1;
+constexpr std::size_t accelerated_steps = 3;  // that are remembered
 
 // The ratio of two decrements tells what is left to move. The first one is of a step that was not
 // accelerated, and flatters; so do acceleration and inexact solves, wherefore none below
@@ -69,17 +71,43 @@ constexpr double farthest = 1e3;
 // Plain steps after damped ones: such as have not reached plain_decrement by then never will.
 constexpr int polishing_patience = 3;
 
+// Steps in the norm of the operator, as it is linearized where the latest one begins.
+struct StepSpace {
+  using Vector = Array<double>;
+
+  SurfaceIterate* iterate;
+
+  Vector product(const Vector& a) const {
+    Vector out(a.size());
+    iterate->op().apply(a.data(), out.data());
+    return out;
+  }
+  double dot(const Vector& a, const Vector& b) const {
+    return sum(iterate->workers(), a.size(), [&](std::size_t i) { return a[i] * b[i]; });
+  }
+  void add(double factor, const Vector& a, const Vector& b, Vector& to) const {
+    for_each_index(iterate->workers(), to.size(),
+                   [&](std::size_t i) { to[i] += factor * (a[i] + b[i]); });
+  }
+  void subtract(const Vector& a, Vector& from) const {
+    for_each_index(iterate->workers(), from.size(), [&](std::size_t i) { from[i] -= a[i]; });
+  }
+  void scale(double factor, Vector& a) const {
+    for (double& entry : a) entry *= factor;
+  }
+};
+
 class TotalCurvatureMethod final : public StepMethod {
  public:
   // `damping` is null for plain steps.
-  TotalCurvatureMethod(SurfaceIterate& iterate, ControlHold& hold, double step_tolerance,
-                       LocalDamping* damping, const StepEnd& end, int patience)
+  TotalCurvatureMethod(SurfaceIterate& iterate, double step_tolerance, LocalDamping* damping,
+                       const StepEnd& end, int patience)
       : it_(iterate),
-        hold_(hold),
         step_tolerance_(step_tolerance),
         damping_(damping),
         end_(end),
-        patience_(patience) {
+        patience_(patience),
+        anderson_({&iterate}, accelerated_steps) {
     it_.trial.points.resize(3 * it_.grid().size());
     // local damping compares tensors in space
     it_.current.linearization.with_axes = it_.trial.linearization.with_axes = damping != nullptr;
@@ -94,16 +122,14 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
   void find_step(StepReport& step) override {
-    loads_ = it_.current.loads;
+    held_ = it_.current.held;
     const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
     step.energy = it_.current.energy;
-    const double gain =
-        it_.system.solve(it_.level, it_.current.linearization, fresh, it_.step, loads_, step);
+    const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
     step.decrement = std::sqrt(gain / it_.current.energy);
-    if (step.decrement < accelerated_decrement)
-      anderson_.accelerate(it_.op(), it_.workers(), it_.step);
+    if (step.decrement < accelerated_decrement) it_.step = anderson_.change(it_.step);
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
@@ -113,7 +139,7 @@ class TotalCurvatureMethod final : public StepMethod {
     const bool judges = step.length == 1 && is_checked(step);
     if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
                                   count.rejected, count.accepted, step.decrement))
-      anderson_.reset();
+      anderson_.forget();
     return energy - 2 * step.length * step.load_work;
   }
 
@@ -125,16 +151,15 @@ class TotalCurvatureMethod final : public StepMethod {
 
   bool accept(const StepReport& step, const StepCount& count,
               CurvatureLevelReport& report) override {
-    anderson_.accept(step.length);
+    if (step.length != 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
-    it_.current.loads = loads_;
+    it_.current.held = held_;
     const double left = share_left(step.decrement) * step.movement;
-    if (hold_.adapts() && !it_.system.shared().weights.empty()) adapt_hold();
     report.converged =
         end_.decrement > 0 ? step.decrement <= end_.decrement : left <= end_.movement;
     report.accurate = left <= step_tolerance_;
-    report.converged &=
-        it_.system.shared().weights.empty() || !hold_.adapts() || hold_.holds(it_.current.points);
+    if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
+    report.converged &= step.constraint_gap <= it_.system.wanted_gap(it_.level);
     const bool burst = !(step.movement <= farthest);
     report.converged &= !burst;
     const bool hopeless =
@@ -143,7 +168,7 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
   bool reject() override {
-    anderson_.reset();
+    anderson_.forget();
     it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
     last_decrement_ = 0;
     return damping_ != nullptr;
@@ -164,24 +189,14 @@ class TotalCurvatureMethod final : public StepMethod {
     return trusted < irregular_ratio ? trusted / (1 - trusted) : 1;
   }
 
-  // Other weights within the tolerance: another energy, of which earlier steps tell nothing.
-  void adapt_hold() {
-    hold_.adapt(it_.current.points);
-    it_.system.shared().weights = hold_.weights();
-    anderson_.reset();
-    it_.linearize();
-    last_decrement_ = 0;
-  }
-
   SurfaceIterate& it_;
-  ControlHold& hold_;
   double step_tolerance_;
   LocalDamping* damping_;
   StepEnd end_;
   int patience_;
-  Anderson anderson_;
+  Anderson<StepSpace> anderson_;
   Array<float> predicted_;
-  NormalLoads loads_;  // that go with the step
+  Multipliers<1> held_;  // that goes with the step
   double last_decrement_ = 0;
   bool has_ratio_ = false;  // whether the step before had one
 };
@@ -190,7 +205,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
 void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int patience,
                               CurvatureLevelReport& report) {
-  TotalCurvatureMethod method(iterate_, hold_, options_.step_tolerance, damping, end, patience);
+  TotalCurvatureMethod method(iterate_, options_.step_tolerance, damping, end, patience);
   run_steps(method, options_.max_steps, report);
   report.energy = iterate_.op().fairness();
 }

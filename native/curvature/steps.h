@@ -3,7 +3,6 @@
 // least total curvature.
 #pragma once
 
-#include "curvature/hold.h"
 #include "curvature/local_damping.h"
 #include "curvature/options.h"
 #include "curvature/system.h"
@@ -79,12 +78,12 @@ constexpr int short_patience = 6;
 // Two ways to step. Plain steps are full ones, not checked against the energy: they pass through
 // humps of the discrete energy where checked ones are trapped (judged by decrements, as in
 // Deuflhard's natural monotonicity). Damped steps hold where a surface is crumpled, and plain ones
-// run wild. Both are accelerated near the end (anderson.h).
+// run wild. Both are accelerated near the end (hold/anderson.h).
 class TotalCurvatureSteps {
  public:
   // All must outlive it.
-  TotalCurvatureSteps(SurfaceIterate& iterate, ControlHold& hold, const GaussNewtonOptions& options)
-      : iterate_(iterate), hold_(hold), options_(options) {}
+  TotalCurvatureSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
+      : iterate_(iterate), options_(options) {}
 
   // From iterate.current to the surface that the steps end at. `report` has the steps added, and
   // energy, `converged` and `accurate` set. Throws ErrorCode::cancelled.
@@ -102,7 +101,6 @@ class TotalCurvatureSteps {
   void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;
-  ControlHold& hold_;
   const GaussNewtonOptions& options_;
 };
 

@@ -100,16 +100,21 @@ PcgLimits GaussNewtonSystem::limits() const {
   return limits;
 }
 
-double GaussNewtonSystem::solve(int level, const Linearization& about, bool fresh, Array<double>& h,
-                                NormalLoads& loads, StepReport& report) {
+double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool fresh,
+                                Array<double>& h, Multipliers<1>& held, StepReport& report) {
   const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
   h.assign(points, 0.0);
-  if (fresh) hierarchy_.refresh(index, true);
+  if (hold_) {
+    look_along(about, held);
+    take_weights(level);
+  }
+  if (fresh || hold_) hierarchy_.refresh(index, fresh);
   LevelSolve solved;
   Array<double> with_loads;
-  const Array<double>& force = is_on_pads() ? with_loads : about.force;
-  if (is_on_pads()) {
-    solved = solve_on_pads(level, about, h, loads, with_loads, report);
+  const bool is_held = is_on_pads() || hold_;
+  const Array<double>& force = is_held ? with_loads : about.linearization.force;
+  if (is_held) {
+    solved = solve_held(level, about, h, held, with_loads, report);
   } else {
     std::copy(force.begin(), force.end(), hierarchy_.state().residual.begin());
     const Residual residual = [&](const double* x, double* r) {

@@ -10,7 +10,8 @@
 #include "curvature/level.h"
 #include "curvature/options.h"
 #include "grid/symmetrize.h"
-#include "hold/pads.h"
+#include "hold/hold_along_normals.h"
+#include "hold/load_steps.h"
 #include "multigrid/hierarchy.h"
 #include "parallel/monitor.h"
 #include "transfer/level_transfer.h"
@@ -43,6 +44,13 @@ class Symmetrizer {
   Mirrors mirrors_;
   const Unknowns& unknowns_;
   Workers& workers_;
+};
+
+struct LinearizedSurface {
+  Array<double> points;         // 3 numbers a point, in working coordinates
+  Linearization linearization;  // of the energy about `points`
+  double energy = 0;
+  Multipliers<1> held;  // what holds its control vertices; empty: not known
 };
 
 class GaussNewtonSystem {
@@ -81,18 +89,24 @@ class GaussNewtonSystem {
   bool stand_on(const Pads* pads);
   // Null without pads.
   Pads* pads() { return pads_.get(); }
+  // What holds the control vertices that move, along the normals, while total curvature is
+  // minimized. It must stay where it is until the next call; null: nothing does.
+  void hold_by(HoldAlongNormals* hold);
+  // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
+  bool is_bound() const { return hold_ && hold_->active(); }
+  double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
   // While it exists, control vertices are held by point forces all the same. The surface has to be
   // linearized after its beginning and after its end.
   class OffPads;
 
-  // Solves K h = force to a hundredth of the residual; h is symmetrized. On pads the force has the
-  // loads' part Omega phi f beside it, and loads take corrections until their vertices need few
-  // other forces (solve_on_pads.cpp); empty loads start as those that fit best. `fresh`: coarse
-  // levels have been linearized, or damped, since the last solve. The linear solve's part of
-  // `report` is set. Returns h . K h = force . h, by which a full step would lower a quadratic
-  // energy.
-  double solve(int level, const Linearization& about, bool fresh, Array<double>& h,
-               NormalLoads& loads, StepReport& report);
+  // Solves K h = force to a hundredth of the residual; h is symmetrized. Where control vertices
+  // stand on pads or are held otherwise, the force has the loads' part beside it (solve_held.cpp):
+  // `held` takes corrections, from that of the step before; empty loads start as those that fit
+  // best. `fresh`: coarse levels have been linearized, or damped, since the last solve. The linear
+  // solve's part of `report` is set. Returns h . K h = force . h, by which a full step would lower a
+  // quadratic energy.
+  double solve(int level, const LinearizedSurface& about, bool fresh, Array<double>& h,
+               Multipliers<1>& held, StepReport& report);
 
   // Before each step: progress, on the finest level. Throws ErrorCode::cancelled.
   void report_progress(int level, std::size_t steps);
@@ -100,9 +114,11 @@ class GaussNewtonSystem {
  private:
   PcgLimits limits() const;
   bool is_on_pads() const { return pads_ && shared_.energy == CurvatureEnergy::total_curvature; }
-  LevelSolve solve_on_pads(int level, const Linearization& about, Array<double>& h,
-                           NormalLoads& loads, Array<double>& force, StepReport& report);
-  NormalLoads fitting_loads(const Linearization& about) const;
+  void look_along(const LinearizedSurface& about, const Multipliers<1>& held);
+  void take_weights(int level);
+  struct HeldSolve;
+  LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
+                        Multipliers<1>& held, Array<double>& force, StepReport& report);
 
   const Stencils& stencils_;
   int base_, max_iterations_;
@@ -115,6 +131,8 @@ class GaussNewtonSystem {
   Symmetrizer symmetrizer_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   std::vector<double> given_widths_;
+  HoldAlongNormals* hold_ = nullptr;
+  std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
 };
 
 class GaussNewtonSystem::OffPads {
@@ -131,13 +149,6 @@ class GaussNewtonSystem::OffPads {
  private:
   GaussNewtonSystem& system_;
   std::unique_ptr<Pads> pads_;
-};
-
-struct LinearizedSurface {
-  Array<double> points;         // 3 numbers a point, in working coordinates
-  Linearization linearization;  // of the energy about `points`
-  double energy = 0;            // the control vertices' weights included
-  NormalLoads loads;            // on pads; empty: none are known
 };
 
 struct SurfaceIterate {

@@ -187,7 +187,7 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
 void Unfolding::solve_again(const StepStart& start, const Array<float>& marks, bool accurate,
                             CurvatureLevelReport& report) {
   it_.current.points = start.points;
-  it_.current.loads = start.loads;
+  it_.current.held = start.held;
   refill(marks);
   report = start.report;
   LocalDamping damping(it_.grid(), it_.system.shared().unknowns, it_.workers());

@@ -16,10 +16,11 @@ namespace fairing {
 void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                        const double* shape, double* x);
 
-// Where the steps on a level began: their points and loads, and the report before the first step.
+// Where the steps on a level began: their points, what held them, and the report before the first
+// step.
 struct StepStart {
   Array<double> points;
-  NormalLoads loads;
+  Multipliers<1> held;
   CurvatureLevelReport report;
 };
 

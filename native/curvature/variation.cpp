@@ -96,8 +96,7 @@ class VariationStep final : public StepMethod {
     it_.system.set_damping(it_.level, damping_.mu());
     step.variation = true;
     step.energy = it_.current.energy;
-    predicted_gain_ =
-        it_.system.solve(it_.level, it_.current.linearization, fresh, it_.step, no_loads_, step);
+    predicted_gain_ = it_.system.solve(it_.level, it_.current, fresh, it_.step, not_held_, step);
     step.decrement = std::sqrt(predicted_gain_ / scale_);
     it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
@@ -147,7 +146,7 @@ class VariationStep final : public StepMethod {
   LocalDamping damping_;
   Bending bending_;
   Array<float> predicted_;
-  NormalLoads no_loads_;
+  Multipliers<1> not_held_;
   double scale_ = 0;  // what decrements are relative to
   double predicted_gain_ = 0, last_decrement_ = 0;
 };

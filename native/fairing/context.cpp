@@ -12,10 +12,12 @@
 #include "fairing/output.h"
 #include "fairing/unknowns.h"
 #include "grid/linear.h"
+#include "hold/hold_in_space.h"
 #include "mesh/sheets.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 #include "thin_plate/back_leg.h"
+#include "thin_plate/release.h"
 
 namespace fairing {
 namespace {
@@ -99,6 +101,13 @@ void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watc
   }
 }
 
+template <class Hold>
+Hold FairingContext::hold_of(const ControlPositions& control, double unit) const {
+  if (options_.interpolation == Interpolation::exact)
+    return Hold(mesh_, control.working, unknowns_);
+  return Hold(mesh_, control.working, unknowns_, options_.weights, unit, working_tolerances());
+}
+
 // `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
 void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
   watch.enter(Phase::curves, 0);
@@ -111,7 +120,7 @@ void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
   weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
-  start_weights_ = constraint_of(basis_).weights();
+  start_weights_ = hold_of<HoldInSpace>(basis_, weight_unit_).weights();
   require_anchored(mesh_, unknowns_, start_weights_);
   system();
 }
@@ -146,13 +155,6 @@ void FairingContext::drop_systems() {
   system_.reset();
 }
 
-ToleranceConstraint FairingContext::constraint_of(const ControlPositions& control) const {
-  if (options_.interpolation == Interpolation::exact)
-    return ToleranceConstraint(mesh_, control.working, unknowns_);
-  return ToleranceConstraint(mesh_, control.working, unknowns_, options_.weights, weight_unit_,
-                             working_tolerances());
-}
-
 std::vector<double> FairingContext::working_tolerances() const {
   std::vector<double> out;
   for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
@@ -177,12 +179,8 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
   options.smoother_degree = options_.smoother_degree;
   return std::make_unique<GaussNewtonSolver>(
       mesh_, levels, system().base(), stencils_, unknowns_, options,
-      options_.interpolation == Interpolation::exact
-          ? ControlHold(control.working, unknowns_)
-          : ControlHold(mesh_, control.working, unknowns_, options_.weights, working_tolerances()),
-      options_.epsilon / frame_.scale,
-      options_.interpolation == Interpolation::exact ? system().pads() : nullptr,
-      mirrors_of(control), *workers_, monitor_);
+      hold_of<HoldAlongNormals>(control, weight_unit(mesh_)), system().pads(), mirrors_of(control),
+      *workers_, monitor_);
 }
 
 void FairingContext::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
@@ -192,7 +190,7 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
   has_adapted_ = true;
   gauss_newton_.reset();
   gauss_newton_ = make_gauss_newton(control);
-  ToleranceConstraint constraint = constraint_of(control);
+  HoldInSpace hold = hold_of<HoldInSpace>(control, weight_unit_);
   const auto on_prediction = [&](const double* start) {
     if (measured) measure_prediction(start, watch, report);
   };
@@ -203,10 +201,14 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
     solve_back_leg(*system_, control.working, options_.sweeps, x, report.levels, on_prediction);
   else
     system_->solve_nested(control.working, x, report.levels, on_prediction, on_level,
-                          constraint.active() ? &constraint : nullptr);
+                          hold.active() ? &hold : nullptr);
   for (const LevelReport& level : report.levels)
     report.constraint_rounds += level.constraint_rounds;
   report.constraint_gap = report.levels.back().constraint_gap;
+  for (const CurvatureLevelReport& level : report.curvature) {
+    for (const StepReport& step : level.steps) report.constraint_rounds += step.constraint_rounds;
+    report.constraint_gap = level.constraint_gap;
+  }
   report_pads(report);
 }
 

@@ -14,7 +14,6 @@
 #include "fairing/symmetry.h"
 #include "stencil/stencils.h"
 #include "thin_plate/solver.h"
-#include "thin_plate/tolerance.h"
 
 namespace fairing {
 
@@ -88,7 +87,8 @@ class FairingContext {
 
  private:
   SurfaceEnergies energies(const double* x);
-  ToleranceConstraint constraint_of(const ControlPositions& control) const;
+  template <class Hold>
+  Hold hold_of(const ControlPositions& control, double unit) const;
   // One an input vertex, in working coordinates; infinity: none.
   std::vector<double> working_tolerances() const;
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);

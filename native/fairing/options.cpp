@@ -72,6 +72,11 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
   in_range("epsilon", o.epsilon, 0, 1e300);
+  if (o.epsilon > 0 && o.energy != Energy::thin_plate)
+    refuse(
+        "epsilon is for the thin plate; under another energy use interpolation=\"approximate\" "
+        "with a "
+        "tolerance.");
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");

@@ -69,7 +69,7 @@ struct FairOptions {
   // Approximate: one a vertex, or empty. 0 frees a vertex that has no tolerance, infinity fixes it.
   std::vector<double> weights;
   // Afterwards interpolated control vertices are released by so much, which takes off cusps; mesh
-  // units.
+  // units. For the thin plate.
   double epsilon = 0;
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of

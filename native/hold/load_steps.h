@@ -3,13 +3,13 @@
 // vertices, with B = H^T Omega Phi and H the cardinal surfaces of K (1 at one control vertex, 0 at
 // the others); it is close to the hats' mass matrix M (measured: eigenvalues of M^-1 B from 0.2 to
 // 1.3). So a surface is solved for with the loads as they are, the forces that are left are read,
-// loads take the correction M^-1 r, and Anderson's acceleration [Walker and Ni 2011] makes of these
-// corrections what GMRES would.
+// loads take the correction M^-1 r, and Anderson's acceleration makes of these corrections what
+// GMRES would.
 #pragma once
 
-#include <deque>
 #include <vector>
 
+#include "hold/anderson.h"
 #include "hold/pads.h"
 
 namespace fairing {
@@ -29,38 +29,29 @@ struct Multipliers {
   std::vector<double> bounds;
 };
 
-// Anderson's acceleration of f <- f + M^-1 r, in the norm of M, and of multipliers along with it.
+// The norm of M for loads; changes of multipliers are compared by `weights`, one each, which make
+// them comparable with changes of loads. The pads must outlive it and keep their level; null where
+// there are no loads.
 template <int N>
-class LoadSteps {
- public:
-  // `pads` must outlive it and keep its level.
-  explicit LoadSteps(const Pads& pads) : pads_(&pads) {}
-  // The same; null where there are no loads. Changes of multipliers are compared by `weights`, which
-  // make them comparable with changes of loads.
-  LoadSteps(const Pads* pads, std::vector<double> weights)
-      : pads_(pads), weight_(std::move(weights)) {}
+struct MultiplierSpace {
+  using Vector = Multipliers<N>;
 
-  // The change to make, from this correction, M^-1 r, and the last few.
-  LoadsOf<N> change(const LoadsOf<N>& correction) {
-    return change(Multipliers<N>{correction, {}}).loads;
-  }
-  Multipliers<N> change(const Multipliers<N>& correction);
-  // What has been made of the last change, where that is something else.
-  void took(Multipliers<N> change) { last_change_ = std::move(change); }
-  // The next correction is the first one.
-  void forget();
+  const Pads* pads;
+  std::vector<double> weights;
 
- private:
-  struct Pair {
-    Multipliers<N> bent, gone, product;  // of the correction, of f; M times the former
-  };
-  Multipliers<N> product(const Multipliers<N>& a) const;
-
-  const Pads* pads_;
-  std::vector<double> weight_;
-  std::deque<Pair> pairs_;
-  bool any_ = false;
-  Multipliers<N> last_, last_change_;
+  Vector product(const Vector& a) const;
+  double dot(const Vector& a, const Vector& b) const;
+  void add(double factor, const Vector& a, const Vector& b, Vector& to) const;
+  void subtract(const Vector& a, Vector& from) const;
 };
+
+// Of f <- f + M^-1 r, and of multipliers along with it.
+template <int N>
+using LoadSteps = Anderson<MultiplierSpace<N>>;
+
+template <int N>
+LoadSteps<N> load_steps(const Pads* pads, std::vector<double> weights = {}) {
+  return {{pads, std::move(weights)}, 6};
+}
 
 }  // namespace fairing

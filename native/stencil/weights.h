@@ -14,12 +14,8 @@ namespace fairing {
 // One a control vertex, >= 0, in the energy's own unit; empty: none.
 using VertexWeights = std::vector<double>;
 
-// Within a tolerance the weights are found in steps, for either energy. Shares of the
-// tolerance: what is aimed at, for rounding must not carry a vertex over it, and within what a
-// vertex is as good as there, since at the end it is put on the ball.
-constexpr double tolerance_aim = 0.9999, tolerance_slack = 1.02;
-// By how much one step changes a weight at most: the surface has yet to follow.
-constexpr double largest_weight_change = 10;
+// What is aimed at of a tolerance: rounding must not carry a vertex over it.
+constexpr double tolerance_aim = 0.9999;
 
 // The factor on the energy of each point at and near a joint, the closed line along which a region
 // that is faired meets the surface that stays. 1 everywhere else, and on a mesh without a region.

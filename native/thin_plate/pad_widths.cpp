@@ -20,7 +20,7 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
   if (!options_.star_energies) return solve_level(level, targets, limits, x.data());
   PcgLimits rough = limits;
   rough.tolerance = std::max(limits.tolerance, tolerance);
-  ToleranceConstraint* constraint = nullptr;
+  HoldInSpace* constraint = nullptr;
   std::swap(constraint, constraint_);
   std::vector<double> of_needles;
   {

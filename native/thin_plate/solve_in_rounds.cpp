@@ -6,16 +6,16 @@
 // weight w gives way: with s the stiffness of the surface there, the correction for a force r is
 // (M + (s / w) T)^-1 (1 + s / w) r, with T the total of each hat.
 //
-// Weights. Those that keep vertices within tolerances are corrected by ToleranceConstraint.
+// Weights. Those that keep vertices within tolerances are corrected by HoldInSpace.
 //
 // Both corrections are accelerated as one: each shifts what the other has to do.
 #include <algorithm>
 #include <cmath>
 
+#include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
 #include "parallel/reductions.h"
 #include "thin_plate/solver.h"
-#include "thin_plate/tolerance.h"
 
 namespace fairing {
 namespace {
@@ -32,10 +32,7 @@ constexpr double coarse_force_tolerance = 2e-2;
 constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
 constexpr int most_corrections = 16;
 // For tolerances, and where a round costs little: below the finest level, or with a factor.
-constexpr double coarse_gap = 1e-3;  // the duality gap below the finest level
 constexpr int most_rounds = 16, most_cheap_rounds = 60;
-// A spring so many times softer than the surface leaves its load to itself.
-constexpr double most_give = 1e6;
 
 // What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
 // within 1e-5 of the mesh's size and normals within 0.02 degrees, with 1e-2 five times that; who
@@ -54,25 +51,10 @@ void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets,
                    shared_.double_slots, x, r);
   for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
   pads_->add_loads(loads_, r);
-  take_point_forces(targets, x, r);
-}
-
-// What holds a control vertex at its point: of a fixed one the force that its row of K x asks for,
-// of another one its spring's, less what its pad has taken over of it.
-void ThinPlateSolver::take_point_forces(std::span<const Vec3> targets, const double* x, double* r) {
-  const VertexWeights& w = shared_.weights;
-  for (std::size_t v = 0; v < forces_.size(); ++v) {
-    Eigen::Map<Vec3> row(r + 3 * v);
-    if (shared_.unknowns.vertex[v]) {
-      if (w.empty()) continue;
-      Vec3 pull = w[v] * (targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
-      if (pads_->under(v)) forces_[v] = pull -= pads_->total(v) * loads_[v];
-      row += pull;
-    } else if (pads_->under(v)) {
-      forces_[v] = -row;
-      row.setZero();
-    }
-  }
+  take_point_forces<3>(
+      shared_.unknowns, shared_.weights, pads_.get(), loads_,
+      [&](std::size_t v) -> Vec3 { return targets[v] - Eigen::Map<const Vec3>(x + 3 * v); },
+      forces_, r);
 }
 
 // Loads are densities and hardly change from level to level; what does is the hats' samples.
@@ -89,37 +71,6 @@ void ThinPlateSolver::start_loads(int level) {
     if (pads_->under(v)) loads_[v] /= pads_->total(v);
 }
 
-// Of each input vertex: what makes changes of its multiplier comparable with changes of its load,
-// tolerance^2 over the hat's total; a vertex without a pad has the mean of the others.
-std::vector<double> ThinPlateSolver::comparable_weights() const {
-  std::vector<double> out;
-  if (!constraint_) return out;
-  double inverse = 0, count = 0;
-  const auto under = [&](std::size_t v) { return pads_ && pads_->under(v); };
-  for (std::size_t v = 0; v < constraint_->size(); ++v)
-    if (under(v)) {
-      inverse += 1 / pads_->total(v);
-      ++count;
-    }
-  const double mean = count > 0 ? inverse / count : 1;
-  for (std::size_t v = 0; v < constraint_->size(); ++v) {
-    const double t = constraint_->bound(v) ? constraint_->tolerance(v) : 0;
-    out.push_back(t * t * (under(v) ? 1 / pads_->total(v) : mean));
-  }
-  return out;
-}
-
-// How much a spring gives way before its load, s / w. Empty where no control vertex moves.
-std::vector<double> ThinPlateSolver::give_of_springs() const {
-  std::vector<double> out;
-  if (stiffness_.empty()) return out;
-  for (std::size_t v = 0; v < stiffness_.size(); ++v)
-    out.push_back(shared_.unknowns.vertex[v] && pads_->under(v)
-                      ? std::min(most_give * shared_.weights[v], stiffness_[v]) / shared_.weights[v]
-                      : 0.0);
-  return out;
-}
-
 // One level's rounds.
 struct ThinPlateSolver::Rounds {
   ThinPlateSolver& solver;
@@ -128,9 +79,10 @@ struct ThinPlateSolver::Rounds {
   const PcgLimits& limits;
   double* x;
 
-  ToleranceConstraint* constraint = solver.constraint_;
+  HoldInSpace* constraint = solver.constraint_;
   Pads* pads = solver.pads_.get();
-  LoadSteps<3> steps{pads, solver.comparable_weights()};
+  LoadSteps<3> steps =
+      load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{});
   Multipliers<3> correction{};
   LevelReport report{};
   bool whole = false;  // whether the solve goes as far as is asked
@@ -169,7 +121,9 @@ struct ThinPlateSolver::Rounds {
         top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
     const Loads &loads = solver.loads_, &forces = solver.forces_;
     Loads product;
-    pads->divide_by_mass<3>(forces, correction.loads, solver.give_of_springs());
+    const std::vector<double> give =
+        give_of_springs(solver.shared_.unknowns, solver.shared_.weights, solver.stiffness_, *pads);
+    pads->divide_by_mass<3>(forces, correction.loads, give);
     pads->multiply_mass<3>(loads, product);
     left = std::sqrt(std::max(0.0, dot<3>(correction.loads, forces)));
     const double size = std::sqrt(std::max(0.0, dot<3>(loads, product)));
@@ -224,7 +178,7 @@ struct ThinPlateSolver::Rounds {
   LevelReport run() {
     if (constraint) {
       constraint->start_level();
-      targets = constraint->targets();
+      targets = constraint->aims();
     }
     for (;;) {
       solver.residual_on_pads(level, targets, x, residual());
@@ -245,7 +199,7 @@ struct ThinPlateSolver::Rounds {
         change(!loads, adapts);
       if (constraint && whole && !was_whole && top()) {
         constraint->pin(x);
-        targets = constraint->targets();
+        targets = constraint->aims();
         take_weights();
       }
     }

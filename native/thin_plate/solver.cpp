@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "grid/linear.h"
+#include "hold/hold_in_space.h"
 #include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 #include "thin_plate/membrane.h"
-#include "thin_plate/tolerance.h"
 
 namespace fairing {
 namespace {
@@ -218,7 +218,7 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
                                    std::vector<LevelReport>& reports,
                                    const std::function<void(const double*)>& on_prediction,
                                    const std::function<void(int, Array<double>&)>& on_level,
-                                   ToleranceConstraint* constraint) {
+                                   HoldInSpace* constraint) {
   constraint_ = constraint;
   if (constraint_) constraint_->set_stiffness(stiffness_);
   double energy_below = 0;  // energies hardly change from level to level

@@ -16,7 +16,7 @@
 
 namespace fairing {
 
-class ToleranceConstraint;
+class HoldInSpace;
 
 // The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every
 // level once; solves as often as weights or control positions change.
@@ -55,7 +55,7 @@ class ThinPlateSolver {
                     std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction,
                     const std::function<void(int, Array<double>&)>& on_level,
-                    ToleranceConstraint* constraint = nullptr);
+                    HoldInSpace* constraint = nullptr);
 
   // From x, a surface of the control positions `before`, to that of `targets` on the finest level,
   // to `tolerance`: the difference first, roughly and level by level.
@@ -114,10 +114,7 @@ class ThinPlateSolver {
   struct Rounds;
   LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                               double* x);
-  std::vector<double> comparable_weights() const;
-  std::vector<double> give_of_springs() const;
   void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
-  void take_point_forces(std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
@@ -142,7 +139,7 @@ class ThinPlateSolver {
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   bool widths_chosen_ = false;
-  ToleranceConstraint* constraint_ = nullptr;  // while a surface is solved for from nothing
+  HoldInSpace* constraint_ = nullptr;  // while a surface is solved for from nothing
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;
   Loads loads_, forces_;     // on the pads; left at the control vertices on them

@@ -3,6 +3,8 @@
 // multigrid cycle asks for.
 #pragma once
 
+#include <algorithm>
+
 #include "transfer/quadratic.h"
 #include "transfer/quadratic_matrix.h"
 
@@ -22,7 +24,8 @@ class LevelTransfer {
 template <int C>
 class QuadraticTransfer final : public LevelTransfer {
  public:
-  // All must outlive the transfer. `matrix` may be null; `slots` may be shared by all levels.
+  // All must outlive the transfer. `matrix` may be null, or about more control vertices than
+  // `unknowns`; `slots` may be shared by all levels.
   QuadraticTransfer(const GridLevel& coarse, const GridLevel& fine, const Stencils& stencils,
                     const Unknowns& unknowns, const AssembledTransfer* matrix, Workers& workers,
                     ElementSlots<float, C>& slots)
@@ -35,15 +38,27 @@ class QuadraticTransfer final : public LevelTransfer {
         slots_(slots) {}
 
   void prolong(const float* x, float* y) override {
-    if (matrix_) return matrix_->prolong<C>(x, workers_, y);
+    if (matrix_) {
+      matrix_->prolong<C>(x, workers_, y);
+      return clear_fixed(y);
+    }
     fairing::prolong(coarse_, fine_, stencils_, &unknowns_, workers_, slots_, x, y);
   }
   void restrict_to(const float* x, float* y) override {
-    if (matrix_) return matrix_->restrict_to<C>(x, workers_, y);
+    if (matrix_) {
+      matrix_->restrict_to<C>(x, workers_, y);
+      return clear_fixed(y);
+    }
     fairing::restrict_to(coarse_, fine_, stencils_, unknowns_, workers_, slots_, x, y);
   }
 
  private:
+  // Control vertices may have been fixed since the matrix was made.
+  void clear_fixed(float* y) const {
+    for (std::size_t v = 0; v < unknowns_.vertex.size(); ++v)
+      if (!unknowns_.vertex[v]) std::fill_n(y + C * v, C, 0.0f);
+  }
+
   const GridLevel &coarse_, &fine_;
   const Stencils& stencils_;
   const Unknowns& unknowns_;

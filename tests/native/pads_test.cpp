@@ -162,7 +162,7 @@ TEST(Pads, SpringsTakeLoadsByThemselves) {
 TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
   // f <- f + (b - A f) diverges where A has eigenvalues beyond two; mixed, it is GMRES.
   const std::vector<double> a = {0.1, 0.7, 1.3, 2.6, 4.0}, b = {1, -2, 3, 0.5, 1};
-  LoadSteps<3> steps(nullptr, std::vector<double>(a.size(), 1.0));
+  LoadSteps<3> steps = load_steps<3>(nullptr, std::vector<double>(a.size(), 1.0));
   std::vector<double> f(a.size(), 0.0);
   double left = 0;
   for (int round = 0; round < 8; ++round) {

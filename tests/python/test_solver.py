@@ -24,7 +24,6 @@ SETTINGS = {
         "interpolation": "approximate",
         "tolerance": 0.04,
     },
-    "total curvature, epsilon": {"energy": "total_curvature", "epsilon": 0.02},
 }
 LINEAR = ["plain", "free boundary", "linear boundary", "creases", "region"]
 

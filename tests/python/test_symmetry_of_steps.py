@@ -19,7 +19,7 @@ MODES = [
     {"chart": "tangent"},
     {"crease_angle": 1.2},
     {"interpolation": "approximate", "tolerance": 0.05},
-    {"epsilon": 0.05},
+    {"interpolation": "approximate", "tolerance": 0.05, "pad_size": 1.0},
 ]
 TO_ROUNDING = 1e-13  # of the size; steps alone leave a thousand times as much and more
 

@@ -93,7 +93,7 @@ def fair(
         there is no tolerance), infinity interpolates it.
     epsilon : float, mesh units
         How far interpolated vertices may move after the solve, to remove cusps [Kobbelt 1997a,
-        section 5].
+        section 5]. For the thin plate only.
     pad_size : float from 0 to 1
         What holds control vertices off curves. 0: point forces, which leave a spot of curvature at
         each. Otherwise forces spread over pads, which leave none; the size is the pad's width as a

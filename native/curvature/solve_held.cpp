@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A Gauss-Newton step whose control vertices are held on pads, by weights or within tolerances:
+// K h = force + Omega sum_c f_c phi_c, where nothing but the loads is to hold the vertices on pads:
+// whatever other force they need vanishes. The loads f act along the normals. Solves correct them,
+// and the multipliers of tolerances, as hold/load_steps.h and hold/hold_along_normals.h say.
+#include <cmath>
+
+#include "curvature/system.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Each solve but the last leaves so much of the residual that it finds. The last one is to leave as
+// much of what the first one found as a step without pads does, and gains so much at the least.
+constexpr double solve_gain = 0.1, least_gain = 0.5;
+// A step's loads are corrected until so much of the force is left that it began with, or of the
+// loads; the next step begins with other loads anyway. Likewise the multipliers, by their gap.
+constexpr double force_gain = 0.1, force_tolerance = 1e-4, gap_gain = 0.1;
+constexpr int most_corrections = 6;
+// Solves with other multipliers; and where a solve is a factor's.
+// Loads that have been corrected so often, or have settled, tell which ends are right.
+constexpr int telling = 2;
+constexpr int most_rounds = 12, most_cheap_rounds = 40;
+
+// Omega: the points' areas, with what else weighs the energy.
+Array<double> areas_of(const Array<float>& shape, Workers& workers) {
+  Array<double> areas(shape.size() / 4);
+  for_each_index(workers, areas.size(), [&](std::size_t i) {
+    areas[i] = double(shape[4 * i + 3]) * double(shape[4 * i + 3]);
+  });
+  return areas;
+}
+
+}  // namespace
+
+bool GaussNewtonSystem::stand_on(const Pads* pads) {
+  if (!pads) return false;
+  if (pads_ && given_widths_ == pads->widths()) return false;
+  pads_ = std::make_unique<Pads>(*pads);
+  given_widths_ = pads->widths();
+  shared_.pad_rows = &pads_->rows();
+  return true;
+}
+
+void GaussNewtonSystem::hold_by(HoldAlongNormals* hold) {
+  hold_ = hold && hold->any() ? hold : nullptr;
+  shared_.weights = hold_ ? hold_->weights() : VertexWeights{};
+}
+
+void GaussNewtonSystem::take_weights(int level) {
+  shared_.weights = hold_->weights();
+  for (int l = base_; l <= level; ++l) op(l).update_weights();
+}
+
+// The coarsest level's K knows control vertices alone.
+void GaussNewtonSystem::look_along(const LinearizedSurface& about, const Multipliers<1>& held) {
+  const Array<float>& diagonal = op(base_).diagonal();
+  stiffness_.assign(diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count()));
+  hold_->set_stiffness(stiffness_);
+  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds);
+}
+
+// One step's solves.
+struct GaussNewtonSystem::HeldSolve {
+  GaussNewtonSystem& system;
+  int level;
+  const LinearizedSurface& about;
+  Array<double>& h;
+  Multipliers<1>& held;
+  Array<double>& force;  // the loads' part included
+  StepReport& report;
+
+  Pads* pads = system.is_on_pads() ? system.pads_.get() : nullptr;
+  HoldAlongNormals* hold = system.hold_;
+  bool bounds = hold && hold->active();
+  std::size_t vertices = std::size_t(system.mesh().vertex_count());
+  NormalLoads forces{};  // left at the vertices on pads
+  Multipliers<1> correction{};
+  double first_force = 0, first_residual = 0, first_gap = 0;
+
+  Array<double>& r() { return system.hierarchy_.state().residual; }
+  const double* normal(std::size_t v) const { return about.linearization.normal.data() + 3 * v; }
+
+  // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.
+  NormalLoads fitting_loads() const {
+    NormalLoads under = pads->gather(about.linearization.force), loads;
+    for (auto& f : under) f = -f;
+    pads->divide_by_mass<1>(under, loads);
+    return loads;
+  }
+
+  void start() {
+    if (pads) {
+      pads->set_level(system.grid(level), areas_of(about.linearization.shape, system.workers()));
+      if (held.loads.empty()) held.loads = fitting_loads();
+    }
+    forces.assign(held.loads.size(), NormalLoads::value_type::Zero());
+    go_to_ends();
+  }
+
+  void go_to_ends() {
+    for (std::size_t v = 0; bounds && v < vertices; ++v)
+      if (hold->on_end(v)) h[v] = hold->way(v);
+  }
+
+  void load() {
+    force = about.linearization.force;
+    if (pads) pads->add_loads(held.loads, force.data());
+  }
+
+  void residual(const double* x, double* out) {
+    const CurvatureShared& shared = system.shared_;
+    system.op(level).apply_on(pads ? pads->rows() : shared.unknowns, x, out);
+    for_each_index(system.workers(), h.size(), [&](std::size_t i) { out[i] = force[i] - out[i]; });
+    take_point_forces<1>(
+        shared.unknowns, shared.weights, pads, held.loads,
+        [&](std::size_t v) { return NormalLoads::value_type(hold->way(v) - x[v]); }, forces, out);
+  }
+
+  LevelSolve solve(bool last) {
+    const double now = norm(system.workers(), h.size(), r().data());
+    if (first_residual == 0) first_residual = now;
+    PcgLimits goal = system.limits();
+    goal.tolerance =
+        last ? std::clamp(goal.tolerance * first_residual / now, goal.tolerance, least_gain)
+             : solve_gain;
+    const LevelSolve solved = system.hierarchy_.solve(
+        std::size_t(level - system.base_), goal,
+        [this](const double* x, double* out) { residual(x, out); }, h.data(),
+        [](const PcgResult&) {});
+    report.iterations += solved.iterations;
+    return solved;
+  }
+
+  bool loads_settled() {
+    if (!pads) return true;
+    NormalLoads product;
+    const std::vector<double> give =
+        hold ? give_of_springs(system.shared_.unknowns, system.shared_.weights, system.stiffness_,
+                               *pads)
+             : std::vector<double>{};
+    pads->divide_by_mass<1>(forces, correction.loads, give);
+    pads->multiply_mass<1>(held.loads, product);
+    const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
+                 size = std::sqrt(std::max(0.0, dot<1>(held.loads, product)));
+    if (first_force == 0) first_force = left;
+    return left <= force_gain * first_force || left <= force_tolerance * size;
+  }
+
+  bool bounds_settled() {
+    if (!bounds) return true;
+    const double wanted = std::max(system.wanted_gap(level), gap_gain * first_gap);
+    const bool settled = hold->settled(about.energy, wanted, h.data());
+    report.constraint_gap = hold->gap();
+    if (first_gap == 0) first_gap = hold->gap();
+    return settled;
+  }
+
+  // Other ends: another problem, of which earlier corrections tell nothing.
+  bool turn() {
+    if (!hold->turn(h.data())) return false;
+    ++report.constraint_rounds;
+    system.take_weights(level);
+    system.hierarchy_.refresh(std::size_t(level - system.base_), false);
+    go_to_ends();
+    return true;
+  }
+
+  void correct(LoadSteps<1>& steps) {
+    if (!pads) return;
+    const Multipliers<1> change = steps.change(correction);
+    for (std::size_t v = 0; v < held.loads.size(); ++v) held.loads[v] += change.loads[v];
+    ++report.pad_corrections;
+  }
+
+  bool is_out_of_rounds(const LevelSolve& solved) const {
+    return report.constraint_rounds >= (solved.direct ? most_cheap_rounds : most_rounds);
+  }
+
+  LevelSolve end(const LevelSolve& solved) {
+    Array<double> of_loads(h.size(), 0.0);
+    if (pads) pads->add_loads(held.loads, of_loads.data());
+    if (hold) {
+      held.bounds = hold->sides();
+      const VertexWeights& weights = system.shared_.weights;
+      for (std::size_t v = 0; v < weights.size(); ++v) {
+        if (!system.shared_.unknowns.vertex[v] || (pads && pads->under(v))) continue;
+        const double spring = weights[v] * (hold->way(v) - h[v]);
+        of_loads[v] += spring;
+        force[v] += spring;
+      }
+    }
+    report.load_work =
+        sum(system.workers(), h.size(), [&](std::size_t i) { return of_loads[i] * h[i]; });
+    return solved;
+  }
+
+  LevelSolve run() {
+    start();
+    LoadSteps<1> steps = load_steps<1>(pads);
+    bool last = !pads && !bounds;
+    int corrections = 0;  // with these ends
+    load();
+    residual(h.data(), r().data());
+    for (;;) {
+      const LevelSolve solved = solve(last);
+      if (last) return end(solved);
+      residual(h.data(), r().data());
+      const bool loads = loads_settled(), tells = loads || ++corrections >= telling,
+                 turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
+      if (turned) corrections = 0;
+      last = !turned && (loads || report.pad_corrections >= most_corrections);
+      if (last && solved.direct) return end(solved);
+      if (last) continue;
+      correct(steps);
+      if (turned) steps.forget();
+      load();
+      residual(h.data(), r().data());
+    }
+  }
+};
+
+LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& about,
+                                         Array<double>& h, Multipliers<1>& held,
+                                         Array<double>& force, StepReport& report) {
+  return HeldSolve{*this, level, about, h, held, force, report}.run();
+}
+
+}  // namespace fairing

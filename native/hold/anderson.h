@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Anderson's acceleration of steps that each leave a fixed share of the error [Anderson 1965; Walker
+// and Ni 2011]: the last few tell which. With the changes dF_k of the steps and dx_k of the iterate,
+// a step f becomes
+//
+//   f - sum_k c_k (dF_k + dx_k),
+//
+// with c the least squares of f - sum_k c_k dF_k in some norm. On linear problems it is GMRES.
+#pragma once
+
+#include <Eigen/Dense>
+#include <deque>
+#include <utility>
+
+namespace fairing {
+
+// `Space` knows the vectors and their norm:
+//
+//   Vector product(const Vector& a)                                     the norm's matrix times a
+//   double dot(const Vector& a, const Vector& b)
+//   void add(double factor, const Vector& a, const Vector& b, Vector& to)   to += factor (a + b)
+//   void subtract(const Vector& a, Vector& from)
+template <class Space>
+class Anderson {
+ public:
+  using Vector = typename Space::Vector;
+
+  // Remembers so many steps: each costs a product and two vectors.
+  Anderson(Space space, std::size_t depth) : space_(std::move(space)), depth_(depth) {}
+
+  // The change to make of the iterate, from this step and the last few.
+  Vector change(const Vector& step);
+  // What has been made of the last change, where that is something else.
+  void took(Vector change) { last_change_ = std::move(change); }
+  void took_share(double share) { space_.scale(share, last_change_); }
+  // The next step is the first one.
+  void forget() {
+    pairs_.clear();
+    any_ = false;
+  }
+
+ private:
+  struct Pair {
+    Vector bent, gone;  // dF and dx
+  };
+  // Of the least squares' diagonal: steps near the end may be linearly dependent.
+  static constexpr double regularization = 1e-12;
+
+  Space space_;
+  std::size_t depth_;
+  std::deque<Pair> pairs_;
+  bool any_ = false;
+  Vector last_, last_change_;
+};
+
+template <class Space>
+typename Space::Vector Anderson<Space>::change(const Vector& step) {
+  if (any_) {
+    Pair pair{step, std::move(last_change_)};
+    space_.subtract(last_, pair.bent);
+    pairs_.push_back(std::move(pair));
+    if (pairs_.size() > depth_) pairs_.pop_front();
+  }
+  any_ = true;
+  last_ = step;
+  Vector out = step;
+  if (!pairs_.empty()) {
+    const auto count = Eigen::Index(pairs_.size());
+    Eigen::MatrixXd gram(count, count);
+    Eigen::VectorXd right(count);
+    for (Eigen::Index a = 0; a < count; ++a) {
+      const Vector product = space_.product(pairs_[std::size_t(a)].bent);
+      right(a) = space_.dot(product, step);
+      for (Eigen::Index b = 0; b < count; ++b)
+        gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].bent);
+    }
+    gram.diagonal() *= 1 + regularization;
+    const Eigen::VectorXd share = gram.ldlt().solve(right);
+    if (share.allFinite())
+      for (Eigen::Index a = 0; a < count; ++a) {
+        const Pair& pair = pairs_[std::size_t(a)];
+        space_.add(-share(a), pair.bent, pair.gone, out);
+      }
+  }
+  last_change_ = out;
+  return out;
+}
+
+}  // namespace fairing

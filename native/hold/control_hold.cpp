@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hold/control_hold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fairing {
+namespace {
+
+// Energies below this share of the largest so far do not count as such: a tolerance as large as the
+// mesh leaves none.
+constexpr double least_energy = 1e-3;
+constexpr double idle = 1e-9;  // of the tolerance: rounding
+// A spring so many times softer than the surface leaves its load to itself.
+constexpr double most_give = 1e6;
+
+}  // namespace
+
+double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const double l = edge_length(mesh, flat, Index(e));
+    sum += l * l;
+  }
+  return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
+}
+
+double weight_unit(const ControlMesh& mesh) {
+  double sum = 0;
+  for (const Edge& edge : mesh.edges)
+    sum +=
+        (mesh.positions[std::size_t(edge.vertex[1])] - mesh.positions[std::size_t(edge.vertex[0])])
+            .squaredNorm();
+  return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
+}
+
+ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
+                         const Unknowns& unknowns, std::span<const double> weights, double unit,
+                         std::vector<double> tolerances)
+    : mesh_(mesh),
+      targets_(targets),
+      unknowns_(unknowns),
+      unit_(unit),
+      tolerance_(std::move(tolerances)) {
+  if (!unknowns.any_vertex) return;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    tolerance_[v] *= tolerance_aim;
+    active_ |= bound(v);
+  }
+  base_.assign(std::size_t(mesh.vertex_count()), 0.0);
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (unknowns.vertex[v]) base_[v] = unit * weights[v];
+  weights_ = base_;
+}
+
+void ControlHold::take_gap(double gap, double energy, double farthest) {
+  start_energy_ = std::max(start_energy_, energy);
+  const bool pulled = farthest > idle && energy > 0;
+  gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
+}
+
+void ControlHold::enforce(double* x) const {
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    Eigen::Map<Vec3> p(x + 3 * v);
+    const Vec3 offset = p - targets_[v];
+    const double length = offset.norm();
+    if (length > tolerance_[v]) p = targets_[v] + (tolerance_[v] / length) * offset;
+  }
+}
+
+Unknowns ControlHold::without_held() const {
+  Unknowns out = unknowns_;
+  out.any_vertex = false;
+  for (std::size_t v = 0; v < out.vertex.size(); ++v) {
+    if (v < weights_.size() && weights_[v] > 0) out.vertex[v] = 0;
+    out.any_vertex |= bool(out.vertex[v]);
+  }
+  return out;
+}
+
+std::vector<double> give_of_springs(const Unknowns& unknowns, const VertexWeights& weights,
+                                    std::span<const double> stiffness, const Pads& pads) {
+  std::vector<double> out;
+  for (std::size_t v = 0; v < stiffness.size(); ++v)
+    out.push_back(unknowns.vertex[v] && pads.under(v)
+                      ? std::min(most_give * weights[v], stiffness[v]) / weights[v]
+                      : 0.0);
+  return out;
+}
+
+}  // namespace fairing

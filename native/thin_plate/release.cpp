@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/release.h"
+
+namespace fairing {
+namespace {
+
+// Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
+// first_undamped_level: they step half as far there.
+constexpr int release_rounds = 3, first_undamped_level = 2;
+constexpr double release_damping = 0.5, release_tolerance = 1e-8;
+
+Vec3 point(const Array<double>& x, std::size_t v) { return {x[3 * v], x[3 * v + 1], x[3 * v + 2]}; }
+
+void put(Array<double>& x, std::size_t v, const Vec3& p) {
+  for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = p[Eigen::Index(a)];
+}
+
+}  // namespace
+
+int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
+                             std::span<const Vec3> given, double epsilon, Array<double>& x) {
+  Unknowns freed = system.shared().unknowns;
+  bool any = false;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.shared(Index(v)) &&
+                          !mesh.ring(Index(v)).empty() &&
+                          mesh.vertex_part(Index(v)) == RegionPart::inside;
+    freed.vertex[v] = released;
+    any |= released;
+  }
+  if (!any) return 0;
+  freed.any_vertex = true;
+  ThinPlateShared& shared = system.shared();
+  const GridLevel& grid = system.grid(system.top());
+  const VertexWeights none;
+  const Array<float> diagonal =
+      thin_plate_diagonal(grid, shared.stencils, freed, none, shared.workers, shared.double_slots);
+  const double damping = grid.level() >= first_undamped_level ? 1.0 : release_damping;
+  std::vector<Vec3> targets(given.begin(), given.end());
+  Array<double> gradient(x.size());
+  for (int round = 0; round < release_rounds; ++round) {
+    apply_thin_plate(grid, shared.double_rows, freed, none, shared.workers, shared.double_slots,
+                     x.data(), gradient.data());
+    for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+      if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
+      // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in
+      // it.
+      Vec3 offset = targets[v] - damping / double(diagonal[v]) * point(gradient, v) - given[v];
+      const double length = offset.norm();
+      if (length > tolerance_aim * epsilon) offset *= tolerance_aim * epsilon / length;
+      targets[v] = given[v] + offset;
+      put(x, v, targets[v]);
+    }
+    system.solve_again(system.top(), targets, x, release_tolerance);
+  }
+  return release_rounds;
+}
+
+}  // namespace fairing
