@@ -88,8 +88,9 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
   }
   estimate_eigenvalues(index);
   const bool adapt = adapts(out.direct);
-  const bool may_factor =
-      adapt && (unknowns_[index] <= direct_limit_of_hard || factors_cheaply(index));
+  const bool may_factor = adapt &&
+                          (unknowns_[index] <= direct_limit_of_hard || factors_cheaply(index)) &&
+                          MemoryLedger::fits(factor_bytes(unknowns_[index]));
   const auto too_hard = [&] {
     return may_factor &&
            cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
