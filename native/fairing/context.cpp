@@ -66,7 +66,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   report.sheets = sheets_of(mesh_);
   const RunSize size =
       predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
-                   options_.energy, options_.tension > 0);
+                   options_.energy, options_.tension > 0, options_.method == Method::back_leg);
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;

@@ -77,7 +77,7 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
 }
 
 FairResult fair_all(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
-  MemoryLedger ledger;
+  MemoryLedger ledger(options.bytes_allowed());
   const CancelScope scope(&monitor);
   FairResult result;
   Report& report = result.report;
@@ -145,7 +145,8 @@ FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& mo
 }
 
 FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) try
-    : monitor_(monitor),
+    : ledger_(options.bytes_allowed()),
+      monitor_(monitor),
       build_watch_(built_, monitor_),
       mending_(mending_of(input, without_back_leg(options), monitor_)),
       context_(mending_.in_input_ids([&] {

@@ -2,7 +2,6 @@
 #include "fairing/memory_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -11,7 +10,6 @@
 #include "curvature/normal_matrix.h"
 #include "grid/grid_level.h"
 #include "multigrid/hierarchy.h"
-#include "parallel/memory.h"
 #include "sparse/matrix.h"
 
 namespace fairing {
@@ -34,43 +32,50 @@ struct Counts {
   }
 };
 
-// A sparse Cholesky factor of so many unknowns of a plate. Minimum degree leaves some 40 + 4 log2 n
-// entries a column, each a number and an index.
-std::int64_t factor_bytes(std::int64_t unknowns) {
-  return (8 + index_bytes) * unknowns * (40 + 4 * std::bit_width(std::uint64_t(unknowns)));
+// Between what triangles and what quads take, by the points inside them.
+std::int64_t mixed(const Counts& c, double triangle, double quad) {
+  const double quads = double(c.quads), all = quads + 0.5 * double(c.triangles);
+  return std::int64_t(triangle + (all > 0 ? quads / all : 0) * (quad - triangle)) + 1;
 }
 
 // The assembled matrices of the thin plate, on levels with small faces, and those of the transfers
-// between them: bytes a point. Rows around quads are longer.
+// between them (to level 1 only where control vertices move). Bytes a point, measured: equal rows along edges and inside faces share their
+// numbers, so that they fall with the pieces of an edge.
 std::int64_t matrix_bytes(const Counts& c, int levels) {
-  const std::int64_t row = c.quads > 0 ? 250 : 190, transfer = 190;
+  constexpr double row[2][4] = {{90, 140, 102, 72}, {120, 162, 124, 90}},
+                   transfer[2][4] = {{90, 98, 108, 66}, {110, 127, 120, 70}};
   std::int64_t bytes = 0;
-  for (int l = 1; l <= levels; ++l)
-    if (has_rows(1 << l, std::size_t(c.points(l)))) bytes += (row + transfer) * c.points(l);
+  for (int l = 1; l <= std::min(levels, 4); ++l)
+    if (has_rows(1 << l, std::size_t(c.points(l))))
+      bytes += mixed(c, row[0][l - 1] + transfer[0][l - 1], row[1][l - 1] + transfer[1][l - 1]) *
+               c.points(l);
   return bytes;
 }
 
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
 // rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
 // points an edge the normal matrix; on the finest level surfaces, steps, and what steps are
-// accelerated with. The finest level that may prove hard counts as if it were factored.
-std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
-                        bool tense) {
-  constexpr std::int64_t row = 112, moments = 112, surfaces = 560, normal_matrix = 640, area = 40;
+// accelerated with. Minimum variation often proves hard: its finest level that may count
+// as cheap to factor is counted so.
+std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, std::int64_t factor,
+                        Energy energy, bool tense) {
+  constexpr std::int64_t moments = 112, surfaces = 480;
+  const std::int64_t row = mixed(c, 84, 108), normal_matrix = mixed(c, 482, 620);
   const bool varies = energy == Energy::minimum_variation;
-  std::int64_t factored = 0, normal_matrices = 0;
+  std::int64_t normal_matrices = 0, factored = 0;
   for (int l = 0; l <= levels; ++l) {
     if (c.points(l) <= std::int64_t(direct_limit_of_steps)) factored = c.points(l);
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.points(l);
   }
-  return ((varies ? 2 * row + moments : row) + (tense ? area : 0)) * all_points +
-         surfaces * c.points(levels) + normal_matrices + (varies ? 5 : 2) * factor_bytes(factored);
+  const auto hard = std::int64_t(factor_bytes(std::size_t(factored)));
+  return ((varies ? 2 * row + moments : row) + (tense ? row / 3 : 0)) * all_points +
+         surfaces * c.points(levels) + normal_matrices + (varies ? 5 * hard : factor);
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
 // that proves hard while the run is on its way gets blocks (multigrid/block_jacobi.h), or is factored
-// (v_cycle.h); that comes on top.
-std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense) {
+// (v_cycle.h); that comes on top: MemoryLedger::fits() keeps to the limit then.
+std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, bool back_leg) {
   const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;
   // Unknowns of a level that is solved directly, and a third more for the points that are none.
@@ -80,16 +85,17 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense) 
     all_points += c.points(l);
     if (c.points(l) <= tiny) factored = c.points(l);
   }
-  if (levels > 0)
-    factored = std::max(factored, std::min<std::int64_t>(c.points(1), std::int64_t(direct_limit)));
-  // The surface, the vectors of conjugate gradients, and one more to measure or diagonalize; and
-  // what a start needs of the level below.
-  const std::int64_t outer = 5 * vector_bytes * points + 3 * vector_bytes * below;
+  if (levels > 0 && c.points(1) - c.vertices <= std::int64_t(direct_limit))
+    factored = std::max(factored, c.points(1));
+  const auto factor = std::int64_t(factor_bytes(std::size_t(factored)));
+  // The surface, the vectors of conjugate gradients, one of loads on pads, and one more to measure
+  // or diagonalize; and what a start needs of the level below.
+  const std::int64_t outer = 6 * vector_bytes * points + 3 * vector_bytes * below;
   // The V-cycle's vectors in single precision, and the diagonal.
   const std::int64_t cycle = all_points * (4 * float_vector_bytes + 4);
-  // The first smoothed levels, two or three at the most, estimate their spectrum with five vectors
-  // more.
-  const std::int64_t spectrum = n <= 16 && points > tiny ? 5 * float_vector_bytes * points : 0;
+  // The first smoothed levels estimate their spectrum with five vectors more.
+  const std::int64_t estimated = c.points(std::min(levels, tense ? 4 : 2));
+  const std::int64_t spectrum = estimated > tiny ? 5 * float_vector_bytes * estimated : 0;
   // Of accumulation (grid/accumulate.h): rows along sides, slots of edges and of sides.
   const std::int64_t slots =
       float_vector_bytes * (3 * c.sides() * (2 * n + 1) + 6 * c.edges + 6 * c.sides());
@@ -99,22 +105,21 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense) 
       rings + c.edges * (64 * 4 + 24 * (8 + 8 + 4)) + faces * (12 * 8 + 16 * (8 + 4));
   const std::int64_t membrane = tense ? 8 * (2 * c.sides() + 8 * c.edges + 4 * faces) : 0;
   const std::int64_t steps =
-      energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_points, energy, tense);
+      energy == Energy::thin_plate ? 0 : step_bytes(c, levels, all_points, factor, energy, tense);
+  // Rings, the places of points in them, and what a sweep changes.
+  const std::int64_t sweeps = back_leg ? 260 * points : 0;
   // Three or four ids a face, and its polygon.
   const std::int64_t output = n * n * (4 * index_bytes * c.triangles + 5 * index_bytes * c.quads);
   // What does not grow with the mesh.
-  constexpr std::int64_t fixed = 1 << 14;
-  return std::max(outer + cycle + spectrum + slots + stencils + membrane + factor_bytes(factored) +
-                      matrix_bytes(c, levels) + steps,
+  constexpr std::int64_t fixed = 1 << 15;
+  return std::max(outer + cycle + spectrum + slots + stencils + membrane + factor +
+                      matrix_bytes(c, levels) + steps + sweeps,
                   vector_bytes * points + output) +
          fixed;
 }
 
-std::size_t memory_limit(const FairOptions& options) {
-  return options.memory_limit ? options.memory_limit : physical_memory() / 4 * 3;
-}
-
-RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy, bool tense) {
+RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy, bool tense,
+                 bool back_leg = false) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = c.welded_points(levels);
@@ -126,8 +131,8 @@ RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy,
   size.bytes = most;
   if (double(size.solved) * (most_of_point + double(shapes) * double(vector_bytes)) < double(most))
     // Of a shape only its surface stays; it is solved in the same arrays.
-    size.bytes =
-        peak_bytes(c, levels, energy, tense) + std::int64_t(shapes) * vector_bytes * size.solved;
+    size.bytes = peak_bytes(c, levels, energy, tense, back_leg) +
+                 std::int64_t(shapes) * vector_bytes * size.solved;
   return size;
 }
 
@@ -173,18 +178,18 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
 }
 
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy,
-                     bool tense) {
+                     bool tense, bool back_leg) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
   c.copied_vertices = std::int64_t(mesh.copied_vertex.size());
   c.copied_edges = std::int64_t(mesh.copied_edge.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
-  return run_size(c, levels, shapes, energy, tense);
+  return run_size(c, levels, shapes, energy, tense, back_leg);
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {
-  const std::size_t limit = memory_limit(options);
+  const std::size_t limit = options.bytes_allowed();
   const auto gigabytes = [](double bytes) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g GB", bytes / 1e9);
@@ -208,7 +213,7 @@ void require_fit(const PolygonMesh& mesh, const FairOptions& options) {
   const std::size_t shapes = options.shape_count(mesh.coordinates.size());
   const RunSize least = run_size({mesh.vertex_count(), corners / 2, corners / 4, 0}, options.levels,
                                  shapes, options.energy, options.tension > 0);
-  const std::size_t limit = memory_limit(options);
+  const std::size_t limit = options.bytes_allowed();
   if (limit && least.bytes > std::int64_t(limit))
     require_fit(predict_size(mesh.vertex_count(), mesh.corners, mesh.offsets, options.levels,
                              shapes, options.energy, options.tension > 0),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How large a run will be, before anything is allocated. The bytes are estimated from above: what
-// each kind of array takes, counted from its elements; the tests hold them against the ledger
+// How large a run will be, before anything is allocated. The bytes are estimated from what each
+// kind of array takes, counted from its elements, mostly a little above; the tests hold them against
+// the ledger
 // (tests/python/test_memory.py).
 #pragma once
 
@@ -29,7 +30,7 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
                      Energy energy = Energy::thin_plate, bool tense = false);
 // From the mesh as it is after splits: exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,
-                     Energy energy = Energy::thin_plate, bool tense = false);
+                     Energy energy = Energy::thin_plate, bool tense = false, bool back_leg = false);
 
 // Throws FairingError(too_large), naming the figures, when the run does not fit into
 // options.memory_limit or its ids into 32 bits. The first takes next to no time, and lets pass what

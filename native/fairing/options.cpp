@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 namespace {
@@ -56,6 +57,10 @@ bool FairOptions::has_tolerance() const {
 // Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
 // the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two animals). So
 // with c = 10 every equal step of `tension` takes about the same.
+std::size_t FairOptions::bytes_allowed() const {
+  return memory_limit ? memory_limit : physical_memory() / 4 * 3;
+}
+
 double membrane_strength(double tension) { return tautest * tension / (4 - 3 * tension); }
 
 void check_options(const PolygonMesh& mesh, const FairOptions& o) {

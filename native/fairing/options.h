@@ -110,6 +110,7 @@ struct FairOptions {
   int threads = 0;
   // Bytes; 0: three quarters of the machine's memory.
   std::size_t memory_limit = 0;
+  std::size_t bytes_allowed() const;
   // Whether to measure the energies of result, control polyhedron and prediction.
   bool measure = false;
 };

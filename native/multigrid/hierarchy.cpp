@@ -163,6 +163,7 @@ Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result) const {
 
 bool Hierarchy::is_too_hard(std::size_t index) const {
   return (unknowns_[index] <= direct_limit_of_hard || factors_cheaply(index)) &&
+         MemoryLedger::fits(factor_bytes(unknowns_[index])) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
 }
 

@@ -19,7 +19,7 @@ namespace {
 thread_local MemoryLedger* open_ledger = nullptr;
 }
 
-MemoryLedger::MemoryLedger() { open_ledger = this; }
+MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { open_ledger = this; }
 
 MemoryLedger::~MemoryLedger() { open_ledger = nullptr; }
 
@@ -31,6 +31,11 @@ void MemoryLedger::add(std::size_t bytes) {
 
 void MemoryLedger::remove(std::size_t bytes) {
   if (open_ledger) open_ledger->current_ -= std::min(bytes, open_ledger->current_);
+}
+
+bool MemoryLedger::fits(std::size_t bytes) {
+  if (!open_ledger || open_ledger->limit_ == 0) return true;
+  return bytes <= open_ledger->limit_ && open_ledger->current_ <= open_ledger->limit_ - bytes;
 }
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {

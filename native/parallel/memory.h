@@ -13,7 +13,8 @@ namespace fairing {
 // Ledgers do not nest; worker threads never allocate Arrays.
 class MemoryLedger {
  public:
-  MemoryLedger();
+  // `limit`, in bytes; 0: none. It is kept by those who ask.
+  explicit MemoryLedger(std::size_t limit = 0);
   ~MemoryLedger();
   MemoryLedger(const MemoryLedger&) = delete;
   MemoryLedger& operator=(const MemoryLedger&) = delete;
@@ -23,8 +24,11 @@ class MemoryLedger {
 
   static void add(std::size_t bytes);
   static void remove(std::size_t bytes);
+  // Whether so many more are within the open ledger's limit.
+  static bool fits(std::size_t bytes);
 
  private:
+  std::size_t limit_;
   std::size_t current_ = 0;
   std::size_t peak_ = 0;
 };

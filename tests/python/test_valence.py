@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Control vertices of many faces: time and memory grow as the faces do."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+import tight
+
+FACES = (400, 800)
+
+
+def disc(sides: int) -> tuple[np.ndarray, np.ndarray]:
+    """Faces about one vertex, and a rim that waves."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    rim = np.stack([np.cos(angle), np.sin(angle), 0.1 * np.cos(3 * angle)], axis=1)
+    k = np.arange(sides)
+    return np.vstack([rim, [(0, 0, 0.3)]]), np.stack([k, (k + 1) % sides, 0 * k + sides], axis=1)
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature", "minimum_variation"])
+@pytest.mark.parametrize("levels", [1, 2])
+def test_memory_is_linear_in_valence(levels, energy):
+    peaks = [df.fair(*disc(n), levels, energy=energy).report["peak_bytes"] for n in FACES]
+    assert peaks[1] < 2.5 * peaks[0]
+
+
+@pytest.mark.parametrize("levels", [1, 2])
+def test_memory_of_a_free_vertex_is_linear_in_valence(levels):
+    peaks = [
+        df.fair(
+            *disc(n), levels, interpolation="approximate", tolerance=0.02, max_iterations=20
+        ).report["peak_bytes"]
+        for n in FACES
+    ]
+    assert peaks[1] < 2.5 * peaks[0]
+
+
+def test_a_large_ring_is_solved_as_a_small_one():
+    """One more face than a ring may have whose points are coupled directly: hardly another
+    surface."""
+    few, many = (tight.fair(*disc(n), 2) for n in (64, 65))
+    assert few.report["converged"] and many.report["converged"]
+    assert few.vertices[64] == pytest.approx(many.vertices[65])
+    energy = [r.report["energy"]["result"]["thin_plate"] for r in (few, many)]
+    assert energy[1] == pytest.approx(energy[0], rel=0.05)
+
+
+def test_level_beyond_the_direct_limit_is_solved():
+    """Narrow levels have small factors; without one this takes minutes."""
+    report = df.fair(*disc(4000), 3).report
+    assert report["levels"][-1]["direct"] and report["converged"]
+
+
+@pytest.mark.parametrize("name", ["icosahedron", "torus_quads"])
+def test_back_leg_takes_little_more_than_multigrid(name):
+    """The ledger counts what it sweeps over; a matrix took two thirds of the run, uncounted."""
+    mesh = meshes.ALL[name]()
+    usual, swept = (
+        df.fair(*mesh, 4, method=method).report["peak_bytes"]
+        for method in ("multigrid", "back_leg")
+    )
+    assert usual < swept < 4 * usual
