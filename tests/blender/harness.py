@@ -136,3 +136,47 @@ def colours(path):
         ["identify", "-format", "%k", path], capture_output=True, check=True, text=True, timeout=60
     )
     return int(found.stdout)
+
+
+def xdotool(*words):
+    """Mouse and keyboard of the X server."""
+    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
+
+
+def redo_panel():
+    """The region of Adjust Last Operation."""
+    return next(region for region in view()["area"].regions if region.type == "HUD")
+
+
+def line_of(region, number):
+    """Where the value of a panel's line is on the screen; its title is line 0."""
+    unit = bpy.context.preferences.system.ui_scale
+    top = view()["window"].height - (region.y + region.height)
+    return int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)
+
+
+def unfold(region):
+    """Opens a closed panel by a click on its title; a generator."""
+    assert region.width > 50, "Adjust Last Operation is not shown"
+    if region.height < 60:
+        xdotool("mousemove", *line_of(region, 0))
+        yield 0.5
+        xdotool("click", 1)
+        yield 1.0
+
+
+def raise_levels(surface):
+    """Ctrl and the wheel over Levels in Adjust Last Operation, until what `surface()` finds has one
+    more; a generator. A busy machine takes its time to notice where the mouse is.
+    """
+    before = surface().discrete_fairing.levels
+    yield from unfold(redo_panel())
+    for way in range(10):
+        x, y = line_of(redo_panel(), 2)  # line 1 has the presets
+        xdotool("mousemove", x + way % 3, y)
+        yield 1.5
+        xdotool("keydown", "ctrl", "click", 4, "keyup", "ctrl")  # raises a number under the mouse
+        yield 2.0
+        if surface().discrete_fairing.levels > before:
+            return
+    raise AssertionError("the number of levels does not change")

@@ -2,7 +2,6 @@
 """Adjust Last Operation with a large surface: a small one at once, the whole one in the background. Prints the longest stop."""
 
 import importlib
-import subprocess
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -20,10 +19,6 @@ def module(name):
     return importlib.import_module(f"{harness.EXTENSION}.{name}")
 
 
-def xdotool(*words):
-    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
-
-
 def surface():
     return bpy.data.objects["Suzanne Fair"]
 
@@ -33,14 +28,14 @@ def first_surface(levels):
     harness.add_suzanne()
     bpy.context.scene.discrete_fairing.levels = levels
     region = harness.view()["region"]
-    xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
+    harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
     yield 0.5
-    xdotool("key", "F3")
+    harness.xdotool("key", "F3")
     yield 1.5
-    xdotool("type", "Fair Surface")
+    harness.xdotool("type", "Fair Surface")
     yield 1.5
     harness.photograph("search")
-    xdotool("key", "Return")
+    harness.xdotool("key", "Return")
     yield from until(lambda: "Suzanne Fair" in bpy.data.objects)
     yield 2.0
 
@@ -56,33 +51,6 @@ def until(done):
     return longest
 
 
-def panel_line(number):
-    """Where the value of a line of Adjust Last Operation is on the screen; its title is line 0."""
-    region = next(r for r in harness.view()["area"].regions if r.type == "HUD")
-    unit = bpy.context.preferences.system.ui_scale
-    top = harness.view()["window"].height - (region.y + region.height)
-    return region, int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)
-
-
-def raise_levels():
-    """Ctrl and the wheel over Levels, in the panel; a generator."""
-    region, x, y = panel_line(0)
-    if region.height < 60:
-        xdotool("mousemove", x, y)
-        yield 0.5
-        xdotool("click", 1)
-        yield 1.0
-    before = surface().discrete_fairing.levels
-    for way in range(10):  # the panel has to notice the mouse first, however busy the machine is
-        _, x, y = panel_line(2)  # line 1 has the presets
-        xdotool("mousemove", x + way % 3, y)
-        yield 1.5
-        xdotool("keydown", "ctrl", "click", 4, "keyup", "ctrl")
-        yield 2.0
-        if "Suzanne Fair" in bpy.data.objects and surface().discrete_fairing.levels > before:
-            return
-
-
 def test_the_settings_are_those_of_the_panel():
     yield from first_surface(1)
     assert surface().discrete_fairing.levels == 1
@@ -93,7 +61,7 @@ def test_redo_shows_a_small_surface_and_completes_it():
     yield from first_surface(2)
     module("prediction").note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
     module("prediction")._of_mesh.clear()
-    yield from raise_levels()
+    yield from harness.raise_levels(surface)
     yield from until(lambda: surface().discrete_fairing.levels == 3)
     few = len(surface().data.polygons)
     assert few < SUZANNE * 4**3, "the whole surface at once: the window has waited for it"
@@ -102,7 +70,7 @@ def test_redo_shows_a_small_surface_and_completes_it():
     print(f"longest stop of the window while the surface was completed: {longest:.2f} s")
     harness.photograph("redo_whole")
     assert surface().discrete_fairing.levels == 3
-    yield from raise_levels()
+    yield from harness.raise_levels(surface)
     yield from until(lambda: surface().discrete_fairing.levels == 4)
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.ed.undo()
@@ -115,7 +83,7 @@ def test_another_change_ends_what_was_being_completed():
     module("prediction").note("THIN_PLATE", 1000, 1.0, None)
     module("prediction")._of_mesh.clear()
     for level in (3, 4):
-        yield from raise_levels()
+        yield from harness.raise_levels(surface)
         yield from until(lambda level=level: surface().discrete_fairing.levels == level)
     yield from until(lambda: len(surface().data.polygons) >= SUZANNE * 4**4)
     assert [o.name for o in bpy.data.objects if o.name.startswith("Suzanne F")] == ["Suzanne Fair"]

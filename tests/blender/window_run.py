@@ -3,7 +3,6 @@
 
 import importlib
 import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -34,11 +33,6 @@ def pixels(path):
     return values.reshape(height, width, 4)[::-1, :, :3].sum(axis=2)
 
 
-def xdotool(*words):
-    """Mouse and keyboard of the X server."""
-    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
-
-
 def find_button(settings):
     """Where the button is on the screen: its text is all that changes with this setting. A generator; returns (x, y)."""
     yield 0.7  # the viewport smooths its edges for a moment
@@ -61,9 +55,9 @@ def find_button(settings):
 def press(settings):
     """Clicks the button Fair Surface with the mouse; a generator."""
     x, y = yield from find_button(settings)
-    xdotool("mousemove", x, y)
+    harness.xdotool("mousemove", x, y)
     yield 0.5
-    xdotool("click", 1)
+    harness.xdotool("click", 1)
     yield 0.3
 
 
@@ -130,37 +124,14 @@ def test_escape_leaves_the_scene_as_it_was():
     yield from press(settings)
     yield 0.5
     assert running()
-    xdotool("key", "Escape")
+    harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
     assert list(bpy.data.objects) == [source] and set(bpy.data.meshes) == meshes
     assert not source.hide_get() and source.select_get()
     yield from press(bpy.context.scene.discrete_fairing)
     assert running(), "the button works again"
-    xdotool("key", "Escape")
+    harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
-
-
-def redo_panel():
-    """The region of Adjust Last Operation."""
-    return next(region for region in harness.view()["area"].regions if region.type == "HUD")
-
-
-def line_of(region, number):
-    """Where the value of a panel's line is on the screen; its title is line 0."""
-    unit = bpy.context.preferences.system.ui_scale
-    top = harness.view()["window"].height - (region.y + region.height)
-    return int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)
-
-
-def unfold(region):
-    """Opens a closed panel by a click on its title; a generator."""
-    assert region.width > 50, "Adjust Last Operation is not shown"
-    if region.height < 60:
-        xdotool("mousemove", *line_of(region, 0))
-        yield 0.5
-        xdotool("click", 1)
-        yield 1.0
-    harness.photograph("unfolded")
 
 
 def test_redo_with_another_level_then_undo():
@@ -169,11 +140,7 @@ def test_redo_with_another_level_then_undo():
     yield from wait_for_the_end()
     yield 0.5
     faces = len(bpy.data.objects["Suzanne Fair"].data.polygons)
-    yield from unfold(redo_panel())
-    levels = line_of(redo_panel(), 2)  # line 1 has the presets
-    xdotool("mousemove", *levels)
-    yield 0.5
-    xdotool("keydown", "ctrl", "click", 4, "keyup", "ctrl")  # raises a number under the mouse
+    yield from harness.raise_levels(lambda: bpy.data.objects["Suzanne Fair"])
     yield from wait_for_faces(4 * faces)
     harness.photograph("redo")
     with bpy.context.temp_override(**harness.view()):
@@ -233,7 +200,7 @@ def test_edit_mode_and_a_region():
             "INVOKE_DEFAULT", levels=TOO_LONG, use_selection=True
         ) == {"RUNNING_MODAL"}
     yield 0.5
-    xdotool("key", "Escape")
+    harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
     assert source.mode == "EDIT" and len(bpy.data.objects) == 1, "cancelled: still in Edit Mode"
 
