@@ -6,8 +6,7 @@ compared after it.
     .venv/bin/python benchmarks/bits.py compare before.json
 
 `--quick` leaves out the collection of real meshes, `--only TEXT` all cases whose name does not
-contain the text. Hashes of one machine say nothing about another: the mathematical library takes
-part in the bits.
+contain the text. `tests/python/surface_hashes.py` compares machines.
 """
 
 import argparse

@@ -22,7 +22,7 @@ HUNG = (124, 137)  # what timeout(1) ends with
 def install(blender: RealBlender) -> None:
     """Packs the extension and installs it as a user would, into settings that nobody else has."""
     blender.clear()
-    made = build(blender.wheel(), blender)
+    made = build([blender.wheel()], blender)
     where = ["--repo", "user_default", "--enable", blender.seen(made)]
     run(*blender.headless("--command", "extension", "install-file", *where))
 

@@ -36,10 +36,18 @@ class DebianRoot:
     options: tuple[str, ...] = ()
     # whether its C library is old enough for a manylinux tag that auditwheel knows
     repairable: bool = True
+    # for what it is, if not for its Blender
+    purpose: str = ""
+    base_packages: tuple[str, ...] = tuple(PACKAGES)
+
+    @property
+    def place(self) -> str:
+        """How its folder is called."""
+        return f"debian-{self.suite}{self.purpose and '-'}{self.purpose}"
 
     @property
     def folder(self) -> Path:
-        return CACHE / f"debian-{self.suite}"
+        return CACHE / self.place
 
     @property
     def outside(self) -> Path:
@@ -48,7 +56,7 @@ class DebianRoot:
 
     @property
     def stamp(self) -> Path:
-        return CACHE / f"debian-{self.suite}.stamp"
+        return CACHE / f"{self.place}.stamp"
 
     def command(self, *words: str | Path, **extra: str) -> list[str]:
         """The command line that runs `words` inside, as root, with the project read-only at /project."""
@@ -68,8 +76,8 @@ class DebianRoot:
 
     def make(self) -> None:
         """Makes the folder, a minute's work; returns at once when it is there."""
-        with alone(f"debian-{self.suite}"):
-            packages = [*PACKAGES, *self.extra_packages]
+        with alone(self.place):
+            packages = [*self.base_packages, *self.extra_packages]
             value = fingerprint([], self.suite, *packages, *self.options, str(INSIDE))
             if is_fresh(self.stamp, value) and self.folder.is_dir():
                 return
@@ -78,15 +86,17 @@ class DebianRoot:
 
     def _bootstrap(self, packages: list[str]) -> None:
         if shutil.which("mmdebstrap") is None:
-            raise DevError("the tests in a real Blender need mmdebstrap: run `dev.py setup` first.")
-        say(f"Debian {self.suite} with Blender in {self.folder.relative_to(ROOT)}")
+            raise DevError("a Debian in a folder needs mmdebstrap: run `dev.py setup` first.")
+        say(
+            f"Debian {self.suite} for {self.purpose or 'its Blender'} in {self.folder.relative_to(ROOT)}"
+        )
         self.stamp.unlink(missing_ok=True)
         run(*as_root("rm", "-rf", "--one-file-system", self.folder))
         options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"', *self.options]
         words = ["mmdebstrap", *options, f"--include={','.join(packages)}", self.suite, self.folder]
         if run(*as_root(*words), check=False):
             raise DevError(
-                f"no Debian {self.suite} could be made, so nothing can be tested in its Blender: "
+                f"no Debian {self.suite} could be made, so nothing can be tested in it: "
                 "mmdebstrap needs root, the right to mount, and a reachable Debian archive."
             )
         run(*as_root("mkdir", "-p", self.folder / "project", self.outside))

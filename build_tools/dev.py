@@ -4,10 +4,12 @@
 
 python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
 python3 build_tools/dev.py test           all tests; the last line counts them
+python3 build_tools/dev.py test windows arm   the tests as programs for other machines, under Wine and qemu
 python3 build_tools/dev.py setup          system packages, .venv and the native build
 python3 build_tools/dev.py fuzz --minutes N   random meshes and options until time is up; failures under out/fuzz/
 python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/
 python3 build_tools/dev.py extension      the extension's zips under out/extension/
+python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
@@ -76,12 +78,17 @@ def fuzz(minutes: float) -> int:
     return fuzzing.fuzz(minutes)
 
 
-def extension(wheels: Path | None) -> int:
-    """One zip for each wheel in a folder; without a folder, for each Python that is at hand."""
+def extension(wheels: Path | None, all_platforms: bool) -> int:
+    """One zip for each platform, of the wheels in a folder or compiled here; else for each Python at hand."""
     import extension as packing
 
     setup_tools()
-    found = packing.wheels_at_hand() if wheels is None else packing.wheels_in(wheels.resolve())
+    if wheels is not None:
+        found = packing.wheels_in(wheels.resolve())
+    elif all_platforms:
+        found = packing.wheels_of_all_platforms()
+    else:
+        found = packing.wheels_at_hand()
     for path in packing.build_all(found):
         say(f"{path.relative_to(ROOT)} is ready")
     return 0
@@ -114,6 +121,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
     )
+    parser.add_argument(
+        "--all", action="store_true", help="extension: compile and pack for every platform"
+    )
     return parser.parse_args()
 
 
@@ -128,7 +138,7 @@ def main() -> int:
         "demo": lambda: demo(given.names),
         "fuzz": lambda: fuzz(given.minutes),
         "bench": lambda: bench(given.names),
-        "extension": lambda: extension(given.wheels),
+        "extension": lambda: extension(given.wheels, given.all),
         "format": format_sources,
     }
     return commands[given.command]() or 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extension's zips, one for each Python tag and platform: staged, then built and validated by Blender itself.
+"""The extension's zips, one for each platform: staged, then built and validated by Blender itself.
 
 Blender wants `__init__.py` beside the manifest, so what lies in addon/ and at the root is laid out anew.
 """
@@ -20,6 +20,9 @@ from wheel_version import manifest_version
 
 # first Blender whose Python is another one; Debian's own builds have 3.13 in any version
 ENDS = {"cp311": "5.1.0"}
+
+# first Blender that installs of several wheels the one for its own Python
+CHOOSES_WHEELS = "4.3.0"
 
 LICENCES = ["LICENSE", "THIRD_PARTY_LICENSES.txt"]
 
@@ -60,32 +63,66 @@ def wheel_version(wheel: Path) -> str:
     return wheel.stem.split("-")[1].partition("+")[0]
 
 
-def name(wheel: Path) -> str:
-    """What the zip that carries a wheel is called, without the suffix."""
-    return f"discrete_fairing-{manifest_version()}-{python_tag(wheel)}-{platform(wheel).replace('-', '_')}"
+def python_tags(wheels: list[Path]) -> list[str]:
+    """The Pythons of a zip's wheels."""
+    return [python_tag(wheel) for wheel in wheels]
 
 
-def staged_manifest(wheel: Path) -> str:
-    """The manifest with what only the staging knows, put before its first table."""
-    lines = [f'platforms = ["{platform(wheel)}"]', f'wheels = ["./wheels/{wheel.name}"]']
-    if python_tag(wheel) in ENDS:
-        lines.append(f'blender_version_max = "{ENDS[python_tag(wheel)]}"')
-    values, bracket, tables = MANIFEST.read_text().partition("\n[")
-    return values.rstrip() + "\n" + "\n".join(lines) + "\n" + bracket + tables
-
-
-def stage(wheel: Path, folder: Path) -> None:
-    """Lays the extension out in a folder that is not there yet."""
-    if wheel_version(wheel) != manifest_version():
+def only_platform(wheels: list[Path]) -> str:
+    """Blender's name of the one platform that the wheels of a zip are for."""
+    found = {platform(wheel) for wheel in wheels}
+    if len(found) != 1 or len(set(python_tags(wheels))) != len(wheels):
         raise DevError(
-            f"{wheel.name} is not of version {manifest_version()}, which the manifest gives."
+            "a zip holds wheels of one platform, one a Python: "
+            f"{', '.join(wheel.name for wheel in wheels)}."
         )
+    return found.pop()
+
+
+def name(wheels: list[Path]) -> str:
+    """What the zip that carries these wheels is called, without the suffix."""
+    tags = python_tags(wheels)
+    python = f"{tags[0]}-" if len(tags) == 1 else ""
+    return (
+        f"discrete_fairing-{manifest_version()}-{python}{only_platform(wheels).replace('-', '_')}"
+    )
+
+
+def added_lines(wheels: list[Path]) -> dict[str, str]:
+    """What only the staging knows of the manifest."""
+    paths = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
+    lines = {"platforms": f'["{only_platform(wheels)}"]', "wheels": f"[{paths}]"}
+    ends = [ENDS.get(tag) for tag in python_tags(wheels)]
+    if None not in ends:
+        lines["blender_version_max"] = f'"{max(ends)}"'
+    if len(wheels) > 1:
+        lines["blender_version_min"] = f'"{CHOOSES_WHEELS}"'
+    return lines
+
+
+def staged_manifest(wheels: list[Path]) -> str:
+    """The manifest with what only the staging knows, put before its first table."""
+    added = added_lines(wheels)
+    values, bracket, tables = MANIFEST.read_text().partition("\n[")
+    kept = [line for line in values.splitlines() if line.partition(" = ")[0] not in added]
+    lines = [*kept, *(f"{key} = {value}" for key, value in added.items())]
+    return "\n".join(lines) + "\n" + bracket + tables
+
+
+def stage(wheels: list[Path], folder: Path) -> None:
+    """Lays the extension out in a folder that is not there yet."""
+    for wheel in wheels:
+        if wheel_version(wheel) != manifest_version():
+            raise DevError(
+                f"{wheel.name} is not of version {manifest_version()}, which the manifest gives."
+            )
     shutil.copytree(ADDON, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "wheels").mkdir()
-    shutil.copy(wheel, folder / "wheels")
+    for wheel in wheels:
+        shutil.copy(wheel, folder / "wheels")
     for text in LICENCES:
         shutil.copy(ROOT / text, folder)
-    (folder / "blender_manifest.toml").write_text(staged_manifest(wheel))
+    (folder / "blender_manifest.toml").write_text(staged_manifest(wheels))
 
 
 def faults(path: Path) -> list[str]:
@@ -98,13 +135,16 @@ def faults(path: Path) -> list[str]:
     tagline = manifest["tagline"]
     checks = {
         "the version is not the project's": manifest["version"] == manifest_version(),
-        "not exactly one wheel": len(wheels) == 1 and carried == wheels,
-        "the wheel has another version": all(
+        "other wheels than it names": wheels != [] and sorted(carried) == sorted(wheels),
+        "a wheel has another version": all(
             wheel_version(Path(w)) == manifest["version"] for w in wheels
         ),
-        "the wheel is for another platform": [platform(Path(w)) for w in wheels]
-        == manifest["platforms"],
-        "a permission that is not used": "permissions" not in manifest,
+        "a wheel is for another platform": {platform(Path(w)) for w in wheels}
+        == set(manifest["platforms"]),
+        "several Pythons for a Blender that does not choose": len(wheels) == 1
+        or manifest["blender_version_min"] == CHOOSES_WHEELS,
+        "not the one permission that the command line needs": list(manifest.get("permissions", {}))
+        == ["files"],
         "the tagline is too long or ends in a period": len(tagline) <= 64
         and not tagline.endswith("."),
         "no licence": names.issuperset(LICENCES),
@@ -115,12 +155,12 @@ def faults(path: Path) -> list[str]:
     return [fault for fault, fine in checks.items() if not fine]
 
 
-def build(wheel: Path, blender: RealBlender) -> Path:
+def build(wheels: list[Path], blender: RealBlender) -> Path:
     """One zip, built and validated by `blender`; it is left in the folder common with Blender."""
-    source = blender.exchange / name(wheel)
-    made = blender.exchange / f"{name(wheel)}.zip"
+    source = blender.exchange / name(wheels)
+    made = blender.exchange / f"{name(wheels)}.zip"
     shutil.rmtree(source, ignore_errors=True)
-    stage(wheel, source)
+    stage(wheels, source)
     where = ["--source-dir", blender.seen(source), "--output-filepath", blender.seen(made)]
     run(*blender.headless("--command", "extension", "build", *where))
     run(*blender.headless("--command", "extension", "validate", blender.seen(made)))
@@ -129,24 +169,39 @@ def build(wheel: Path, blender: RealBlender) -> Path:
     return made
 
 
-def wheels_at_hand() -> list[Path]:
-    """The wheels for .venv and for each Debian root; for one tag and platform the first one counts."""
+def by_platform(wheels: list[Path]) -> list[list[Path]]:
+    """The wheels of each zip: one zip a platform, with the wheels of all its Pythons."""
+    platforms = dict.fromkeys(platform(wheel) for wheel in wheels)
+    return [[wheel for wheel in wheels if platform(wheel) == each] for each in platforms]
+
+
+def wheels_at_hand() -> list[list[Path]]:
+    """The wheels for .venv and for each Debian root, each for a zip of its own; of two alike the first one counts."""
     wheels = [native_wheel.install(), *(root.wheel() for root in ROOTS)]
-    return list({name(wheel): wheel for wheel in reversed(wheels)}.values())[::-1]
+    return [[wheel] for wheel in {name([wheel]): wheel for wheel in reversed(wheels)}.values()][
+        ::-1
+    ]
 
 
-def wheels_in(folder: Path) -> list[Path]:
-    """The wheels that were made elsewhere."""
+def wheels_of_all_platforms() -> list[list[Path]]:
+    """The wheels of each platform that is cross-compiled for."""
+    from cross.wheels import build_all as compile_all
+
+    return by_platform(compile_all())
+
+
+def wheels_in(folder: Path) -> list[list[Path]]:
+    """The wheels that were made elsewhere, of each platform."""
     wheels = sorted(folder.glob("discrete_fairing-*.whl"))
     if not wheels:
         raise DevError(f"there is no wheel of discrete_fairing in {folder}.")
-    if len({name(wheel) for wheel in wheels}) != len(wheels):
+    if len({name([wheel]) for wheel in wheels}) != len(wheels):
         raise DevError(f"{folder} has two wheels for the same Python and platform.")
-    return wheels
+    return by_platform(wheels)
 
 
-def build_all(wheels: list[Path]) -> list[Path]:
-    """A zip for each wheel, under out/, made by a Blender with the wheel's Python where there is one."""
+def build_all(zips: list[list[Path]]) -> list[Path]:
+    """A zip for each list of wheels, under out/, made by a Blender with a wheel's Python where there is one."""
     folder = OUT / "extension"
     with alone("blender"):
         blenders = [get() for get in places().values()]
@@ -155,8 +210,8 @@ def build_all(wheels: list[Path]) -> list[Path]:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         made = []
-        for wheel in wheels:
-            say(f"extension {name(wheel)}")
-            fitting = [blender for blender in blenders if blender.python_tag == python_tag(wheel)]
-            made.append(Path(shutil.copy(build(wheel, (fitting or blenders)[0]), folder)))
+        for wheels in zips:
+            say(f"extension {name(wheels)}")
+            fitting = [each for each in blenders if each.python_tag in python_tags(wheels)]
+            made.append(Path(shutil.copy(build(wheels, (fitting or blenders)[0]), folder)))
     return made

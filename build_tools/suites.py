@@ -117,6 +117,27 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 }
 
 
+def windows_suite() -> dict[str, Tally]:
+    """The tests as programs for Windows, under Wine."""
+    from cross import windows_suite as wine
+
+    return wine.run_suite()
+
+
+def arm_suite() -> Tally:
+    """The native tests as a program for ARM, under qemu."""
+    from cross import arm_suite as qemu
+
+    return qemu.run_suite()
+
+
+# by name alone: they take half an hour each
+LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
+    "windows": windows_suite,
+    "arm": arm_suite,
+}
+
+
 def attempt(suite: Callable[[], Tally | dict[str, Tally]]) -> Tally | dict[str, Tally]:
     """A suite that cannot even run is one failure, and no reason to leave the others out."""
     try:
@@ -131,14 +152,15 @@ def suite_named(name: str) -> Callable[[], Tally | dict[str, Tally]]:
     suite, _, part = name.partition(":")
     if part and suite != "blender":
         raise DevError(f"only parts of the suite blender can be named, not of {suite}.")
-    return partial(blender_suite.run_suite, part) if part else SUITES[suite]
+    return partial(blender_suite.run_suite, part) if part else {**SUITES, **LONG_SUITES}[suite]
 
 
 def run_all(names: list[str]) -> int:
     """Runs all suites, or those named; prints a line for each and their sum last."""
-    unknown = {name.partition(":")[0] for name in names} - set(SUITES)
+    known = {**SUITES, **LONG_SUITES}
+    unknown = {name.partition(":")[0] for name in names} - set(known)
     if unknown:
-        raise DevError(f"no suite {', '.join(sorted(unknown))}; there are {', '.join(SUITES)}.")
+        raise DevError(f"no suite {', '.join(sorted(unknown))}; there are {', '.join(known)}.")
     rows, total = [], Tally()
     for name in names or SUITES:
         say(f"suite {name}")

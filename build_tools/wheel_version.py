@@ -15,7 +15,7 @@ LOCAL_PART = "DF_LOCAL_VERSION"
 
 def manifest_version() -> str:
     """The project's version, from the one place where it is written."""
-    return tomllib.loads(MANIFEST.read_text())["version"]
+    return tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["version"]
 
 
 def dynamic_metadata(field, settings=None, project=None) -> str:

@@ -3,14 +3,20 @@
 add_library(fairing_flags INTERFACE)
 target_compile_features(fairing_flags INTERFACE cxx_std_20)
 
-# Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count.
+# Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count; the
+# mathematical library that this takes too is third_party/musl_libm.
 if(MSVC) # its Clang, which takes the options in Microsoft's spelling
   target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8 /bigobj)
-  target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
 else()
   target_compile_options(fairing_flags INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra)
   # a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
   target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
+endif()
+if(WIN32) # whatever the compiler: M_PI, and std::min beside Windows' own headers
+  target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
+endif()
+if(APPLE) # whose threads have stacks of 512 KB: what Eigen would lay there goes to the heap sooner than by default
+  target_compile_definitions(fairing_flags INTERFACE EIGEN_STACK_ALLOCATION_LIMIT=32768)
 endif()
 # these look into inlined library code, and GCC 12 to 14 find there what cannot happen
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

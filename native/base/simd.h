@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#if defined(_MSC_VER)
+#include <intrin.h>
+#endif
 
 #define DF_INLINE __attribute__((always_inline)) inline
 
@@ -39,8 +42,25 @@ struct Packs {
 };
 
 #if DF_HAS_WIDE
+#if defined(_MSC_VER)
+// Clang beside Microsoft's library: the builtin below would want one of Clang's own.
+__attribute__((target("xsave"))) inline bool machine_has_avx2() {
+  int words[4] = {};
+  __cpuid(words, 0);
+  if (words[0] < 7) return false;
+  __cpuid(words, 1);
+  constexpr int system_saves = 1 << 27, avx = 1 << 28, both_halves = 6;
+  if (!(words[2] & system_saves) || !(words[2] & avx)) return false;
+  if ((_xgetbv(0) & both_halves) != both_halves) return false;
+  __cpuidex(words, 7, 0);
+  return words[1] & 1 << 5;
+}
+#else
+inline bool machine_has_avx2() { return __builtin_cpu_supports("avx2"); }
+#endif
+
 inline bool machine_is_wide() {
-  static const bool wide = __builtin_cpu_supports("avx2");
+  static const bool wide = machine_has_avx2();
   return wide;
 }
 

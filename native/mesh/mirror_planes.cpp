@@ -39,8 +39,8 @@ const Vec3& farthest(const std::vector<Vec3>& points, Distance&& distance) {
 // A mirror goes through the centre and takes every vertex to one at the same distance from it.
 class Planes {
  public:
-  Planes(const std::vector<Vec3>& points, double slack)
-      : points_(points), centre_(mean_of(points)), slack_(slack) {}
+  Planes(const std::vector<Vec3>& points, double within)
+      : points_(points), centre_(mean_of(points)), slack_(within) {}
 
   void add_coordinate_planes() {
     for (int axis = 0; axis < 3; ++axis)

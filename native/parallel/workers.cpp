@@ -14,6 +14,8 @@ constexpr int spins = 4000;
 inline void relax() {
 #if defined(__x86_64__) || defined(_M_X64)
   __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("isb");  // `yield` does nothing on most of these processors
 #endif
 }
 

@@ -25,7 +25,7 @@ def staged(tmp_path):
     """A folder staged with a wheel of a development build."""
     path = tmp_path / LINUX
     path.write_bytes(b"")
-    extension.stage(path, tmp_path / "staged")
+    extension.stage([path], tmp_path / "staged")
     return tmp_path / "staged"
 
 
@@ -62,13 +62,52 @@ def test_other_platforms_are_refused(tag):
 
 @pytest.mark.parametrize(("tag", "end"), [("cp311", "5.1.0"), ("cp313", None), ("cp314", None)])
 def test_staged_manifest(tag, end):
-    manifest = tomllib.loads(extension.staged_manifest(wheel(f"{tag}-{tag}-win_amd64")))
+    manifest = tomllib.loads(extension.staged_manifest([wheel(f"{tag}-{tag}-win_amd64")]))
     assert manifest["version"] == VERSION
     assert manifest["platforms"] == ["windows-x64"]
     assert manifest["wheels"] == [f"./wheels/discrete_fairing-{VERSION}-{tag}-{tag}-win_amd64.whl"]
     assert manifest["blender_version_min"] == "4.2.0"
     assert manifest.get("blender_version_max") == end
-    assert "permissions" not in manifest
+
+
+def test_one_zip_for_several_pythons():
+    wheels = [wheel(f"{tag}-{tag}-win_amd64") for tag in ("cp311", "cp313")]
+    manifest = tomllib.loads(extension.staged_manifest(wheels))
+    assert extension.name(wheels) == f"discrete_fairing-{VERSION}-windows_x64"
+    assert manifest["wheels"] == [f"./wheels/{path.name}" for path in wheels]
+    assert manifest["platforms"] == ["windows-x64"]
+    assert manifest["blender_version_min"] == "4.3.0", "4.2 may install the wrong one"
+    assert "blender_version_max" not in manifest
+
+
+@pytest.mark.parametrize(
+    "tags",
+    [
+        ("cp311-cp311-win_amd64", "cp311-cp311-macosx_11_0_arm64"),
+        ("cp311-cp311-manylinux_2_28_x86_64", "cp311-cp311-linux_x86_64"),
+    ],
+)
+def test_wheels_that_make_no_zip_are_refused(tags):
+    with pytest.raises(DevError, match="one platform, one a Python"):
+        extension.name([wheel(tag) for tag in tags])
+
+
+def test_the_permission_has_a_reason():
+    """The command line reads and writes files; Blender shows the reason to who installs."""
+    text = extension.staged_manifest([wheel("cp311-cp311-win_amd64")])
+    reason = tomllib.loads(text)["permissions"]["files"]
+    assert "command line" in reason and len(reason) <= 64 and reason[-1].isalnum()
+
+
+def test_wheels_of_a_folder_are_sorted_by_platform(tmp_path):
+    tags = ["cp311-cp311-win_amd64", "cp313-cp313-win_amd64", "cp311-cp311-macosx_11_0_arm64"]
+    for tag in tags:
+        (tmp_path / wheel(tag)).write_bytes(b"")
+    names = [extension.name(wheels) for wheels in extension.wheels_in(tmp_path)]
+    assert names == [
+        f"discrete_fairing-{VERSION}-cp311-macos_arm64",
+        f"discrete_fairing-{VERSION}-windows_x64",
+    ]
 
 
 def test_staged_folder(staged):
@@ -81,7 +120,7 @@ def test_staged_folder(staged):
 
 def test_a_wheel_of_another_version_is_not_staged(tmp_path):
     with pytest.raises(DevError, match="version"):
-        extension.stage(wheel("cp311-cp311-win_amd64", "999.0.0"), tmp_path / "staged")
+        extension.stage([wheel("cp311-cp311-win_amd64", "999.0.0")], tmp_path / "staged")
 
 
 def test_a_good_zip_has_no_faults(staged, tmp_path):
@@ -111,14 +150,11 @@ def change(old, new):
         (spoil_cache, "compiled"),
         (lambda folder: (folder / "LICENSE").unlink(), "licence"),
         (lambda folder: next((folder / "wheels").iterdir()).unlink(), "wheel"),
-        (lambda folder: (folder / "wheels" / "other.whl").write_bytes(b""), "one wheel"),
+        (lambda folder: (folder / "wheels" / "other.whl").write_bytes(b""), "other wheels"),
         (change("linux-x64", "windows-x64"), "platform"),
         (change(f'version = "{VERSION}"', 'version = "999.0.0"'), "version"),
-        (
-            change('id = "discrete_fairing"', 'permissions = ["files"]\nid = "discrete_fairing"'),
-            "permission",
-        ),
-        (change('control mesh"', 'control mesh."'), "tagline"),
+        (change("files = ", "network = "), "permission"),
+        (change('through it"', 'through it."'), "tagline"),
     ],
 )
 def test_faults_are_found(staged, tmp_path, spoil, fault):

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "curvature/rings.h"
 #include "grid/linear.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -18,7 +18,7 @@ Array<double> lumpy(const GridLevel& lattice) {
   Array<double> x(3 * lattice.size());
   refine_linearly(lattice, lattice.mesh().positions, x.data());
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> shake(-0.01, 0.01);
+  UniformReal<> shake(-0.01, 0.01);
   for (double& number : x) number = number * (1 + 0.2 * std::sin(5 * number)) + shake(random);
   return x;
 }
@@ -26,7 +26,7 @@ Array<double> lumpy(const GridLevel& lattice) {
 Array<float> some_lifts(const GridLevel& lattice) {
   Array<float> lift(lattice.size());
   std::mt19937 random(11);
-  std::uniform_real_distribution<float> share(-1, 1);
+  UniformReal<float> share(-1, 1);
   for (float& l : lift) l = std::max(0.0f, share(random));
   return lift;
 }

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "curvature/level.h"
 #include "fairing/fair.h"
 #include "grid/linear.h"
 #include "meshes.h"
+#include "random.h"
 #include "transfer/point_normal.h"
 
 namespace fairing::test {
@@ -30,11 +30,12 @@ Array<double> lumpy(const GridLevel& lattice, double noise) {
   Array<double> x(3 * lattice.size());
   refine_linearly(lattice, lattice.mesh().positions, x.data());
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> shake(-noise, noise);
+  UniformReal<> shake(-noise, noise);
   for (std::size_t i = 0; i < x.size(); i += 3) {
     Eigen::Map<Vec3> p(x.data() + i);
     p *= (1 + 0.2 * p.x()) / std::sqrt(0.3 + p.squaredNorm());
-    p += Vec3(shake(random), shake(random), shake(random));
+    const double z_by = shake(random), y_by = shake(random), x_by = shake(random);
+    p += Vec3(x_by, y_by, z_by);
   }
   return x;
 }
@@ -42,7 +43,7 @@ Array<double> lumpy(const GridLevel& lattice, double noise) {
 Array<double> random_displacement(const GridLevel& lattice, const Array<float>& diagonal,
                                   unsigned seed) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
+  Normal<> normal;
   Array<double> h(lattice.size());
   for (std::size_t i = 0; i < h.size(); ++i) h[i] = diagonal[i] > 0 ? normal(random) : 0.0;
   return h;

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "curves/feature_curves.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -21,7 +21,7 @@ using Points = std::vector<Vec3>;
 
 Points random_chain(unsigned seed, int count) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> coordinate;
+  Normal<> coordinate;
   Points points;
   for (int i = 0; i < count; ++i) {
     const double x = coordinate(random), y = coordinate(random), z = coordinate(random);

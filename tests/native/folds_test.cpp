@@ -2,13 +2,12 @@
 // Folds: found where they are and only there; refilled flat.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "curvature/folds.h"
 #include "curvature/local_damping.h"
 #include "curvature/unfold.h"
 #include "grid/linear.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -88,7 +87,7 @@ TEST(HarmonicFill, IsFlatWhereTheControlMeshIs) {
     for (int ring = 0; ring < 3; ++ring) dilate(s.lattice, s.workers, exchange, nullptr, marks);
     const Array<double> flat = s.x;
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> shake(-1, 1);
+    UniformReal<> shake(-1, 1);
     Array<double> filled = s.x;
     std::size_t moved = 0;
     for (std::size_t e = 0; e < s.mesh.edges.size(); ++e)

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+
+#include "random.h"
 
 namespace fairing::test {
 
@@ -14,7 +15,7 @@ ControlMesh control(const OwnedPolygonMesh& mesh, const FeatureOptions& features
 
 OwnedPolygonMesh shaken(OwnedPolygonMesh mesh, double by) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> move(-by, by);
+  UniformReal<> move(-by, by);
   for (double& x : mesh.coordinates) x += move(random);
   return mesh;
 }
@@ -118,7 +119,7 @@ Unknowns some_points(const ControlMesh& mesh, int choice) {
 
 Points random_points(std::size_t size, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> number(-1, 1);
+  UniformReal<> number(-1, 1);
   Points x(Eigen::Index(size), 3);
   for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = number(random);
   return x;

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 void fill(RingJacobian& rows) {
   const GridLevel& lattice = rows.grid();
   std::mt19937 random(5);
-  std::uniform_real_distribution<float> number(-1, 1);
+  UniformReal<float> number(-1, 1);
   const auto fill_run = [&](const RowRun<float>& run) {
     for (std::size_t k = 0; k < 3 * std::size_t(run.slots) * run.count; ++k)
       run.coefficient[k] = number(random);
@@ -44,7 +44,7 @@ TEST(NormalMatrix, DoesWhatThePassesDo) {
       Workers workers(2);
       ElementSlots<float, 1> exchange;
       std::mt19937 random(9);
-      std::normal_distribution<float> normal;
+      Normal<float> normal;
       Array<float> x(lattice.size()), expected(x.size()), y(x.size());
       for (float& number : x) number = normal(random);
       // what is no unknown is zero in every vector of the solver

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "random.h"
 #include "stencil/angle.h"
 #include "stencil/fit.h"
 
@@ -90,14 +90,14 @@ TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
 
 TEST(PointCurvature, ChartIsTheExponentialMap) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> vary(-0.2, 0.2);
+  UniformReal<> vary(-0.2, 0.2);
   SurfaceChart chart;
   for (int valence = 3; valence <= 12; ++valence) {
     std::vector<Vec3> offset;
     for (int j = 0; j < valence; ++j) {
       const double angle = 2 * pi * (j + vary(random)) / valence;
-      offset.push_back((1 + vary(random)) *
-                       Vec3(std::cos(angle), std::sin(angle), 0.8 + vary(random)));
+      const double size = 1 + vary(random), lift = 0.8 + vary(random);
+      offset.push_back(size * Vec3(std::cos(angle), std::sin(angle), lift));
     }
     const std::vector<std::uint8_t> far(offset.size(), 0);
     point_curvature({offset, far}, chart);
@@ -118,7 +118,7 @@ TEST(PointCurvature, ChartIsTheExponentialMap) {
 
 TEST(Hessian, IsTheFitsHessian) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> vary(-0.3, 0.3);
+  UniformReal<> vary(-0.3, 0.3);
   for (const double skew : {1.0, 0.1, 20.0})
     for (int valence = 3; valence <= 40; ++valence)
       for (int trial = 0; trial < 10; ++trial) {

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "meshes.h"
+#include "random.h"
 #include "stencil/weights.h"
 #include "thin_plate/matrix.h"
 #include "thrown.h"
@@ -105,7 +104,7 @@ TEST(Region, PassesAreTheMatrix) {
             assemble_thin_plate(lattice, stencils, unknowns, {}, workers);
         const auto count = Eigen::Index(system.unknown_points.size());
         std::mt19937 random(7);
-        std::uniform_real_distribution<double> number(-1, 1);
+        UniformReal<> number(-1, 1);
         Points x = Points::Zero(Eigen::Index(lattice.size()), 3), small(count, 3);
         for (Eigen::Index i = 0; i < count; ++i)
           for (int a = 0; a < 3; ++a)

@@ -5,11 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "grid/accumulate.h"
 #include "mesh/control_mesh.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -37,7 +36,7 @@ std::vector<std::vector<Index>> rings(const GridLevel& grid) {
 
 std::vector<double> random_numbers(std::size_t size) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> number(-1, 1);
+  UniformReal<> number(-1, 1);
   std::vector<double> out(size);
   for (double& x : out) x = number(random);
   return out;

@@ -5,32 +5,32 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <random>
 
 #include "control_mesh_invariants.h"
 #include "mesh/control_mesh.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
+#include "random.h"
 
 namespace fairing::test {
 namespace {
 
 struct Dice {
   std::mt19937 random;
-  int operator()(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); }
+  int operator()(int from, int to) { return UniformInt(from, to)(random); }
 };
 
 OwnedPolygonMesh random_soup(Dice& dice) {
   const int vertices = dice(3, 9), faces = dice(1, 7);
   std::vector<Point> points;
-  std::normal_distribution<double> coordinate;
+  Normal<> coordinate;
   for (int v = 0; v < vertices; ++v)
     points.push_back({coordinate(dice.random), coordinate(dice.random), coordinate(dice.random)});
   std::vector<Polygon> polygons;
   Polygon order(static_cast<std::size_t>(vertices));
   std::iota(order.begin(), order.end(), 0);
   for (int f = 0; f < faces; ++f) {
-    std::shuffle(order.begin(), order.end(), dice.random);
+    shuffle_things(order, dice.random);
     polygons.emplace_back(order.begin(), order.begin() + dice(3, std::min(6, vertices)));
   }
   return make_mesh(points, polygons);
@@ -66,9 +66,9 @@ OwnedPolygonMesh random_manifold(Dice& dice) {
     faces[f] = a;
     faces.erase(g);
   }
-  std::shuffle(faces.begin(), faces.end(), dice.random);
+  shuffle_things(faces, dice.random);
   OwnedPolygonMesh mesh = make_mesh({}, faces);
-  std::normal_distribution<double> noise(0, 0.1);
+  Normal<> noise(0, 0.1);
   for (double x : view.coordinates) mesh.coordinates.push_back(x + noise(dice.random));
   return mesh;
 }

@@ -6,13 +6,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
-#include <random>
 #include <set>
 
 #include "control_mesh_invariants.h"
 #include "mesh/control_mesh.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
+#include "random.h"
 #include "thrown.h"
 
 namespace fairing::test {
@@ -171,7 +171,7 @@ TEST(Split, RefusesTheHugeThatNoCentreSees) {
 
 // Any simple polygon: a random radius at each angle, then sheared out of its star shape.
 OwnedPolygonMesh random_polygon(std::mt19937& random, int corners) {
-  std::uniform_real_distribution<double> radius(0.2, 1.0);
+  UniformReal<> radius(0.2, 1.0);
   std::vector<Point> points;
   Polygon polygon;
   for (int i = 0; i < corners; ++i) {

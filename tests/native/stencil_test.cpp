@@ -5,16 +5,16 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "level_settings.h"
+#include "random.h"
 #include "stencil/fit.h"
 
 namespace fairing::test {
 namespace {
 
 Chart random_ring(int valence, std::mt19937& random, double skew = 1) {
-  std::uniform_real_distribution<double> vary(-0.3, 0.3);
+  UniformReal<> vary(-0.3, 0.3);
   Chart chart;
   for (int j = 0; j < valence; ++j) {
     const double angle = 2 * pi * (j + vary(random)) / valence, radius = 1 + vary(random);

@@ -8,11 +8,11 @@
 #include <functional>
 #include <map>
 #include <numbers>
-#include <random>
 
 #include "curvature/point_curvature.h"
 #include "grid/linear.h"
 #include "meshes.h"
+#include "random.h"
 #include "reference_rings.h"
 
 namespace fairing::test {
@@ -27,10 +27,12 @@ ControlMesh control(const OwnedPolygonMesh& mesh, const FeatureOptions& features
 // The convex hull of random points on the unit sphere.
 OwnedPolygonMesh random_hull(int points, unsigned seed) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
+  Normal<> normal;
   std::vector<Vec3> p;
-  for (int i = 0; i < points; ++i)
-    p.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
+  for (int i = 0; i < points; ++i) {
+    const double z = normal(random), y = normal(random), x = normal(random);
+    p.push_back(Vec3(x, y, z).normalized());
+  }
   std::vector<Point> corners;
   for (const Vec3& q : p) corners.push_back({q.x(), q.y(), q.z()});
   std::vector<Polygon> faces;
@@ -135,7 +137,7 @@ TEST(TotalCurvature, SumsThePointsOfWalkedRings) {
       const GridLevel lattice(mesh, level);
       std::vector<double> x(3 * lattice.size());
       refine_linearly(lattice, mesh.positions, x.data());
-      std::uniform_real_distribution<double> move(-0.05 / lattice.n(), 0.05 / lattice.n());
+      UniformReal<> move(-0.05 / lattice.n(), 0.05 / lattice.n());
       for (double& c : x) c += move(random);
       double sum = 0;
       visit_points(lattice, x,
@@ -300,7 +302,7 @@ TEST(TotalCurvature, AnyNumberOfThreadsGivesTheSameBits) {
   const GridLevel lattice(mesh, 2);
   std::vector<double> x(3 * lattice.size());
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> number(-1, 1);
+  UniformReal<> number(-1, 1);
   for (double& c : x) c = number(random);
   const double one = measured(lattice, x);
   EXPECT_GT(one, 0);

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The native core, compiled for another platform by zig's clang: its modules and its tests."""
+
+import os
+from pathlib import Path
+
+from layout import BUILD, ROOT, VENV_PYTHON
+from native_wheel import local_version
+from shell import DevError, output, run
+from wheel_version import manifest_version
+
+from cross.python_parts import headers, import_library
+from cross.sources import openmesh, zig
+from cross.targets import Target
+
+TOOLCHAIN = ROOT / "build_tools" / "cross" / "toolchain.cmake"
+GOOGLETEST = Path("/usr/src/googletest")  # Debian's libgtest-dev brings it
+
+
+def build_folder(target: Target) -> Path:
+    """One for all Pythons: the core is compiled once, the binding for each."""
+    return BUILD / "cross" / target.name
+
+
+def version() -> str:
+    """The modules' version, as scikit-build-core would tell them."""
+    local = local_version()
+    return f"{manifest_version()}+{local}" if local else manifest_version()
+
+
+def settings(target: Target) -> dict[str, str | Path]:
+    """CMake's variables that do not depend on the Python."""
+    code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
+    if code:
+        raise DevError("pybind11 is not in .venv: run `dev.py setup` first.")
+    return {
+        "CMAKE_TOOLCHAIN_FILE": TOOLCHAIN,
+        "CMAKE_BUILD_TYPE": "Release",
+        "DF_ZIG": zig(),
+        "DF_ZIG_TARGET": target.zig,
+        "DF_WARNINGS_AS_ERRORS": "ON",
+        "DF_OPENMESH_SOURCE": openmesh(),
+        "pybind11_DIR": pybind11.strip(),
+        "SKBUILD_PROJECT_VERSION_FULL": version(),
+    }
+
+
+def python_settings(target: Target, python: str) -> dict[str, str | Path]:
+    """CMake's variables that say which Python the binding is for."""
+    found: dict[str, str | Path] = {
+        "Python_INCLUDE_DIR": headers(target, python),
+        "PYTHON_MODULE_EXTENSION": target.suffix(python),
+        "PYTHON_IS_DEBUG": "OFF",
+    }
+    if target.is_windows:
+        found["Python_LIBRARY"] = import_library(python)
+    return found
+
+
+def configure(target: Target, variables: dict[str, str | Path]) -> None:
+    """Runs CMake in a target's folder."""
+    forget = ["-UPython_*", "-U_Python_*"]  # what CMake found of another Python
+    words = [*forget, *(f"-D{name}={value}" for name, value in variables.items())]
+    run("cmake", "-G", "Ninja", "-S", ROOT, "-B", build_folder(target), *words)
+
+
+def build(target: Target, name: str) -> None:
+    """Builds one of CMake's targets."""
+    jobs = str(os.cpu_count() or 1)
+    run("cmake", "--build", build_folder(target), "--target", name, "--parallel", jobs)
+
+
+def module(target: Target, python: str) -> Path:
+    """The extension module for one Python."""
+    configure(
+        target,
+        {**settings(target), "DF_BUILD_PYTHON": "ON", **python_settings(target, python)},
+    )
+    build(target, "_native")
+    return build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
+
+
+def tests(target: Target) -> Path:
+    """The program of the native test suite."""
+    if not GOOGLETEST.is_dir():
+        raise DevError(f"GoogleTest's sources are not in {GOOGLETEST}: install libgtest-dev.")
+    wanted = {"DF_BUILD_TESTS": "ON", "DF_GOOGLETEST_SOURCE": GOOGLETEST, "DF_BUILD_PYTHON": "OFF"}
+    configure(target, {**settings(target), **wanted})
+    build(target, "fairing_tests")
+    suffix = ".exe" if target.is_windows else ""
+    return build_folder(target) / "tests" / "native" / f"fairing_tests{suffix}"

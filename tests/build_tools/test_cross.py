@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cross compilation, as far as it needs no compiler: names, pinned sources, how wheels are packed."""
+
+import base64
+import hashlib
+import zipfile
+
+import extension
+import pytest
+from cross import python_parts, sources, wheels
+from cross.sources import Source
+from cross.targets import PYTHONS, TARGETS, target_named
+from shell import DevError
+
+INFO = {
+    "discrete_fairing-1.2.3.dist-info/METADATA": b"Metadata-Version: 2.2\nVersion: 1.2.3\n",
+    "discrete_fairing-1.2.3.dist-info/WHEEL": b"Wheel-Version: 1.0\nRoot-Is-Purelib: true\n"
+    b"Tag: cp311-cp311-linux_x86_64\n",
+}
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
+def test_blender_knows_a_target_by_its_wheel_tag(target, tmp_path):
+    wheel = tmp_path / f"discrete_fairing-1-cp313-cp313-{target.wheel_tag}.whl"
+    assert extension.platform(wheel) == target.name
+
+
+@pytest.mark.parametrize(
+    ("name", "suffix"),
+    [
+        ("windows-x64", ".cp313-win_amd64.pyd"),
+        ("linux-x64", ".cpython-313-x86_64-linux-gnu.so"),
+        ("linux-arm64", ".cpython-313-aarch64-linux-gnu.so"),
+        ("macos-arm64", ".cpython-313-darwin.so"),
+    ],
+)
+def test_a_module_is_called_as_its_python_looks_for_it(name, suffix):
+    assert target_named(name).suffix("cp313") == suffix
+
+
+def all_sources():
+    pythons = [*sources.PYTHON_SOURCES.values(), *sources.WINDOWS_PYTHONS.values()]
+    return [sources.ZIG, sources.OPENMESH, *pythons]
+
+
+@pytest.mark.parametrize("source", all_sources(), ids=lambda source: source.name)
+def test_sources_are_pinned(source):
+    assert source.url.startswith("https://")
+    assert len(bytes.fromhex(source.sha256)) == hashlib.sha256().digest_size
+
+
+def test_every_python_has_its_sources():
+    assert set(PYTHONS) == set(sources.PYTHON_SOURCES) == set(sources.WINDOWS_PYTHONS)
+
+
+@pytest.fixture
+def served(tmp_path, monkeypatch):
+    """A source whose archive is a zip on this machine."""
+    monkeypatch.setattr(sources, "FOLDER", tmp_path / "cache")
+    path = tmp_path / "thing.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("thing/wanted.h", "1")
+        archive.writestr("thing/other.c", "2")
+    return Source("thing", path.as_uri(), hashlib.sha256(path.read_bytes()).hexdigest())
+
+
+def test_only_what_is_wanted_is_unpacked(served):
+    folder = served.unpacked(lambda name: name.endswith(".h"))
+    assert [path.name for path in (folder / "thing").iterdir()] == ["wanted.h"]
+    assert sources.only_folder(folder) == folder / "thing"
+
+
+def test_another_file_than_the_pinned_one_is_refused(served):
+    other = Source(served.name, served.url, "0" * 64)
+    with pytest.raises(DevError, match="hash"):
+        other.unpacked()
+    assert not other.archive.exists() and not (sources.FOLDER / "thing").exists()
+
+
+def test_a_source_out_of_reach_says_where_to_put_it(served, tmp_path):
+    gone = Source("gone", (tmp_path / "gone.zip").as_uri(), "0" * 64)
+    with pytest.raises(DevError, match="by hand"):
+        gone.fetch()
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("Python-3.13.5/Include/internal/pycore_abstract.h", True),
+        ("Python-3.13.5/PC/pyconfig.h.in", True),
+        ("Python-3.11.2/PC/pyconfig.h", True),
+        ("Python-3.11.2/PC/layout/main.py", False),
+        ("Python-3.11.2/Modules/_sre/sre.h", False),
+    ],
+)
+def test_which_of_pythons_files_are_headers(name, wanted):
+    assert python_parts.is_header(name) is wanted
+
+
+def test_the_import_library_is_of_the_right_python():
+    lines = python_parts.definition("cp313").splitlines()
+    assert lines[0] == "LIBRARY python313.dll"
+    names = [line.strip() for line in lines[2:]]
+    assert {"PyErr_SetString", "PyExc_RuntimeError", "_Py_Dealloc"} <= set(names)
+    assert all(name.startswith(("Py", "_Py")) for name in names)
+    assert names == sorted(set(names))
+
+
+@pytest.fixture
+def packed(tmp_path):
+    """A wheel of a module that is none."""
+    module = tmp_path / "_native.cp311-win_amd64.pyd"
+    module.write_bytes(b"MZ")
+    return wheels.pack(module, dict(INFO), "cp311-cp311-win_amd64", tmp_path)
+
+
+def test_a_packed_wheel_is_named_and_tagged_alike(packed):
+    assert packed.name == "discrete_fairing-1.2.3-cp311-cp311-win_amd64.whl"
+    with zipfile.ZipFile(packed) as archive:
+        lines = archive.read("discrete_fairing-1.2.3.dist-info/WHEEL").decode().splitlines()
+    assert [line for line in lines if line.startswith("Tag:")] == ["Tag: cp311-cp311-win_amd64"]
+    assert "Root-Is-Purelib: false" in lines
+
+
+def test_a_packed_wheel_lists_every_file_with_its_hash(packed):
+    with zipfile.ZipFile(packed) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    record = files["discrete_fairing-1.2.3.dist-info/RECORD"].decode().splitlines()
+    listed = {line.split(",")[0]: line.split(",")[1:] for line in record}
+    assert set(listed) == set(files)
+    assert {"discrete_fairing/__init__.py", "discrete_fairing/_native.cp311-win_amd64.pyd"} <= set(
+        files
+    )
+    for name, (digest, size) in listed.items():
+        if name.endswith("/RECORD"):
+            continue
+        expected = base64.urlsafe_b64encode(hashlib.sha256(files[name]).digest()).decode()
+        assert (digest, int(size)) == (f"sha256={expected.rstrip('=')}", len(files[name]))
+    assert not any("__pycache__" in name for name in files)
+
+
+def test_the_same_files_make_the_same_wheel(packed, tmp_path):
+    first = packed.read_bytes()
+    wheels.pack(
+        tmp_path / "_native.cp311-win_amd64.pyd", dict(INFO), "cp311-cp311-win_amd64", tmp_path
+    )
+    assert packed.read_bytes() == first

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The inspection of cross-compiled modules: what it reads, what it objects to, and the wheels that were built."""
+
+import struct
+from importlib import metadata
+
+import pytest
+from cross import python_parts
+from cross.binary import BUILD_VERSION, CODE_SIGNATURE, LOAD_DYLIB, Binary, read
+from cross.inspection import faults, faults_of
+from cross.wheels import WHEELS
+from cross.wine import WINE
+from shell import DevError
+
+INIT = ["PyInit__native"]
+WINDOWS = Binary("x86_64", ["KERNEL32.dll", "python311.dll", "api-ms-win-crt-math-l1-1-0.dll"])
+WINDOWS.exports = INIT
+LINUX = Binary("arm64", ["libc.so.6", "ld-linux-aarch64.so.1"], (2, 28), INIT)
+MACOS = Binary("arm64", ["/usr/lib/libSystem.B.dylib"], (11, 0), signed=True)
+GOOD = {
+    "win_amd64": WINDOWS,
+    "manylinux_2_28_aarch64": LINUX,
+    "macosx_11_0_arm64": MACOS,
+}
+BUILT = sorted(WHEELS.glob("*/*.whl"))
+
+
+@pytest.mark.parametrize("tag", GOOD)
+def test_a_good_module_has_no_faults(tag):
+    assert faults_of(GOOD[tag], tag, "cp311") == []
+
+
+@pytest.mark.parametrize(
+    ("tag", "change", "fault"),
+    [
+        ("win_amd64", {"libraries": ["libstdc++-6.dll"]}, "needs libstdc"),
+        ("win_amd64", {"libraries": ["python313.dll"]}, "needs python313"),
+        ("win_amd64", {"exports": [*INIT, "_ZSt4cout"]}, "exports _ZSt4cout"),
+        ("win_amd64", {"exports": []}, "does not export"),
+        ("win_amd64", {"processor": "arm64"}, "is for arm64"),
+        ("manylinux_2_28_aarch64", {"least_system": (2, 34)}, "needs the system"),
+        ("manylinux_2_28_aarch64", {"libraries": ["libOpenMeshCore.so.9"]}, "needs libOpenMesh"),
+        ("macosx_11_0_arm64", {"libraries": ["/usr/lib/libc++.1.dylib"]}, "needs /usr"),
+        ("macosx_11_0_arm64", {"least_system": (12, 3)}, "needs the system"),
+        ("macosx_11_0_arm64", {"signed": False}, "no signature"),
+    ],
+)
+def test_faults_are_found(tag, change, fault):
+    module = Binary(**{**vars(GOOD[tag]), **change})
+    assert [found for found in faults_of(module, tag, "cp311") if fault in found]
+
+
+def macho(*commands):
+    """A file for macOS on ARM of load commands alone."""
+    body = b"".join(commands)
+    return struct.pack("<8I", 0xFEEDFACF, 0x0100000C, 0, 6, len(commands), len(body), 0, 0) + body
+
+
+def test_a_module_for_macos_is_read(tmp_path):
+    library = b"/usr/lib/libSystem.B.dylib".ljust(32, b"\0")
+    path = tmp_path / "module.so"
+    path.write_bytes(
+        macho(
+            struct.pack("<6I", BUILD_VERSION, 24, 1, 11 << 16, 12 << 16, 0),
+            struct.pack("<6I", LOAD_DYLIB, 24 + len(library), 24, 0, 0, 0) + library,
+            struct.pack("<4I", CODE_SIGNATURE, 16, 0, 0),
+        )
+    )
+    assert read(path) == MACOS
+
+
+def test_a_module_for_linux_is_read():
+    wheel = metadata.distribution("discrete-fairing")
+    (module,) = (path for path in wheel.files if path.name.startswith("_native"))
+    found = read(module.locate())
+    assert "libc.so.6" in found.libraries
+    assert found.least_system >= (2, 14)
+    assert "PyInit__native" in found.exports
+
+
+def test_another_file_is_refused(tmp_path):
+    (tmp_path / "text").write_text("no module")
+    with pytest.raises(DevError, match="no module"):
+        read(tmp_path / "text")
+
+
+@pytest.mark.skipif(not BUILT, reason="no wheel was cross-compiled: `dev.py extension --all`")
+@pytest.mark.parametrize("wheel", BUILT, ids=lambda wheel: wheel.stem)
+def test_the_wheels_that_were_built(wheel):
+    assert faults(wheel) == []
+
+
+@pytest.mark.parametrize("python", ["cp311", "cp313"])
+def test_windows_python_has_what_the_import_library_promises(python):
+    library = python.replace("cp", "python") + ".dll"
+    path = WINE.outside / python / library
+    if not path.is_file():
+        pytest.skip("Windows' Python was not fetched: `dev.py test windows`")
+    names = set(python_parts.definition(python).split()[3:])
+    assert names <= set(read(path).exports)
