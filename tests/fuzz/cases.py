@@ -124,7 +124,8 @@ def damaged(draw: st.DrawFn) -> Case:
         other = draw(st.integers(0, len(points) - 1))
         match draw(st.sampled_from(DAMAGES)):
             case "far":
-                points[v] = (1 + points[v]) * draw(st.sampled_from(FAR))
+                with np.errstate(invalid="ignore"):  # 0 times infinity is a case, too
+                    points[v] = (1 + points[v]) * draw(st.sampled_from(FAR))
             case "coincide":
                 points[v] = points[other]
             case "flat":
@@ -185,11 +186,16 @@ def options(draw: st.DrawFn, mesh: Case) -> dict[str, Any]:
         "epsilon": st.sampled_from((0.0, 1e-3)),
         "method": st.sampled_from(("multigrid", "back_leg")),
         "measure": st.booleans(),
-        "repair_orientation": st.booleans(),
+        "repair": st.sampled_from(("mend", "refuse")),
+        "weld": st.sampled_from((0.0, 0.1)),
         "threads": st.integers(0, 3),
         "interpolation": st.just("approximate"),
     }
-    chosen = draw(st.sets(st.sampled_from(sorted(some)), max_size=4)) | {"energy", "pad_size"}
+    chosen = draw(st.sets(st.sampled_from(sorted(some)), max_size=4)) | {
+        "energy",
+        "pad_size",
+        "repair",
+    }
     found = {name: draw(some[name]) for name in sorted(chosen)}
     found["levels"] = draw(st.integers(0, 3 if count < 20 else 2))
     if "interpolation" in found:
