@@ -28,7 +28,7 @@ def headers(target: Target, python: str) -> Path:
     config = HERE / "pyconfig.h"
     if target.is_windows:
         (config,) = (source / "PC").glob("pyconfig.h*")
-    shutil.copyfile(config, folder / "pyconfig.h")
+    shutil.copy2(config, folder / "pyconfig.h")  # with its time, or all is compiled again
     return folder
 
 

@@ -97,6 +97,25 @@ def test_which_of_pythons_files_are_headers(name, wanted):
     assert python_parts.is_header(name) is wanted
 
 
+def test_headers_keep_their_times(tmp_path, monkeypatch):
+    """Else the second run would compile everything again."""
+    monkeypatch.setattr(sources, "FOLDER", tmp_path / "cache")
+    monkeypatch.setattr(python_parts, "FOLDER", tmp_path / "cache")
+    path = tmp_path / "python.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("Python-3/Include/Python.h", "")
+        archive.writestr("Python-3/PC/pyconfig.h", "windows")
+    source = Source("python", path.as_uri(), hashlib.sha256(path.read_bytes()).hexdigest())
+    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source)
+    for name, config in (("windows-x64", "windows"), ("macos-arm64", "SIZEOF_LONG 8")):
+        config_file = python_parts.headers(target_named(name), "cp311") / "pyconfig.h"
+        assert config in config_file.read_text()
+        times = [file.stat().st_mtime_ns for file in config_file.parent.iterdir()]
+        assert len(times) == 2
+        python_parts.headers(target_named(name), "cp311")
+        assert times == [file.stat().st_mtime_ns for file in config_file.parent.iterdir()]
+
+
 def test_the_import_library_is_of_the_right_python():
     lines = python_parts.definition("cp313").splitlines()
     assert lines[0] == "LIBRARY python313.dll"
