@@ -179,6 +179,22 @@ def are_equal(a: Any, b: Any) -> bool:
     return type(a) is type(b) and a == b
 
 
+def same_faces(a: ControlArrays, b: ControlArrays | None) -> bool:
+    """Whether two control meshes differ in positions at the most."""
+    return b is not None and are_equal((a.corners, a.offsets), (b.corners, b.offsets))
+
+
+def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
+    """Whether vertices that a solver has merged, each into its `origin` (n,), are still at one place;
+    `positions` (n, 3).
+    """
+    if origin is None:
+        return True
+    rows = np.flatnonzero(origin != np.arange(len(origin)))
+    here, there = positions[rows], positions[origin[rows]]
+    return bool(((here == there) | ~np.isfinite(here)).all())
+
+
 def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:
     """The report's last entry on the energies that take several steps; None for the thin plate,
     which takes one solve.

@@ -14,7 +14,15 @@ import numpy as np
 
 from .. import core, errors, memory, size
 from ..blender import Context, Mesh, Object, current_context
-from ..core import ControlArrays, are_equal, fair_arguments, mean_edge_length, without_vertices
+from ..core import (
+    ControlArrays,
+    are_equal,
+    are_together,
+    fair_arguments,
+    mean_edge_length,
+    same_faces,
+    without_vertices,
+)
 from ..errors import JobError
 from ..inspection import display
 from ..memory import source_of
@@ -181,13 +189,13 @@ class Session:
     ) -> bool:
         """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
         if self._settings.use_selection and (
-            self._region is None or not _same_faces(arrays, self._arrays)
+            self._region is None or not same_faces(arrays, self._arrays)
         ):
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
         world = self._shape.of_arrays(arrays)
-        if not (self._edge_length and _same_faces(arrays, self._arrays)):
+        if not (self._edge_length and same_faces(arrays, self._arrays)):
             self._edge_length = mean_edge_length(world)
         arguments = fair_arguments(
             world,
@@ -206,7 +214,7 @@ class Session:
         if (
             self.solver is not None
             and are_equal(without_vertices(arguments), without_vertices(self._arguments))
-            and _together(arrays.positions, self.solver.vertex_origin)
+            and are_together(arrays.positions, self.solver.vertex_origin)
         ):
             return False
         self.solver = self._mesh = None
@@ -341,18 +349,5 @@ class Session:
         return less
 
 
-def _together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
-    """Whether vertices that a solver has merged still are at one place."""
-    if origin is None:
-        return True
-    rows = np.flatnonzero(origin != np.arange(len(origin)))
-    here, there = positions[rows], positions[origin[rows]]
-    return bool(((here == there) | ~np.isfinite(here)).all())
-
-
 def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
-
-
-def _same_faces(a: ControlArrays, b: ControlArrays | None) -> bool:
-    return b is not None and are_equal((a.corners, a.offsets), (b.corners, b.offsets))

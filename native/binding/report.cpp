@@ -46,6 +46,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["energy"] = l.energy;
   d["start_variation"] = l.start_variation;
   d["variation"] = l.variation;
+  d["damped"] = l.damped;
   d["folds_before"] = l.folds_before;
   d["folds"] = l.folds;
   d["constraint_gap"] = l.constraint_gap;

@@ -62,6 +62,9 @@ struct CurvatureLevelReport {
   // is below a thousandth of the energy.
   bool converged = false;
   bool accurate = false;  // what is left to move is below the step tolerance
+  // Plain steps did not lead to this surface: there may be others, and which one is found may hang
+  // on how the mesh lies and is numbered.
+  bool damped = false;
 };
 
 }  // namespace fairing

@@ -108,6 +108,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
   const bool plain_is_as_good =
       is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
   stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
+  report.damped = !plain_is_as_good;
   if (!plain_is_as_good) return;
   iterate_.current = std::move(plain);
   report = plain_report;

@@ -64,8 +64,9 @@ void CoarseSolver::refactor() {
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return;
   factor_->compute(system.matrix);
+  // A pivot that is no number is left to the steps, which refuse what comes of it.
   if (factor_->ldlt->info() != Eigen::Success ||
-      (factor_->ldlt->vectorD().array() > 0).count() != system.matrix.rows() - system.negative)
+      (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
     throw FairingError(ErrorCode::underdetermined,
                        "The surface is not determined: a part of the mesh has too few fixed "
                        "points. Interpolate more "

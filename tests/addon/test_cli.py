@@ -75,7 +75,8 @@ def test_many_files_and_one_that_is_bad(capfd):
     write_ply("b.ply")
     Path("bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n")
     code, (a, bad, b) = entries(
-        "a.obj", "bad.obj", "b.ply", "new/deep/", "--format", "stl", "--levels", 1
+        *("a.obj", "bad.obj", "b.ply", "new/deep/", "--format", "stl", "--levels", 1),
+        *("--repair", "refuse"),
     )
     assert code == command.SOME_FAILED
     assert (a["status"], bad["status"], b["status"]) == ("done", "failed", "done")

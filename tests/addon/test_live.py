@@ -206,6 +206,7 @@ def test_a_region_is_that_of_the_beginning():
 
 def test_an_error_leaves_the_last_surface_and_it_goes_on():
     source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.repair = "REFUSE"
     target = live(source)
     before = positions(target.data)
     source.data.clear_geometry()

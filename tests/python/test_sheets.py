@@ -160,7 +160,6 @@ def test_other_energies(energy, pad_size):
         {"interpolation": "approximate", "weights": 1.0},
         {"epsilon": 0.2},
         {"energy": "total_curvature", "interpolation": "approximate", "tolerance": 0.2},
-        {"energy": "total_curvature", "epsilon": 0.2},
     ],
 )
 def test_shared_vertices_stay(options):

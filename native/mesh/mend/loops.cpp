@@ -38,6 +38,39 @@ class Places {
   std::unordered_map<Index, std::ptrdiff_t> table_;
 };
 
+// Whether more than one vertex comes again, doubled corners aside: then it matters where a walk begins
+// to be cut.
+bool is_ambiguous(std::span<const MendCorner> walk) {
+  std::vector<Index> vertices;
+  for (std::size_t i = 0; i < walk.size(); ++i)
+    if (walk[i].vertex != walk[(i + 1) % walk.size()].vertex) vertices.push_back(walk[i].vertex);
+  std::sort(vertices.begin(), vertices.end());
+  int again = 0;
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+    again += vertices[i] == vertices[i + 1] && (i == 0 || vertices[i - 1] != vertices[i]);
+  return again > 1;
+}
+
+// Where the rotation of the walk begins whose vertices come first in order: where a walk is cut must
+// not hang on which corner a file names first.
+std::size_t least_rotation(std::span<const MendCorner> walk) {
+  const auto vertex = [&](std::size_t from, std::size_t i) {
+    return walk[(from + i) % walk.size()].vertex;
+  };
+  std::size_t least = 0, other = 1, equal = 0;
+  while (other < walk.size() && least < walk.size() && equal < walk.size()) {
+    const Index a = vertex(least, equal), b = vertex(other, equal);
+    if (a == b) {
+      ++equal;
+      continue;
+    }
+    (a > b ? least : other) += equal + 1;
+    if (least == other) ++other;
+    equal = 0;
+  }
+  return std::min(least, other);
+}
+
 }  // namespace
 
 std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
@@ -47,7 +80,9 @@ std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
   const auto keep = [&](Loop&& loop) {
     if (loop.size() >= 3) found.push_back(std::move(loop));
   };
-  for (const MendCorner& corner : walk) {
+  const std::size_t first = is_ambiguous(walk) ? least_rotation(walk) : 0;
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const MendCorner& corner = walk[(first + i) % walk.size()];
     const std::ptrdiff_t before = places.find(open, corner.vertex);
     if (before < 0) {
       places.add(corner.vertex, open.size());
@@ -55,7 +90,7 @@ std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
       continue;
     }
     Loop loop(open.begin() + before, open.end());
-    for (std::size_t i = 1; i < loop.size(); ++i) places.remove(loop[i].vertex);
+    for (std::size_t k = 1; k < loop.size(); ++k) places.remove(loop[k].vertex);
     open.resize(std::size_t(before) + 1);
     keep(std::move(loop));
   }
