@@ -79,8 +79,8 @@ class FairSolver {
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;
   bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)
-  Array<double> released_;  // the last surface, its control vertices released by epsilon
-  Array<double> apart_;     // the last surface in world coordinates, where it has several sheets
+  Array<double> released_;    // the last surface, its control vertices released by epsilon
+  Array<double> apart_;       // the last surface in world coordinates, where it has several sheets
 };
 
 }  // namespace fairing

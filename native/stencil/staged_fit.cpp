@@ -22,12 +22,29 @@ constexpr int most_on_stack = 16;
 using FewColumns =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_on_stack, most_on_stack>;
 
+constexpr int thin = Eigen::ComputeThinU | Eigen::ComputeThinV;
+#if EIGEN_MAJOR_VERSION >= 5  // 3.4 has a 4 there
+template <class Matrix>
+using ThinSvd = Eigen::JacobiSVD<Matrix, thin>;
+template <class Matrix>
+void decompose(const Matrix& a, ThinSvd<Matrix>& svd) {
+  svd.compute(a);
+}
+#else
+template <class Matrix>
+using ThinSvd = Eigen::JacobiSVD<Matrix>;
+template <class Matrix>
+void decompose(const Matrix& a, ThinSvd<Matrix>& svd) {
+  svd.compute(a, thin);
+}
+#endif
+
 // Without the undetermined directions.
 template <class Matrix>
 Columns pseudo_inverse_of(const Matrix& a) {
-  auto svd = std::make_unique<Eigen::JacobiSVD<Matrix>>();
+  auto svd = std::make_unique<ThinSvd<Matrix>>();
   try {
-    svd->compute(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    decompose(a, *svd);
   } catch (const std::bad_alloc&) {
     static_cast<void>(svd.release());  // it would free once more what it has found no memory for
     throw;

@@ -96,7 +96,8 @@ def test_many_files_of_all_kinds_and_bad_ones():
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n"
     )
     names = ("a.obj", "turned.obj", "b.ply", "missing.ply", "c.stl")
-    code, whole = report(*names, "new/", "--format", "obj", "--levels", 1)
+    options = ("--format", "obj", "--levels", 1, "--repair", "refuse")
+    code, whole = report(*names, "new/", *options)
     assert code == whole["exit_code"] == 1
     assert [entry["status"] for entry in whole["inputs"]] == [
         "done",
