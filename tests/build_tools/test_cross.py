@@ -45,7 +45,7 @@ def all_sources():
 
 @pytest.mark.parametrize("source", all_sources(), ids=lambda source: source.name)
 def test_sources_are_pinned(source):
-    assert source.url.startswith("https://")
+    assert source.registry in (sources.debian, sources.pypi) and "://" not in source.file
     assert len(bytes.fromhex(source.sha256)) == hashlib.sha256().digest_size
 
 
@@ -61,7 +61,8 @@ def served(tmp_path, monkeypatch):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("thing/wanted.h", "1")
         archive.writestr("thing/other.c", "2")
-    return Source("thing", path.as_uri(), hashlib.sha256(path.read_bytes()).hexdigest())
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return Source("thing", lambda file: (tmp_path / file).as_uri(), path.name, digest)
 
 
 def test_only_what_is_wanted_is_unpacked(served):
@@ -71,14 +72,14 @@ def test_only_what_is_wanted_is_unpacked(served):
 
 
 def test_another_file_than_the_pinned_one_is_refused(served):
-    other = Source(served.name, served.url, "0" * 64)
+    other = Source(served.name, served.registry, served.file, "0" * 64)
     with pytest.raises(DevError, match="hash"):
         other.unpacked()
     assert not other.archive.exists() and not (sources.FOLDER / "thing").exists()
 
 
-def test_a_source_out_of_reach_says_where_to_put_it(served, tmp_path):
-    gone = Source("gone", (tmp_path / "gone.zip").as_uri(), "0" * 64)
+def test_a_source_out_of_reach_says_where_to_put_it(served):
+    gone = Source("gone", served.registry, "gone.zip", "0" * 64)
     with pytest.raises(DevError, match="by hand"):
         gone.fetch()
 
