@@ -53,6 +53,12 @@ def test_every_python_has_its_sources():
     assert set(PYTHONS) == set(sources.PYTHON_SOURCES) == set(sources.WINDOWS_PYTHONS)
 
 
+def source_of(path):
+    """A source that is this file."""
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return Source(path.stem, lambda file: (path.parent / file).as_uri(), path.name, digest)
+
+
 @pytest.fixture
 def served(tmp_path, monkeypatch):
     """A source whose archive is a zip on this machine."""
@@ -61,8 +67,7 @@ def served(tmp_path, monkeypatch):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("thing/wanted.h", "1")
         archive.writestr("thing/other.c", "2")
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    return Source("thing", lambda file: (tmp_path / file).as_uri(), path.name, digest)
+    return source_of(path)
 
 
 def test_only_what_is_wanted_is_unpacked(served):
@@ -106,8 +111,7 @@ def test_headers_keep_their_times(tmp_path, monkeypatch):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("Python-3/Include/Python.h", "")
         archive.writestr("Python-3/PC/pyconfig.h", "windows")
-    source = Source("python", path.as_uri(), hashlib.sha256(path.read_bytes()).hexdigest())
-    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source)
+    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source_of(path))
     for name, config in (("windows-x64", "windows"), ("macos-arm64", "SIZEOF_LONG 8")):
         config_file = python_parts.headers(target_named(name), "cp311") / "pyconfig.h"
         assert config in config_file.read_text()
