@@ -31,7 +31,8 @@ def first_surface(levels):
     region = harness.view()["region"]
     harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
     yield 0.5
-    harness.xdotool("key", "F3")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.wm.search_menu("INVOKE_DEFAULT")  # F3
     yield 1.5
     harness.xdotool("type", "Fair Surface")
     yield 1.5
