@@ -15,7 +15,9 @@ PRESET = "asan-ubsan"
 def fuzz(minutes: float) -> int:
     """Until time is up; the exit code is 1 if anything failed."""
     native_wheel.install()
-    return run(VENV_PYTHON, TESTS / "run.py", "--minutes", str(minutes), check=False)
+    meshes = str(ROOT / "tests" / "python")  # that other tests have
+    arguments = ("--minutes", str(minutes))
+    return run(VENV_PYTHON, TESTS / "run.py", *arguments, check=False, PYTHONPATH=meshes)
 
 
 def sanitized_package() -> Path:

@@ -72,8 +72,8 @@ class CurvatureLevel final : public LevelOperator {
   double fairness() const { return bending_ + tension_; }
   double bending() const { return bending_; }
 
-  // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what apply() and
-  // assemble() look up.
+  // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what
+  // apply() and assemble() look up.
   void update_diagonal();
 
   // M as it would be after the displacement h, to first order: 3 numbers a point.

@@ -12,9 +12,9 @@ namespace fairing {
 class GaussNewtonSolver {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns. `hold`: what holds control
-  // vertices that move, and where all of them belong. `pads`: what control vertices stand on while total curvature is minimized, or null; their widths may change before
-  // each level. `mirrors`: the symmetries that the surface is to keep. The references must outlive
-  // the solver.
+  // vertices that move, and where all of them belong. `pads`: what control vertices stand on while
+  // total curvature is minimized, or null; their widths may change before each level. `mirrors`: the
+  // symmetries that the surface is to keep. The references must outlive the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, HoldAlongNormals hold, const Pads* pads,

@@ -39,8 +39,8 @@ std::int64_t mixed(const Counts& c, double triangle, double quad) {
 }
 
 // The assembled matrices of the thin plate, on levels with small faces, and those of the transfers
-// between them (to level 1 only where control vertices move). Bytes a point, measured: equal rows along edges and inside faces share their
-// numbers, so that they fall with the pieces of an edge.
+// between them. Bytes a point, measured: equal rows along edges and inside faces share their numbers,
+// so that they fall with the pieces of an edge.
 std::int64_t matrix_bytes(const Counts& c, int levels) {
   constexpr double row[2][4] = {{90, 140, 102, 72}, {120, 162, 124, 90}},
                    transfer[2][4] = {{90, 98, 108, 66}, {110, 127, 120, 70}};

@@ -28,8 +28,9 @@ enum class SmoothFrom {
 //
 //   z_k = (2k - 1)/(2k + 3) z_{k-1} + (8k + 4)/(2k + 3)/lambda D^-1 r_k,  x += z_k,  z_{-1} = 0.
 //
-// No lower end of the spectrum has to be guessed. `blocks`, which may be null, stand for D. Updates x, and the residual with it unless
-// `last_residual` is false (then the residual is stale, and one application of K saved).
+// No lower end of the spectrum has to be guessed. `blocks`, which may be null, stand for D. Updates
+// x, and the residual with it unless `last_residual` is false (then the residual is stale, and one
+// application of K saved).
 void smooth(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
             double largest_eigenvalue, int degree, SmoothFrom from, bool last_residual,
             SmootherState& state);

@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import control_meshes as meshes
 import numpy as np
+import sheet_meshes
 from hypothesis import strategies as st
 
 CORPUS = Path(__file__).resolve().parent / "corpus"
@@ -37,39 +39,9 @@ class Case:
         return cls(**json.loads(path.read_text()))
 
 
-def grid(columns: int, rows: int) -> Case:
-    """A sheet of quads in z = 0."""
-    points = [[float(x), float(y), 0.0] for y in range(rows + 1) for x in range(columns + 1)]
-    first = [y * (columns + 1) + x for y in range(rows) for x in range(columns)]
-    return Case(points, [[k, k + 1, k + columns + 2, k + columns + 1] for k in first])
-
-
-def torus(around: int, across: int) -> Case:
-    """Quads on a torus."""
-    points = [
-        [
-            float((2 + np.cos(b)) * np.cos(a)),
-            float((2 + np.cos(b)) * np.sin(a)),
-            float(np.sin(b)),
-        ]
-        for a in 2 * np.pi * np.arange(around) / around
-        for b in 2 * np.pi * np.arange(across) / across
-    ]
-    at = lambda u, v: u % around * across + v % across  # noqa: E731
-    faces = [
-        [at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)]
-        for u in range(around)
-        for v in range(across)
-    ]
-    return Case(points, faces)
-
-
-def fan(count: int, closed: bool) -> Case:
-    """Triangles about a vertex."""
-    turn = 2 * np.pi * np.arange(count) / count
-    rim = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
-    faces = [[0, 1 + k, 1 + (k + 1) % count] for k in range(count if closed else count - 1)]
-    return Case([[0.0, 0.0, 0.4], *rim.tolist()], faces)
+def case_of(points: np.ndarray, faces: np.ndarray, *_: object) -> Case:
+    """Of a mesh that the other tests make."""
+    return Case(points.tolist(), faces.tolist())
 
 
 def prism(count: int) -> Case:
@@ -82,30 +54,13 @@ def prism(count: int) -> Case:
     return Case([*ring.tolist(), *(ring + [0, 0, 1]).tolist()], band + caps)
 
 
-def book(pages: int) -> Case:
-    """Sheets of two quads that meet along a spine of two edges."""
-    points = [[0.0, 0.0, float(k)] for k in range(3)]
-    faces = []
-    for page in range(pages):
-        turn = 2 * np.pi * page / pages
-        first = len(points)
-        points += [[float(np.cos(turn)), float(np.sin(turn)), float(k)] for k in range(3)]
-        faces += [[k, k + 1, first + k + 1, first + k] for k in range(2)]
-    return Case(points, faces)
-
-
-TETRAHEDRON = Case(
-    [[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]],
-    [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
-)
-
 SOUND = st.one_of(
-    st.just(TETRAHEDRON),
-    st.builds(grid, st.integers(1, 4), st.integers(1, 4)),
-    st.builds(torus, st.integers(3, 6), st.integers(3, 5)),
-    st.builds(fan, st.integers(3, 40), st.booleans()),
+    st.just(case_of(*meshes.tetrahedron())),
+    st.builds(lambda c, r: case_of(*meshes.grid(c, r)), st.integers(1, 4), st.integers(1, 4)),
+    st.builds(lambda u, v: case_of(*meshes.torus(u, v, 2)), st.integers(3, 6), st.integers(3, 5)),
+    st.builds(lambda n: case_of(*meshes.fan(n)), st.integers(3, 40)),
     st.builds(prism, st.integers(3, 9)),
-    st.builds(book, st.integers(2, 4)),
+    st.builds(lambda n: case_of(*sheet_meshes.book(n, 2, 1)), st.integers(2, 4)),
 )
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The single checks behind check(), for mesh/validate/ and mesh/mend/ only. Each adds what it finds,
-// with *all* elements concerned. Linear time up to sorting. All may throw std::bad_alloc and, like everything
-// that asks in passing, FairingError(cancelled).
+// with *all* elements concerned. Linear time up to sorting. All may throw std::bad_alloc and, like
+// everything that asks in passing, FairingError(cancelled).
 #pragma once
 
 #include "mesh/half_edges.h"
