@@ -38,14 +38,16 @@ std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
                                   const PadLimits& limits, const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round);
 
-// Halves them. Loads keep the whole force about the same.
+// Halves them. Loads keep the whole force: hats have areas.
 template <int N>
 void narrow_pads(const std::vector<int>& halvings, Pads& pads, LoadsOf<N>& loads) {
   for (std::size_t v = 0; v < halvings.size(); ++v) {
     if (halvings[v] == 0) continue;
     const double before = pads.widths()[v];
     pads.narrow(v, halvings[v]);
-    if (!loads.empty()) loads[v] *= pads.under(v) ? before / pads.widths()[v] : 0.0;
+    if (loads.empty()) continue;
+    const double ratio = pads.under(v) ? before / pads.widths()[v] : 0.0;
+    loads[v] *= ratio * ratio;
   }
 }
 

@@ -135,12 +135,13 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
     PcgResult result = conjugate_gradients(
         cycle_, index, workers_, rest, residual, pcg_, x, [&](const PcgResult& so_far) {
           each(so_far);
-          if (adapt && wants_blocks(index, pace_[index].after(so_far))) return false;
+          if (adapt && wants_blocks(index, pace_[index].after(so_far, rest.from_start)))
+            return false;
           if (adapt && so_far.iterations % probe_interval == first_probe)
             raise_degree(index, so_far, limits.tolerance);
           return !adapt || !is_too_hard(index);
         });
-    pace_[index] = pace_[index].after(result);
+    pace_[index] = pace_[index].after(result, rest.from_start);
     out.iterations += result.iterations;
     const bool first = out.residuals.empty();
     out.residuals.insert(out.residuals.end(), result.history.begin() + (first ? 0 : 1),
@@ -155,10 +156,11 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
   }
 }
 
-Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result) const {
+Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start) const {
   const double last = result.history.back();
-  return {iterations + result.iterations,
-          gained + (last > 0 ? std::log(result.history.front() / last) : 0.0)};
+  double gain = last > 0 ? std::log(result.history.front() / last) : 0.0;
+  if (from_start && result.energy_error > 0) gain = std::max(gain, -std::log(result.energy_error));
+  return {iterations + result.iterations, gained + gain};
 }
 
 bool Hierarchy::is_too_hard(std::size_t index) const {

@@ -73,11 +73,13 @@ class Hierarchy {
   void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance);
 
  private:
-  // Of a level's solves: iterations, and what they have gained, as a logarithm.
+  // Of a level's solves: iterations, and what they have gained, as a logarithm. A solve from its own
+  // start is judged by the error as well: where loads have changed, what is left of the residual
+  // says little.
   struct Pace {
     int iterations = 0;
     double gained = 0;
-    Pace after(const PcgResult& result) const;
+    Pace after(const PcgResult& result, bool from_start) const;
   };
 
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }

@@ -32,6 +32,7 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
     std::swap(pads, pads_);
     of_needles = options_.star_energies(grid(level), needles.data());
   }
+  judges_ = true;
   LevelReport report = solve_level(level, targets, rough, x.data());
   int iterations = 0, corrections = 0;
   const auto again = [&](const PcgLimits& now) {
@@ -48,7 +49,8 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
     again(rough);
   }
   std::swap(constraint, constraint_);
-  if (constraint_ || limits.tolerance < rough.tolerance) again(limits);
+  judges_ = false;
+  if (constraint_ || level == top()) again(limits);
   report.iterations += iterations;
   report.pad_corrections += corrections;
   return report;

@@ -21,8 +21,10 @@ namespace fairing {
 namespace {
 
 // Each solve but the last leaves so much of the error that it finds, with loads alone and with
-// tolerances: these gain little more.
-constexpr double solve_gain = 0.1, solve_gain_of_bounds = 0.2;
+// tolerances: these gain little more. The first one on a fine level begins with loads that are
+// nearly right, and what it leaves would be read as a force.
+constexpr double solve_gain = 0.15, solve_gain_of_bounds = 0.2, first_gain_of_fine = 0.02;
+constexpr int fine = 16;  // pieces of an edge
 // What a correction leaves of the forces, before two of them have said it.
 constexpr double first_ratio = 0.3;
 // Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
@@ -57,7 +59,8 @@ void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets,
       forces_, r);
 }
 
-// Loads are densities and hardly change from level to level; what does is the hats' samples.
+// Loads are densities and hardly change from level to level; what does is the hats' samples. The
+// coarsest level has so few that M f, what loads do, changes less than the whole of each.
 void ThinPlateSolver::start_loads(int level) {
   loads_.resize(std::size_t(mesh_.vertex_count()));
   if (level == base_) {
@@ -65,6 +68,13 @@ void ThinPlateSolver::start_loads(int level) {
     return;
   }
   pads_->set_level(grid(level - 1));
+  if (level == base_ + 1) {
+    Loads effect;
+    pads_->multiply_mass<3>(loads_, effect);
+    pads_->set_level(grid(level));
+    pads_->divide_by_mass<3>(effect, loads_);
+    return;
+  }
   for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] *= pads_->total(v);
   pads_->set_level(grid(level));
   for (std::size_t v = 0; v < loads_.size(); ++v)
@@ -89,14 +99,19 @@ struct ThinPlateSolver::Rounds {
   double left = 0, left_before = 0, ratio = first_ratio, gain = 0;
 
   double* residual() { return solver.hierarchy_.state().residual.data(); }
-  bool top() const { return level == solver.top(); }
+  bool top() const { return level == solver.top() && !solver.judges_; }
   double wanted_gap() const { return top() ? gap_wanted : coarse_gap; }
+
+  double gain_wanted() const {
+    if (constraint) return solve_gain_of_bounds;
+    const bool first = report.pad_corrections == 0 && solver.grid(level).n() >= fine;
+    return first ? first_gain_of_fine : solve_gain;
+  }
 
   void solve() {
     PcgLimits now = limits;
     now.from_start = !whole && !limits.from_start;
-    if (now.from_start)
-      now.tolerance = std::max(limits.tolerance, constraint ? solve_gain_of_bounds : solve_gain);
+    if (now.from_start) now.tolerance = std::max(limits.tolerance, gain_wanted());
     const LevelSolve solve = solver.hierarchy_.solve(
         std::size_t(level - solver.base_), now,
         [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
@@ -130,9 +145,7 @@ struct ThinPlateSolver::Rounds {
     report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
     double force_norm = 0;
     for (const Vec3& f : forces) force_norm += f.squaredNorm();
-    return report.pad_force <= wanted ||
-           std::sqrt(force_norm) <=
-               std::max(limits.noise, limits.tolerance * limits.residual_scale);
+    return report.pad_force <= wanted || std::sqrt(force_norm) <= limits.noise;
   }
 
   // Whether one more correction will settle the loads, as the last ones did, or must do.
@@ -146,6 +159,9 @@ struct ThinPlateSolver::Rounds {
   int corrections_left() const {
     return most_corrections + report.constraint_rounds - report.pad_corrections;
   }
+
+  // Below the finest level what a solve leaves is less than what the next level changes.
+  bool is_start_only() const { return pads && !constraint && !top(); }
 
   bool bounds_settled() {
     return !constraint || constraint->settled(solver.energy(level, x), wanted_gap(), x);
@@ -188,6 +204,7 @@ struct ThinPlateSolver::Rounds {
         report.converged = report.converged && loads;
         break;
       }
+      if (loads && is_start_only()) break;
       const bool nearly = loads_nearly_settled(), was_whole = whole;
       const bool bounds = was_whole || bounds_settled();
       const bool may_adapt = constraint && !was_whole && rounds_left() > 0;

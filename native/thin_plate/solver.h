@@ -139,6 +139,7 @@ class ThinPlateSolver {
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   bool widths_chosen_ = false;
+  bool judges_ = false;                // what is solved for only tells which widths will do
   HoldInSpace* constraint_ = nullptr;  // while a surface is solved for from nothing
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;

@@ -228,3 +228,22 @@ def test_a_run_on_pads_can_be_cancelled():
     with pytest.raises(df.FairingError) as caught:
         tight.fair(*meshes.creature(), levels=6, pad_size=0.5, progress=lambda *_: False)
     assert caught.value.code == "CANCELLED"
+
+
+@pytest.mark.parametrize("levels", (4, 5))
+@pytest.mark.parametrize("name", ("icosahedron", "rough_ball"))
+def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
+    """On fine levels more was left, since the polyhedron's own forces grow."""
+    mesh = getattr(meshes, name)()
+    pads = df.fair(*mesh, levels)
+    assert pads.report["levels"][-1]["pad_force"] <= 2e-3
+    exact = df.fair(*mesh, levels, relative_residual=1e-8)
+    off = np.abs(pads.vertices - exact.vertices).max() / np.ptp(exact.vertices, axis=0).max()
+    assert off <= 4e-5
+
+
+def test_a_fine_level_takes_few_iterations():
+    """Measured: 9 where point forces take 5."""
+    report = df.fair(*meshes.rough_ball(roughness=0.25), 4).report
+    assert report["levels"][-1]["iterations"] <= 11
+    assert not report["levels"][-1]["blocks"]
