@@ -63,13 +63,14 @@ def fair_arguments(
     region: np.ndarray | None = None,
     shapes: np.ndarray | None = None,
     shares: np.ndarray | None = None,
+    pulls: np.ndarray | None = None,
     edge_length: float = 0.0,
 ) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
 
     `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
     such as shape keys. `shares`: (n,) of the tolerance at each vertex, None for all of it.
-    `edge_length`: what a relative tolerance is a share of.
+    `pulls`: (n,) weights, None for none. `edge_length`: what a relative tolerance is a share of.
 
     Nothing is measured: who shows a number asks for it.
     """
@@ -96,6 +97,8 @@ def fair_arguments(
         "threads": preferences.threads,
         "measure": False,
     }
+    if pulls is not None:
+        arguments["weights"] = pulls
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):

@@ -21,7 +21,7 @@ from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
-from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
+from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
 from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
@@ -60,6 +60,7 @@ class Job:
             self.arrays = read_mesh(mesh)
             self.data = read_data(source, mesh, evaluated)
             shares = tolerance_shares(source, mesh, self.settings)
+            pulls = vertex_pulls(source, mesh, self.settings)
             if not self.settings.use_selection:
                 region = None
             elif region is None:
@@ -79,6 +80,7 @@ class Job:
             region,
             self.shape.of(self.keys.shapes) if self.keys else None,
             shares,
+            pulls,
             self.edge_length,
         )
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each

@@ -118,6 +118,15 @@ class FairingSettings:
         search=_vertex_values,
         search_options={"SUGGESTION"},  # modifiers may make what is not there yet
     )
+    pull_group: StringProperty(
+        name="Pull Group",
+        description="A vertex group, or a float attribute on points, of the source: how strongly each vertex draws "
+        "the surface to itself. A group's weight, 0 to 1: 0 does not pull, 0.5 gives way by about a twentieth of an "
+        "edge, 1 holds the vertex. An attribute: the weight as it is. The tolerance holds all the same; at 0 the pulls "
+        "alone hold. Empty: none",
+        search=_vertex_values,
+        search_options={"SUGGESTION"},
+    )
     pad_size: FloatProperty(
         name="Pad Size",
         description="What holds the vertices. 0: held on needles, which leave marks in the reflections; "

@@ -8,6 +8,10 @@ import numpy as np
 from .blender import Mesh, Object
 from .errors import JobError
 
+# The weight that a strength of one half stands for: vertices then give way by about a twentieth of
+# an edge.
+_PULL_OF_HALF = 100.0
+
 
 def names(source: Object) -> Iterator[tuple[str, str]]:
     """(name, kind) of all that the mesh object `source` has; of two with one name the one that is
@@ -25,22 +29,45 @@ def exists(source: Object, mesh: Mesh, name: str) -> bool:
     return name in source.vertex_groups or _is_float(mesh.attributes.get(name))
 
 
-def read(source: Object, mesh: Mesh, name: str) -> np.ndarray:
+def shares(source: Object, mesh: Mesh, name: str) -> np.ndarray:
     """(n,) float64, from 0 to 1: what is called `name` on `mesh`, which is that of the object
     `source` or what its modifiers make of it. 0 outside of a group.
 
     JobError if nothing is called so.
     """
+    return np.clip(_read(source, mesh, name, "Tolerance Group"), 0.0, 1.0)
+
+
+def pulls(source: Object, mesh: Mesh, name: str) -> np.ndarray:
+    """(n,) float64 from 0, infinity included: weights of the core. An attribute has them as they
+    are; a group has strengths from 0, nothing, to 1, which holds the vertex.
+
+    JobError if nothing is called `name`, or an attribute has what is no weight.
+    """
+    values = _read(source, mesh, name, "Pull Group")
+    if name in source.vertex_groups:
+        with np.errstate(divide="ignore"):
+            return _PULL_OF_HALF * (values / (1 - np.minimum(values, 1))) ** 2
+    wrong = np.flatnonzero(~(values >= 0))
+    if len(wrong):
+        raise JobError(
+            f"{source.name}: the attribute '{name}' is {values[wrong[0]]:g} at vertex {wrong[0]}. "
+            "Pulls are numbers from 0; change it there, or choose another Pull Group."
+        )
+    return values
+
+
+def _read(source: Object, mesh: Mesh, name: str, field: str) -> np.ndarray:
     if not exists(source, mesh, name):
         raise JobError(
             f"{source.name}: there is no vertex group and no float attribute on points named '{name}'. "
-            "Choose another one as Tolerance Group, or clear the field."
+            f"Choose another one as {field}, or clear the field."
         )
     if name in source.vertex_groups:
         return _group(mesh, source.vertex_groups[name].index)
     values = np.empty(len(mesh.vertices), np.float32)
     mesh.attributes[name].data.foreach_get("value", values)
-    return np.clip(values.astype(np.float64), 0.0, 1.0)
+    return values.astype(np.float64)
 
 
 def _is_float(attribute: object) -> bool:

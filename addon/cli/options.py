@@ -32,6 +32,7 @@ _GROUPS = {
         "tolerance",
         "relative_tolerance",
         "tolerance_group",
+        "pull_group",
         "pad_size",
         "tension",
         "boundary",
@@ -45,7 +46,7 @@ _GROUPS = {
 }
 
 # options that mean nothing without --interpolation approximate, and say so by themselves
-_NEAR = ("tolerance", "relative_tolerance", "tolerance_group")
+_NEAR = ("tolerance", "relative_tolerance", "tolerance_group", "pull_group")
 # said by which of these is given
 _TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 

@@ -52,7 +52,8 @@ class FullLevel:
         `arguments`: of the live solver, for `region` or all faces.
         """
         self.job = Job(context, source, target.discrete_fairing, target, region)
-        its = {name: self.job.arguments[name] for name in ("vertices", "tolerance")}
+        now = ("vertices", "tolerance", "weights")
+        its = {name: self.job.arguments[name] for name in now if name in self.job.arguments}
         self.arguments = {**arguments, **its}  # of the fresh solver
         self._fresh = FreshSolver(source.name, self.arguments)
         self._queue = Queue([self.job, self._fresh], core.module().Monitor)

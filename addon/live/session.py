@@ -29,7 +29,7 @@ from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
-from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares
+from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
@@ -79,6 +79,7 @@ class Session:
         self._shape = WorldShape(None)
         self._region: np.ndarray | None = None
         self._shares: np.ndarray | None = None
+        self._pulls: np.ndarray | None = None
         self._edge_length = (
             0.0  # of the mesh that the solver was made for: a drag does not change it
         )
@@ -138,6 +139,7 @@ class Session:
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             self._shares = tolerance_shares(source, mesh, self._settings)
+            self._pulls = vertex_pulls(source, mesh, self._settings)
         clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
@@ -203,6 +205,7 @@ class Session:
             preferences(),
             self._region,
             shares=self._shares,
+            pulls=self._pulls,
             edge_length=self._edge_length,
         )
         arguments |= {

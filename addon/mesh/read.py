@@ -163,4 +163,14 @@ def tolerance_shares(source: Object, mesh: Mesh, settings: Settings) -> np.ndarr
     """
     if not (is_near(settings) and settings.tolerance_group):
         return None
-    return vertex_values.read(source, mesh, settings.tolerance_group)
+    return vertex_values.shares(source, mesh, settings.tolerance_group)
+
+
+def vertex_pulls(source: Object, mesh: Mesh, settings: Settings) -> np.ndarray | None:
+    """(n,) weights of the core, one a vertex of `mesh`; None: nothing pulls.
+
+    JobError if `source` has nothing by the name that the settings say.
+    """
+    if not (is_near(settings) and settings.pull_group):
+        return None
+    return vertex_values.pulls(source, mesh, settings.pull_group)

@@ -32,11 +32,11 @@ def draw_shape(
     settings: Settings,
     triangle_text: str = "",
     tolerance_text: str = "",
-    missing_group: str = "",
+    missing_groups: dict[str, str] | None = None,
 ) -> None:
     """The few that everyone needs. What is known of the source stands below what it is about,
     since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
-    relative tolerance comes to, and why the tolerance group is not there.
+    relative tolerance comes to, and which groups are not there.
     """
     layout.prop(settings, "levels")
     if triangle_text:
@@ -45,7 +45,7 @@ def draw_shape(
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     layout.prop(settings, "interpolation")
     if is_near(settings):
-        _draw_tolerance(layout, settings, tolerance_text, missing_group)
+        _draw_tolerance(layout, settings, tolerance_text, missing_groups or {})
     _draw_pads(layout, settings)
     row = layout.row()
     row.active = settings.energy != "MINIMUM_VARIATION"
@@ -54,7 +54,7 @@ def draw_shape(
 
 
 def _draw_tolerance(
-    layout: bpy.types.UILayout, settings: Settings, length: str, missing_group: str
+    layout: bpy.types.UILayout, settings: Settings, length: str, missing_groups: dict[str, str]
 ) -> None:
     relative = settings.tolerance_unit == "RELATIVE"
     layout.prop(settings, "tolerance_unit")
@@ -66,11 +66,13 @@ def _draw_tolerance(
     )
     if relative and length:
         _remark(layout, length)
-    row = layout.row()
-    row.alert = bool(missing_group)
-    row.prop(settings, "tolerance_group", text="Group", icon="GROUP_VERTEX")
-    if missing_group:
-        _remark(layout, missing_group, icon="ERROR")
+    for name, label in (("tolerance_group", "Group"), ("pull_group", "Pulls")):
+        missing = missing_groups.get(name, "")
+        row = layout.row()
+        row.alert = bool(missing)
+        row.prop(settings, name, text=label, icon="GROUP_VERTEX")
+        if missing:
+            _remark(layout, missing, icon="ERROR")
 
 
 def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:

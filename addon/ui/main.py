@@ -69,7 +69,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             settings,
             _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
-            missing_group(settings, sources),
+            missing_groups(settings, sources),
         )
         if triangles >= size.LARGE:
             draw_notice(
@@ -161,15 +161,19 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     )
 
 
-def missing_group(settings: Settings, sources: list[Object]) -> str:
-    """Which source lacks the tolerance group, in a few words; empty if none, or if modifiers may
-    make it.
+def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:
+    """Which source lacks a group, in a few words, by the setting that names it; none where
+    modifiers may make it.
     """
-    name = settings.tolerance_group
-    if not name or is_evaluated(settings):
-        return ""
-    lacking = [o.name for o in sources if not vertex_values.exists(o, o.data, name)]
-    return f"Not in {lacking[0]}" if lacking else ""
+    found = {}
+    for setting in ("tolerance_group", "pull_group"):
+        name = getattr(settings, setting)
+        if not name or is_evaluated(settings):
+            continue
+        lacking = [o.name for o in sources if not vertex_values.exists(o, o.data, name)]
+        if lacking:
+            found[setting] = f"Not in {lacking[0]}"
+    return found
 
 
 class _FoldedSettings(Folded):

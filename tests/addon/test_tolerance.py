@@ -208,10 +208,10 @@ def test_a_group_means_nothing_where_all_vertices_are_held():
 def test_values_are_from_nothing_to_all():
     source = add("Box", *CUBE)
     add_attribute(source, [-1.0, 0.25, 2.0, *[0.5] * 5])
-    found = vertex_values.read(source, source.data, "Loose")
+    found = vertex_values.shares(source, source.data, "Loose")
     assert found.tolist() == [0.0, 0.25, 1.0, *[0.5] * 5]
     add_group(source, {3: 0.75})
-    found = vertex_values.read(source, source.data, "Loose")
+    found = vertex_values.shares(source, source.data, "Loose")
     assert found.tolist() == [0, 0, 0, 0.75, 0, 0, 0, 0], "the group, of two with one name"
 
 
@@ -222,7 +222,7 @@ def test_other_attributes_are_none(data_type, domain):
     source = add("Box", *CUBE)
     source.data.attributes.new("Loose", data_type, domain)
     with pytest.raises(JobError, match="Loose"):
-        vertex_values.read(source, source.data, "Loose")
+        vertex_values.shares(source, source.data, "Loose")
     assert "Loose" not in dict(vertex_values.names(source))
 
 
