@@ -96,6 +96,8 @@ def fair_arguments(
         "threads": preferences.threads,
         "measure": False,
     }
+    if settings.weld > 0 and settings.repair == "MEND":
+        arguments["weld"] = settings.weld
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):
