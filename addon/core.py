@@ -99,6 +99,8 @@ def fair_arguments(
     }
     if pulls is not None:
         arguments["weights"] = pulls
+    if settings.weld > 0 and settings.repair == "MEND":
+        arguments["weld"] = settings.weld
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):

@@ -16,7 +16,7 @@ _REMEDIES = {
     "NONMANIFOLD_EDGE": "Leave them: the sheets meet in a curve. Delete inner faces that you do not want",
     "NONMANIFOLD_VERTEX": "Leave them, or separate the parts (V)",
     "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or let Defects be Mend",
-    "NON_ORIENTABLE": "Cut it open along a row of edges (V in Edit Mode)",
+    "NON_ORIENTABLE": "Use Thin Plate, or cut it open along a row of edges (V in Edit Mode)",
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",

@@ -229,6 +229,16 @@ class FairingSettings:
         description="What happens to a mesh with defects",
         items=REPAIRS,
     )
+    weld: FloatProperty(
+        name="Weld",
+        description="Mend joins vertices of the source that are no farther apart than this, in scene units. The source "
+        "stays as it is. 0: vertices of different faces stay apart",
+        default=0.0,
+        min=0.0,
+        soft_max=0.1,
+        precision=4,
+        subtype="DISTANCE",
+    )
     use_shape_keys: BoolProperty(
         name="Shape Keys",
         description="Fairs every shape key of the source too, so that you can animate the surface with them",

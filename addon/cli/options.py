@@ -70,7 +70,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """An option for every setting that the command line has."""
     groups = {name: parser.add_argument_group(name) for name in (*_GROUPS, "advanced")}
     for name in NAMES:
-        if name in NOT_HERE or _said_by_value(name):
+        if name in NOT_HERE or name == "weld" or _said_by_value(name):  # 0 is a distance for --weld
             continue
         group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
         _add(groups[group], name, _property(name))
@@ -82,6 +82,8 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
     Raises ValueError if they contradict.
     """
     given = {name: value for name, value in vars(arguments).items() if name in NAMES}
+    if given.get("weld") is None:
+        given.pop("weld", None)
     settings = {name: _default(_property(name)) for name in NAMES} | given
     for name in given:
         if "use_" + name in NAMES:

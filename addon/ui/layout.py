@@ -95,6 +95,8 @@ def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:
         _reason(layout, "Faces are selected on the mesh as modelled")
     layout.prop(settings, "keep_symmetry")
     layout.prop(settings, "repair")
+    if settings.repair == "MEND":
+        layout.prop(settings, "weld")
 
 
 def draw_creases(layout: bpy.types.UILayout, settings: Settings) -> None:

@@ -94,6 +94,7 @@ py::dict to_python(const SheetReport& s) {
   d["count"] = s.count;
   d["nonmanifold_edges"] = s.nonmanifold_edges;
   d["nonmanifold_vertices"] = s.nonmanifold_vertices;
+  d["one_sided"] = s.one_sided;
   return d;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/context.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <tuple>
@@ -34,7 +35,13 @@ PadReport widths_of(const Pads& pads, std::size_t vertices, double size) {
 }
 
 SheetReport sheets_of(const ControlMesh& mesh) {
-  SheetReport out{std::size_t(number_sheets(mesh).count)};
+  SheetReport out;
+  const SheetNumbers sheets = number_sheets(mesh);
+  out.count = std::size_t(sheets.count);
+  std::vector<std::uint8_t> one_sided(std::size_t(mesh.vertex_count()), 0);
+  for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f)
+    one_sided[std::size_t(sheets.of_vertex[std::size_t(mesh.faces[std::size_t(f)].vertex[0])])] = 1;
+  out.one_sided = std::size_t(std::count(one_sided.begin(), one_sided.end(), 1));
   std::vector<std::uint8_t> on_edge(std::size_t(mesh.input_vertices), 0);
   for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
     if (!mesh.nonmanifold(e)) continue;
@@ -43,8 +50,19 @@ SheetReport sheets_of(const ControlMesh& mesh) {
       on_edge[std::size_t(mesh.original_vertex(v))] = 1;
   }
   for (Index v = 0; v < mesh.input_vertices; ++v)
-    out.nonmanifold_vertices += mesh.shared(v) && !on_edge[std::size_t(v)];
+    out.nonmanifold_vertices += mesh.fans_meet(v) && !on_edge[std::size_t(v)];
   return out;
+}
+
+void require_two_sides(const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings)
+    if (warning.code == name(ErrorCode::non_orientable))
+      throw FairingError(ErrorCode::non_orientable,
+                         listing(face_s, warning.elements, {"belongs", "belong"}) +
+                             " to a surface with only one side, like a Möbius strip. Only the thin "
+                             "plate takes it: for the other energies a surface needs normals that "
+                             "agree all over. Use energy=\"thin_plate\", or cut it open.",
+                         warning.elements);
 }
 
 }  // namespace
@@ -77,6 +95,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
 void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& report) const {
   watch.enter(Phase::check, 0);
   CheckResult checked = fairing::check(input, {options_.repair_orientation});
+  if (options_.energy != Energy::thin_plate) require_two_sides(checked.warnings);
   report.warnings = std::move(checked.warnings);
   report.flipped_faces = std::move(checked.flipped_faces);
 }
@@ -105,7 +124,7 @@ template <class Hold>
 Hold FairingContext::hold_of(const ControlPositions& control, double unit) const {
   if (options_.interpolation == Interpolation::exact)
     return Hold(mesh_, control.working, unknowns_);
-  return Hold(mesh_, control.working, unknowns_, options_.weights, unit, working_tolerances());
+  return Hold(mesh_, control.working, unknowns_, weights_with_copies(), unit, working_tolerances());
 }
 
 // `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
@@ -157,8 +176,15 @@ void FairingContext::drop_systems() {
 
 std::vector<double> FairingContext::working_tolerances() const {
   std::vector<double> out;
-  for (std::size_t v = 0; v < std::size_t(mesh_.input_vertices); ++v)
-    out.push_back(options_.tolerance_of(v) / frame_.scale);
+  for (Index v = 0; v < mesh_.first_centre(); ++v)
+    out.push_back(options_.tolerance_of(std::size_t(mesh_.original_vertex(v))) / frame_.scale);
+  return out;
+}
+
+std::vector<double> FairingContext::weights_with_copies() const {
+  std::vector<double> out = options_.weights;
+  if (!out.empty())
+    for (const Index v : mesh_.copied_vertex) out.push_back(out[std::size_t(v)]);
   return out;
 }
 

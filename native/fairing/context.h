@@ -89,8 +89,9 @@ class FairingContext {
   SurfaceEnergies energies(const double* x);
   template <class Hold>
   Hold hold_of(const ControlPositions& control, double unit) const;
-  // One an input vertex, in working coordinates; infinity: none.
+  // One an input vertex and copy: in working coordinates, infinity: none; the caller's, or empty.
   std::vector<double> working_tolerances() const;
+  std::vector<double> weights_with_copies() const;
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
   void build(std::vector<Vec3> world, Stopwatch& watch);
 

@@ -21,14 +21,18 @@ constexpr std::int64_t vector_bytes = 24, float_vector_bytes = 12, index_bytes =
 // Of control faces that are all triangles and quads.
 struct Counts {
   std::int64_t vertices = 0, edges = 0, triangles = 0, quads = 0;
-  std::int64_t copied_vertices = 0, copied_edges = 0;  // of these, where sheets meet
+  // Of these, where sheets meet or have only one side.
+  std::int64_t copied_vertices = 0, copied_edges = 0, copied_triangles = 0, copied_quads = 0;
+  std::int64_t welded_triangles() const { return triangles - copied_triangles; }
+  std::int64_t welded_quads() const { return quads - copied_quads; }
   std::int64_t sides() const { return 3 * triangles + 4 * quads; }
   // Points of the surface after so many refinements.
   std::int64_t points(int level) const {
     return grid_size(vertices, edges, triangles, quads, level);
   }
   std::int64_t welded_points(int level) const {
-    return grid_size(vertices - copied_vertices, edges - copied_edges, triangles, quads, level);
+    return grid_size(vertices - copied_vertices, edges - copied_edges, welded_triangles(),
+                     welded_quads(), level);
   }
 };
 
@@ -109,7 +113,8 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, 
   // Rings, the places of points in them, and what a sweep changes.
   const std::int64_t sweeps = back_leg ? 260 * points : 0;
   // Three or four ids a face, and its polygon.
-  const std::int64_t output = n * n * (4 * index_bytes * c.triangles + 5 * index_bytes * c.quads);
+  const std::int64_t output =
+      n * n * (4 * index_bytes * c.welded_triangles() + 5 * index_bytes * c.welded_quads());
   // What does not grow with the mesh.
   constexpr std::int64_t fixed = 1 << 15;
   return std::max(outer + cycle + spectrum + slots + stencils + membrane + factor +
@@ -124,7 +129,7 @@ RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy,
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = c.welded_points(levels);
   size.solved = c.points(levels);
-  size.triangles = n * n * (c.triangles + 2 * c.quads);
+  size.triangles = n * n * (c.welded_triangles() + 2 * c.welded_quads());
   // More than that no sum here comes to; it tells what would not fit into its type.
   constexpr double most_of_point = 1 << 14;
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
@@ -182,9 +187,11 @@ RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, En
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
-  c.copied_vertices = std::int64_t(mesh.copied_vertex.size());
+  c.copied_vertices = std::int64_t(mesh.copied_vertex.size() + mesh.copied_centre.size());
   c.copied_edges = std::int64_t(mesh.copied_edge.size());
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
+  for (const Index f : mesh.copied_face)
+    ++(mesh.faces[std::size_t(f)].quad() ? c.copied_quads : c.copied_triangles);
   return run_size(c, levels, shapes, energy, tense, back_leg);
 }
 

@@ -42,14 +42,16 @@ OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
   const std::size_t cells = std::size_t(n) * std::size_t(n);
   std::vector<std::size_t> rank;  // among the faces of the same kind
   std::size_t triangles = 0, quads = 0;
-  for (const Face& face : mesh.faces) rank.push_back(face.quad() ? quads++ : triangles++);
+  const auto faces = std::size_t(mesh.first_copied_face());
+  for (std::size_t f = 0; f < faces; ++f)
+    rank.push_back(mesh.faces[f].quad() ? quads++ : triangles++);
   OutputFaces out;
   out.triangles.resize(3 * triangles * cells);
   out.triangle_polygon.resize(triangles * cells);
   out.quads.resize(4 * quads * cells);
   out.quad_polygon.resize(quads * cells);
 
-  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(faces, element_grain(n), [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> low, high;
     for (std::size_t f = begin; f < end; ++f) {
       const Face& face = mesh.faces[f];

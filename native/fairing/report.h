@@ -38,9 +38,9 @@ struct PadReport {
 };
 
 // How many sheets the input is made of (mesh/sheets.h), how many edges have more than two faces, and
-// at how many other vertices sheets touch.
+// at how many other vertices sheets touch; and how many sheets have only one side.
 struct SheetReport {
-  std::size_t count = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0;
+  std::size_t count = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0, one_sided = 0;
 };
 
 struct PhaseSeconds {

@@ -14,9 +14,10 @@ namespace {
 // it elsewhere: it is fixed.
 bool control_vertex_moves(const ControlMesh& mesh, const FairOptions& options, Index v) {
   if (v >= mesh.first_centre()) return true;
-  if (v >= mesh.input_vertices) return false;
-  return options.tolerance_of(std::size_t(v)) > 0 && !mesh.shared(v) &&
-         (options.weights.empty() || std::isfinite(options.weights[std::size_t(v)]));
+  if (mesh.fans_meet(v)) return false;
+  const auto original = std::size_t(mesh.original_vertex(v));
+  return options.tolerance_of(original) > 0 &&
+         (options.weights.empty() || std::isfinite(options.weights[original]));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A surface's sheets joined again (mesh/sheets.h): what is a copy on the grid is one point with its
-// original in the result. Points keep their order.
+// original in the result. Points keep their order. Of a double cover's halves the mean is taken, so
+// that the surface is as smooth where these are joined as anywhere.
 #pragma once
 
 #include "grid/grid_level.h"
@@ -13,19 +14,24 @@ class Weld {
   explicit Weld(const GridLevel& grid);
 
   // False where nothing is a copy: all that follows changes nothing then.
-  bool needed() const { return copies_ > 0; }
+  bool needed() const { return vertices_.copies < vertices_.end; }
   // Points of the result.
-  std::size_t size() const { return grid_.size() - std::size_t(copies_ + edge_copies_); }
+  std::size_t size() const;
   // Where the grid's point p is in the result.
   Index operator()(Index p) const;
-  // out <- the grid's points, 3 numbers each, without copies; may be the same array.
-  void join(const double* points, double* out) const;
+  // out <- `points`, the grid's, 3 numbers each, without copies; may be the same array. Of double
+  // covers the first half becomes the mean of both in `points`.
+  void join(double* points, double* out) const;
 
  private:
+  void take_means(double* points) const;
+
   const GridLevel& grid_;
-  // In the order of the grid's points: input vertices, copies, centres and edges, their copies.
-  Index first_copy_, first_centre_, first_edge_copy_, first_face_;
-  Index copies_, edge_copies_;
+  // Of what is copied, in the order of the grid's points.
+  struct Block {
+    Index begin, copies, end;
+  };
+  Block vertices_, centres_, edges_, faces_;
 };
 
 }  // namespace fairing

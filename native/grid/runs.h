@@ -144,7 +144,8 @@ void for_each_run(const GridLevel& grid, Workers& workers, Visit&& visit) {
 class ElementSums {
  public:
   explicit ElementSums(const ControlMesh& mesh)
-      : first_edge_(std::size_t(mesh.vertex_count())),
+      : mesh_(mesh),
+        first_edge_(std::size_t(mesh.vertex_count())),
         first_face_(first_edge_ + mesh.edges.size()),
         sum_(first_face_ + mesh.faces.size(), 0.0) {}
 
@@ -158,13 +159,22 @@ class ElementSums {
       default: return face(run.element);
     }
   }
+  // Every place of the surface once.
   double total() const {
     double total = 0;
-    for (const double s : sum_) total += s;
+    for (std::size_t i = 0; i < sum_.size(); ++i)
+      if (mesh_.copied_face.empty() || !second(i)) total += sum_[i];
     return total;
   }
 
  private:
+  bool second(std::size_t i) const {
+    if (i < first_edge_) return mesh_.second_vertex(Index(i));
+    return i < first_face_ ? mesh_.second_edge(Index(i - first_edge_))
+                           : mesh_.second_face(Index(i - first_face_));
+  }
+
+  const ControlMesh& mesh_;
   std::size_t first_edge_, first_face_;
   std::vector<double> sum_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/symmetrize.h"
 
+#include <algorithm>
+
 namespace fairing {
 namespace {
 
@@ -10,6 +12,14 @@ GridPoint corner(bool quad, int n, int c) {
     case 1: return {n, 0};
     case 2: return quad ? GridPoint{n, n} : GridPoint{0, n};
     default: return {0, n};
+  }
+}
+
+bool lies_in_plane(const ControlMesh& mesh, const Mirror& mirror, const Run& run) {
+  switch (run.kind) {
+    case RunKind::vertex: return mirror.vertex_in_plane(mesh, run.element);
+    case RunKind::edge: return mirror.edge_in_plane(mesh, run.element);
+    default: return mirror.turn[std::size_t(run.element)] == Mirror::in_plane;
   }
 }
 
@@ -56,6 +66,7 @@ void for_pairs(const GridLevel& grid, const Mirror& mirror, const Unknowns& unkn
 }  // namespace
 
 FaceImage face_image(bool quad, int n, int turn) {
+  if (turn == Mirror::in_plane) return {{0, 0}, {1, 0}, {0, 1}};
   const int size = quad ? 4 : 3;
   const auto image = [&](int c) { return corner(quad, n, (turn - c + size) % size); };
   const GridPoint origin = image(0), along = image(1), across = image(size - 1);
@@ -78,6 +89,10 @@ void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Un
                            Workers& workers, double* h) {
   for_pairs(grid, mirror, unknowns, workers,
             [&](std::size_t p, std::size_t q) { h[p] = h[q] = 0.5 * (h[p] + h[q]); });
+  if (grid.mesh().copied_vertex.empty()) return;
+  for_each_run(grid, workers, [&](const Run& run) {
+    if (lies_in_plane(grid.mesh(), mirror, run)) std::fill_n(h + run.first, run.count, 0.0);
+  });
 }
 
 }  // namespace fairing

@@ -17,7 +17,7 @@ struct FaceImage {
   }
 };
 
-// For a face whose corner c goes to corner (turn - c) mod size (Mirror::turn).
+// For a face whose corner c goes to corner (turn - c) mod size, or to itself (Mirror::turn).
 FaceImage face_image(bool quad, int n, int turn);
 
 // x <- the mean of x and its mirror image at the unknowns of a level, which are mirrored too; 3
@@ -25,7 +25,7 @@ FaceImage face_image(bool quad, int n, int turn);
 void mean_with_image(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
                      Workers& workers, double* x);
 
-// The same for displacements along normals, one number a point.
+// The same for displacements along normals, one number a point: none of what lies in the plane.
 void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
                            Workers& workers, double* h);
 

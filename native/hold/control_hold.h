@@ -33,9 +33,9 @@ class ControlHold {
   // Nothing holds a control vertex that moves.
   ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns)
       : mesh_(mesh), targets_(targets), unknowns_(unknowns) {}
-  // `targets` of the control vertices, and `tolerances` of the input vertices, in working
-  // coordinates; infinity: the caller's weight alone, nothing to find. `weights`: one an input
-  // vertex, in units of `unit`; or empty. They are lower bounds. `mesh`, `targets` and `unknowns`
+  // `targets` of the control vertices, and `tolerances` of the input vertices and their copies, in
+  // working coordinates; infinity: the caller's weight alone, nothing to find. `weights`: as many, in
+  // units of `unit`; or empty. They are lower bounds. `mesh`, `targets` and `unknowns`
   // must outlive the hold.
   ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns,
               std::span<const double> weights, double unit, std::vector<double> tolerances);
@@ -47,7 +47,7 @@ class ControlHold {
   bool active() const { return active_; }
   // Where control vertices belong.
   std::span<const Vec3> targets() const { return targets_; }
-  // Of input vertices: how many, and whether one is an unknown that may move only so far.
+  // Of input vertices and copies: how many, and whether one is an unknown that may move only so far.
   std::size_t size() const { return tolerance_.size(); }
   bool bound(std::size_t v) const { return unknowns_.vertex[v] && std::isfinite(tolerance_[v]); }
 
@@ -72,7 +72,7 @@ class ControlHold {
   const Unknowns& unknowns_;
   double unit_ = 1;
   bool active_ = false;
-  std::vector<double> tolerance_;  // aimed at, one an input vertex
+  std::vector<double> tolerance_;  // aimed at, one an input vertex and copy
   std::vector<double> base_;       // the caller's own weights
   VertexWeights weights_;
   std::span<const double> of_surface_;

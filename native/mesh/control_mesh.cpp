@@ -157,8 +157,11 @@ ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& fea
   ControlMesh control;
   control.input_vertices = Index(mesh.vertex_count());
   control.input_faces = Index(mesh.face_count());
-  control.copied_vertex = cut_into_sheets(sheets);
-  const SplitMesh split = split_polygons(sheets.view());
+  SheetCopies copies = cut_into_sheets(sheets);
+  control.copied_vertex = std::move(copies.vertex);
+  control.second = std::move(copies.second);
+  SplitMesh split = split_polygons(sheets.view(), control.copied_vertex);
+  control.copied_face = lift_faces(sheets.view(), copies.cover, split, control.copied_centre);
 
   for (std::size_t v = 0; v < std::size_t(control.first_centre()); ++v)
     control.positions.emplace_back(sheets.coordinates[3 * v], sheets.coordinates[3 * v + 1],

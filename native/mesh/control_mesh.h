@@ -98,7 +98,8 @@ struct Region {
 };
 
 struct ControlMesh {
-  // The input's vertices first, then copies of them, then free vertices that splits have added.
+  // The input's vertices first, then copies of them, then free vertices that splits have added, then
+  // copies of these.
   std::vector<Vec3> positions;
   Index input_vertices = 0, input_faces = 0;
   std::vector<Face> faces;
@@ -107,8 +108,13 @@ struct ControlMesh {
 
   // Where sheets meet (mesh/sheets.h), each has its own vertices and edges. Control vertex
   // input_vertices + k is a copy of copied_vertex[k]. The last edges are copies of copied_edge, and
-  // run the same way. Both ascend, and are empty where the input is a manifold.
+  // run the same way. Both ascend, and are empty where the input is a manifold with two sides.
   std::vector<Index> copied_vertex, copied_edge;
+  // A one-sided sheet is here as its double cover (mesh/double_cover.h). All of its second half are
+  // copies: vertices of copied_vertex that are `second`, edges, the last vertices, of centres, and
+  // the last faces. Copied faces are reversed, with the same first corner.
+  std::vector<std::uint8_t> second;
+  std::vector<Index> copied_centre, copied_face;
 
   // The one-rings, counter-clockwise; an open ring starts at its first boundary edge.
   std::vector<Index> ring_offset;  // vertices + 1
@@ -126,24 +132,54 @@ struct ControlMesh {
   Index vertex_count() const { return Index(positions.size()); }
 
   Index first_centre() const { return input_vertices + Index(copied_vertex.size()); }
+  Index first_copied_centre() const { return vertex_count() - Index(copied_centre.size()); }
+  Index first_copied_face() const { return Index(faces.size() - copied_face.size()); }
   Index first_copied_edge() const { return Index(edges.size() - copied_edge.size()); }
-  // The input vertex at v; centres of split polygons are their own.
+  // The input vertex at v, or the centre of a split polygon.
   Index original_vertex(Index v) const {
-    return v < input_vertices || v >= first_centre()
-               ? v
-               : copied_vertex[std::size_t(v - input_vertices)];
+    if (v < input_vertices) return v;
+    if (v < first_centre()) return copied_vertex[std::size_t(v - input_vertices)];
+    return v < first_copied_centre() ? v : copied_centre[std::size_t(v - first_copied_centre())];
   }
   Index original_edge(Index e) const {
     return e < first_copied_edge() ? e : copied_edge[std::size_t(e - first_copied_edge())];
   }
   // Whether v is a copy or has copies.
   bool shared(Index v) const {
-    return std::binary_search(copied_vertex.begin(), copied_vertex.end(), original_vertex(v));
+    const std::vector<Index>& copied = v < first_centre() ? copied_vertex : copied_centre;
+    return std::binary_search(copied.begin(), copied.end(), original_vertex(v));
   }
-  // Whether the edge is one of several that are one in the input, of three faces and more.
-  bool nonmanifold(Index e) const {
+  // Whether the edge is a copy or has copies.
+  bool shared_edge(Index e) const {
     return std::binary_search(copied_edge.begin(), copied_edge.end(), original_edge(e));
   }
+  // Whether the edge is one of several that are one in the input, of three faces and more, and not
+  // just one of the two on a double cover.
+  bool nonmanifold(Index e) const {
+    const Index original = original_edge(e);
+    const auto [first, last] = std::equal_range(copied_edge.begin(), copied_edge.end(), original);
+    if (last - first != 1) return first != last;
+    const Index copy = first_copied_edge() + Index(first - copied_edge.begin());
+    return !second_vertex(edges[std::size_t(original)].vertex[0]) &&
+           !second_vertex(edges[std::size_t(copy)].vertex[0]);
+  }
+  // Whether several fans of faces are around the input vertex at v.
+  bool fans_meet(Index v) const {
+    bool meet = false;
+    if (v < first_centre())
+      for_each_copy(original_vertex(v), [&](Index w) {
+        meet |= w >= input_vertices && !second[std::size_t(w - input_vertices)];
+      });
+    return meet;
+  }
+  // Whether the element is of the second half of a double cover: as its first half says all, it
+  // counts nowhere.
+  bool second_vertex(Index v) const {
+    return v < first_centre() ? v >= input_vertices && second[std::size_t(v - input_vertices)]
+                              : v >= first_copied_centre();
+  }
+  bool second_edge(Index e) const { return e >= first_copied_edge() && !nonmanifold(e); }
+  bool second_face(Index f) const { return f >= first_copied_face(); }
   // visit(v) for an input vertex and its copies.
   template <class Visit>
   void for_each_copy(Index v, Visit&& visit) const {

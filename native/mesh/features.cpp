@@ -50,6 +50,7 @@ class FeatureFinder {
     mark_meeting_edges();
     mark_given_creases();
     mark_folded_edges();
+    mark_copies();
     mark_corners();
     collect_chains();
   }
@@ -64,8 +65,11 @@ class FeatureFinder {
   bool curve(Index e) const { return feature(e) && control_.edge_part(e) == RegionPart::inside; }
   const Edge& edge(Index e) const { return control_.edges[std::size_t(e)]; }
   const Vec3& position(Index v) const { return control_.positions[std::size_t(v)]; }
-  Index polygon(Index side) const {
-    return control_.faces[std::size_t(control_.sides[std::size_t(side)].face)].polygon;
+  // Of the polygon on a side, with the length of twice its area.
+  Vec3 normal(const std::vector<Vec3>& of_polygons, Index side) const {
+    const Index f = control_.sides[std::size_t(side)].face;
+    const Vec3& normal = of_polygons[std::size_t(control_.faces[std::size_t(f)].polygon)];
+    return control_.second_face(f) ? Vec3(-normal) : normal;
   }
 
   void mark_boundary() {
@@ -90,8 +94,17 @@ class FeatureFinder {
   // Whatever is asked for: no other curve could hold more than two faces.
   void mark_meeting_edges() {
     for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e)
-      control_.feature_edge[std::size_t(e)] =
-          control_.feature_edge[std::size_t(control_.original_edge(e))] = 1;
+      if (control_.nonmanifold(e))
+        control_.feature_edge[std::size_t(e)] =
+            control_.feature_edge[std::size_t(control_.original_edge(e))] = 1;
+  }
+
+  // Both halves of a double cover have the same creases.
+  void mark_copies() {
+    for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e) {
+      std::uint8_t& original = control_.feature_edge[std::size_t(control_.original_edge(e))];
+      control_.feature_edge[std::size_t(e)] = original |= control_.feature_edge[std::size_t(e)];
+    }
   }
 
   void mark_given_creases() {
@@ -131,8 +144,7 @@ class FeatureFinder {
       stop_if_cancelled(e);
       const Edge& edge = control_.edges[e];
       if (edge.boundary() || control_.inside_polygon(Index(e))) continue;
-      const Vec3 &left = normals[std::size_t(polygon(edge.side[0]))],
-                 &right = normals[std::size_t(polygon(edge.side[1]))];
+      const Vec3 left = normal(normals, edge.side[0]), right = normal(normals, edge.side[1]);
       if (angle_between(left, right) > options_.crease_angle) control_.feature_edge[e] = 1;
     }
   }
@@ -145,7 +157,7 @@ class FeatureFinder {
         const Index e = control_.original_edge(spoke.edge);
         if (!feature(e)) continue;
         const bool again =
-            control_.nonmanifold(e) && std::find(found_.begin(), found_.end(), e) != found_.end();
+            control_.shared_edge(e) && std::find(found_.begin(), found_.end(), e) != found_.end();
         if (!again) found_.push_back(e);
       }
     });

@@ -26,18 +26,20 @@ class HalfEdges {
   std::int32_t twin(std::int32_t k) const { return twin_[std::size_t(k)]; }
   bool runs_as_twin(std::int32_t k) const { return from(k) == from(twin(k)); }
 
-  // visit(corner) for the corners of the fan around from(k) that holds corner k, which comes first;
-  // whichever way the faces run.
+  // visit(corner, turned) for the corners of the fan around from(k) that holds corner k, which comes
+  // first; whichever way the faces run. `turned`: not the way that k's face does.
   template <class Visit>
   void visit_fan(std::int32_t k, Visit&& visit) const {
     const std::int64_t v = from(k);
-    visit(k);
+    visit(k, false);
     for (std::int32_t exit : {k, previous(k)}) {
+      bool turned = false;
       for (std::int32_t t = twin(exit); t >= 0; t = twin(exit)) {
+        turned ^= runs_as_twin(exit);
         const bool outgoing = from(t) == v;
         const std::int32_t corner = outgoing ? t : next(t);
         if (corner == k) return;  // once around
-        visit(corner);
+        visit(corner, turned);
         exit = outgoing ? previous(t) : corner;
       }
     }

@@ -136,6 +136,10 @@ class Finder {
       if (originals[std::size_t(v)] < 0 || !mesh_.shared(v) || mesh_.ring(v).empty()) continue;
       const Spoke& spoke = mesh_.ring(v)[0];
       const Face& face = mesh_.faces[std::size_t(spoke.face)];
+      if (lies_in_plane(face, originals)) {
+        image[std::size_t(v)] = v;
+        continue;
+      }
       Index& found = image[std::size_t(v)] = -1;
       mesh_.for_each_copy(originals[std::size_t(v)], [&](Index w) {
         for (const Spoke& other : mesh_.ring(w))
@@ -144,6 +148,15 @@ class Finder {
       if (found < 0) return false;
     }
     return true;
+  }
+
+  // Whether a face is its own image. So are all of its sheet then: where one left the plane, its image
+  // would be a third face at the edge. Only where sheets meet does a surface have such a part and
+  // another one.
+  bool lies_in_plane(const Face& face, const std::vector<Index>& image) const {
+    return !mesh_.copied_vertex.empty() && std::ranges::all_of(corners(face), [&](Index v) {
+      return mesh_.original_vertex(image[std::size_t(v)]) == mesh_.original_vertex(v);
+    });
   }
 
   // Whether the face behind `other` is the image of `face`, the spoke's corner that of `corner`.
@@ -239,6 +252,15 @@ class Finder {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       stop_if_cancelled(f);
       const Face& face = mesh_.faces[f];
+      if (lies_in_plane(face, mirror.vertex)) {
+        for (int c = 0; c < face.size; ++c) {
+          const Index e = mesh_.sides[std::size_t(face.first_side + c)].edge;
+          mirror.edge[std::size_t(e)] = e;
+        }
+        mirror.face[f] = Index(f);
+        mirror.turn[f] = Mirror::in_plane;
+        continue;
+      }
       const FaceImage image = face_image(face, 0, mirror.vertex);
       if (image.face < 0) return false;
       const Face& other = mesh_.faces[std::size_t(image.face)];

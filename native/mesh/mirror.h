@@ -21,6 +21,19 @@ struct Mirror {
   Plane plane;
   std::vector<Index> vertex, edge, face;  // the images; vertices without faces are their own
   std::vector<std::int8_t> turn;  // corner c of a face has its image at corner (turn - c) mod size
+  // In place of a turn: the face lies in the plane, and so does its whole sheet. It is its own image,
+  // corner by corner.
+  static constexpr std::int8_t in_plane = -1;
+
+  bool vertex_in_plane(const ControlMesh& mesh, Index v) const {
+    const auto ring = mesh.ring(v);
+    return !ring.empty() && turn[std::size_t(ring[0].face)] == in_plane;
+  }
+  bool edge_in_plane(const ControlMesh& mesh, Index e) const {
+    const Edge& edge = mesh.edges[std::size_t(e)];
+    const Index side = edge.side[edge.side[0] < 0 ? 1 : 0];
+    return turn[std::size_t(mesh.sides[std::size_t(side)].face)] == in_plane;
+  }
 
   // Whether the image of an edge runs the other way.
   bool reverses(const ControlMesh& mesh, Index e) const {

@@ -10,25 +10,35 @@
 namespace fairing {
 namespace {
 
-// One corner of each fan but the first of its vertex, with the vertex; ascending.
-std::vector<std::pair<std::int64_t, std::int32_t>> further_fans(const HalfEdges& half_edges,
-                                                                std::size_t vertices) {
-  std::vector<std::pair<std::int64_t, std::int32_t>> fans;
+// A vertex to be added: for a fan, or over that of a fan on a double cover.
+struct Copy {
+  std::int64_t of;
+  std::int32_t corner;  // one of the fan
+  bool second;
+  auto operator<=>(const Copy&) const = default;
+};
+
+// For all fans but the first of each vertex, and over all fans of one-sided sheets; ascending.
+std::vector<Copy> copies_wanted(const HalfEdges& half_edges, std::size_t vertices,
+                                const DoubleCover& cover) {
+  std::vector<Copy> copies;
   std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0), met(vertices, 0);
   for (std::int32_t k = 0; k < half_edges.count(); ++k) {
     stop_if_cancelled(std::size_t(k));
     if (seen[std::size_t(k)]) continue;
-    half_edges.visit_fan(k, [&](std::int32_t corner) { seen[std::size_t(corner)] = 1; });
+    half_edges.visit_fan(k, [&](std::int32_t corner, bool) { seen[std::size_t(corner)] = 1; });
     const std::int64_t v = half_edges.from(k);
-    if (met[std::size_t(v)]) fans.emplace_back(v, k);
+    if (met[std::size_t(v)]) copies.push_back({v, k, false});
+    if (cover.has(half_edges.face(k))) copies.push_back({v, k, true});
     met[std::size_t(v)] = 1;
   }
-  std::sort(fans.begin(), fans.end());
-  return fans;
+  std::sort(copies.begin(), copies.end());
+  return copies;
 }
 
-// Edges between the same two input vertices, the first of each apart: pairs of original and copy,
-// ascending. Only an edge that was cut comes twice.
+// Edges between the same two vertices, the first of each apart: pairs of original and copy,
+// ascending. Only an edge that was cut, or is on a double cover, comes twice: splits join no two
+// vertices a second time.
 std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& control) {
   struct Entry {
     std::array<Index, 2> ends;
@@ -38,7 +48,7 @@ std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& contr
   for (Index e = 0; e < Index(control.edges.size()); ++e) {
     stop_if_cancelled(std::size_t(e));
     const auto& [a, b] = control.edges[std::size_t(e)].vertex;
-    if (!control.shared(a) || !control.shared(b) || control.inside_polygon(e)) continue;
+    if (!control.shared(a) || !control.shared(b)) continue;
     const Index from = control.original_vertex(a), to = control.original_vertex(b);
     entries.push_back({{std::min(from, to), std::max(from, to)}, e});
   }
@@ -108,25 +118,36 @@ class Groups {
 
 }  // namespace
 
-std::vector<Index> cut_into_sheets(OwnedPolygonMesh& mesh) {
+SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh) {
   const PolygonMesh view = mesh.view();
   const auto vertices = std::size_t(view.vertex_count());
   const HalfEdges half_edges(view);
-  std::vector<Index> copied;
+  SheetCopies copies{{}, {}, begin_double_cover(view, half_edges)};
+  DoubleCover& cover = copies.cover;
+  const std::vector<Copy> wanted = copies_wanted(half_edges, vertices, cover);
+  if (!cover.empty()) cover.over.assign(vertices + wanted.size(), -1);
   std::vector<std::int32_t> fan;
-  for (const auto& [v, k] : further_fans(half_edges, vertices)) {
-    stop_if_cancelled(copied.size());
+  for (const Copy& copy : wanted) {
+    stop_if_cancelled(copies.vertex.size());
+    const std::size_t added = vertices + copies.vertex.size();
+    copies.vertex.push_back(Index(copy.of));
+    copies.second.push_back(copy.second);
+    if (copy.second) {
+      cover.over[std::size_t(half_edges.from(copy.corner))] = Index(added);
+      half_edges.visit_fan(copy.corner, [&](std::int32_t corner, bool turned) {
+        cover.turned[std::size_t(corner)] = turned;
+      });
+      continue;
+    }
     fan.clear();
-    half_edges.visit_fan(k, [&](std::int32_t corner) { fan.push_back(corner); });
-    for (const std::int32_t corner : fan)
-      mesh.corners[std::size_t(corner)] = std::int64_t(vertices + copied.size());
-    copied.push_back(Index(v));
+    half_edges.visit_fan(copy.corner, [&](std::int32_t corner, bool) { fan.push_back(corner); });
+    for (const std::int32_t corner : fan) mesh.corners[std::size_t(corner)] = std::int64_t(added);
   }
-  mesh.coordinates.reserve(3 * (vertices + copied.size()));
-  for (const Index v : copied)
+  mesh.coordinates.reserve(3 * (vertices + wanted.size()));
+  for (const Index v : copies.vertex)
     for (std::size_t a = 0; a < 3; ++a)
       mesh.coordinates.push_back(mesh.coordinates[3 * std::size_t(v) + a]);
-  return copied;
+  return copies;
 }
 
 void find_copied_edges(ControlMesh& control) {

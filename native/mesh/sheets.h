@@ -2,7 +2,9 @@
 // Sheets: what is left of a mesh when it is cut apart along its non-manifold edges, those of three
 // and more faces, and at its non-manifold vertices, where fans of faces touch in a point. Each is a
 // manifold, with vertices and edges of its own; copies remember what they are copies of. Feature
-// curves and regions see the copies as one, so that sheets share the points where they meet.
+// curves and regions see the copies as one, so that sheets share the points where they meet. A sheet
+// with only one side is replaced by its double cover (mesh/double_cover.h), whose second half is made
+// of copies too.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +12,27 @@
 #include <vector>
 
 #include "mesh/control_mesh.h"
+#include "mesh/double_cover.h"
 
 namespace fairing {
 
-// Gives every fan of faces around a vertex a vertex of its own: the first keeps the vertex, copies
-// for the others are added behind all vertices. Returns what they are copies of, ascending.
-// `mesh` must have passed check().
-std::vector<Index> cut_into_sheets(OwnedPolygonMesh& mesh);
+struct SheetCopies {
+  std::vector<Index> vertex;  // what the vertices behind the input's are copies of, ascending
+  std::vector<std::uint8_t> second;  // of these: those over another one, on a double cover
+  DoubleCover cover;
+};
 
-// Fills copied_edge of a mesh whose copied_vertex, edges, sides and spokes are complete: copies
+// Gives every fan of faces around a vertex a vertex of its own: the first keeps the vertex, copies
+// for the others are added behind all vertices. So are vertices over those of one-sided sheets; no
+// face has these yet. `mesh` must have passed check().
+SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh);
+
+// Fills copied_edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
 // become the last edges and run as their originals do.
 void find_copied_edges(ControlMesh& control);
 
-// Control vertices that are one along non-manifold edges: the fans of a vertex that such edges
-// join. Fans that only touch stay apart.
+// Control vertices that are one along copied edges: the fans of a vertex that non-manifold edges
+// join, and both at a place of a double cover. Fans that only touch stay apart.
 class JoinedVertices {
  public:
   // `control` with its copied edges.

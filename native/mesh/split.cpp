@@ -42,8 +42,10 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
       const auto v = std::size_t(face[i]);
       const Corner corner{face[(i + face.size() - 1) % face.size()], face[(i + 1) % face.size()]};
       if (faces[v] == 0) first[v] = corner;
-      pinched[v] =
-          faces[v] == 1 && corner.before == first[v].after && corner.after == first[v].before;
+      // In a one-sided sheet neighbours may run either way.
+      const bool against = corner.before == first[v].after && corner.after == first[v].before,
+                 along = corner.before == first[v].before && corner.after == first[v].after;
+      pinched[v] = faces[v] == 1 && (against || along);
       faces[v] = std::uint8_t(std::min(3, faces[v] + 1));
     }
   }
@@ -71,7 +73,10 @@ class Diagonals {
 
 class Splitter {
  public:
-  explicit Splitter(const PolygonMesh& mesh) : mesh_(mesh) {}
+  Splitter(const PolygonMesh& mesh, std::span<const Index> copied)
+      : mesh_(mesh),
+        copied_(copied),
+        first_copy_(mesh.vertex_count() - std::int64_t(copied.size())) {}
 
   SplitMesh split() {
     choose_treatments();
@@ -123,14 +128,14 @@ class Splitter {
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i + 2 < face.size(); ++i)
         for (std::size_t j = i + 2; j < face.size() && j - i < face.size() - 1; ++j)
-          diagonals_.propose(face[i], face[j]);
+          diagonals_.propose(original(face[i]), original(face[j]));
     }
     if (diagonals_.empty()) return;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i < face.size(); ++i)
-        diagonals_.take(face[i], face[(i + 1) % face.size()]);
+        diagonals_.take(original(face[i]), original(face[(i + 1) % face.size()]));
     }
   }
 
@@ -151,7 +156,7 @@ class Splitter {
   void add_cut(std::int64_t f) {
     const auto face = mesh_.face(f);
     const auto allowed = [&](std::size_t i, std::size_t j) {
-      return diagonals_.allowed(face[i], face[j]);
+      return diagonals_.allowed(original(face[i]), original(face[j]));
     };
     for (const Piece& piece : cut_polygon(shape_of(mesh_, f), allowed)) {
       std::vector<std::int64_t> corners;
@@ -167,7 +172,13 @@ class Splitter {
     }
   }
 
+  std::int64_t original(std::int64_t v) const {
+    return v < first_copy_ ? v : copied_[std::size_t(v - first_copy_)];
+  }
+
   const PolygonMesh& mesh_;
+  std::span<const Index> copied_;
+  std::int64_t first_copy_;
   std::vector<Treatment> treatment_;
   Diagonals diagonals_;
   SplitMesh result_;
@@ -175,6 +186,8 @@ class Splitter {
 
 }  // namespace
 
-SplitMesh split_polygons(const PolygonMesh& mesh) { return Splitter(mesh).split(); }
+SplitMesh split_polygons(const PolygonMesh& mesh, std::span<const Index> copied) {
+  return Splitter(mesh, copied).split();
+}
 
 }  // namespace fairing

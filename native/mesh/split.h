@@ -25,15 +25,16 @@ struct SplitMesh {
 //   fan around a free vertex there; others are cut by their best triangulation
 //   (mesh/polygon_shape.h).
 // * Quads with an angle over 170°, quads that fold by more than 60°, and quads with a vertex that
-// has
-//   only one other face, all around it, are cut along the better diagonal, or into a fan where
+//   has only one other face, all around it, are cut along the better diagonal, or into a fan where
 //   neither is better.
 // * No diagonal joins two vertices that an edge joins already, or that two faces would join. So the
 //   result is a manifold again, no interior vertex has fewer than three faces, and the order of
-//   faces does not matter.
+//   faces does not matter. Where sheets meet, this holds for all of them together: otherwise the
+//   same three vertices could make a triangle of two sheets, and curves leave no room between these.
 //
-// `mesh` must have passed check(), and be oriented. Throws FairingError(too_large) for polygons of
+// `mesh` must have passed check(), and be oriented but for one-sided sheets; its last vertices are
+// copies of `copied`. Throws FairingError(too_large) for polygons of
 // more than 1000 corners that are not star-shaped.
-SplitMesh split_polygons(const PolygonMesh& mesh);
+SplitMesh split_polygons(const PolygonMesh& mesh, std::span<const Index> copied = {});
 
 }  // namespace fairing

@@ -21,9 +21,9 @@ int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
                              std::span<const Vec3> given, double epsilon, Array<double>& x) {
   Unknowns freed = system.shared().unknowns;
   bool any = false;
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
-    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] && !mesh.shared(Index(v)) &&
-                          !mesh.ring(Index(v)).empty() &&
+  for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
+    const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] &&
+                          !mesh.fans_meet(Index(v)) && !mesh.ring(Index(v)).empty() &&
                           mesh.vertex_part(Index(v)) == RegionPart::inside;
     freed.vertex[v] = released;
     any |= released;
@@ -41,7 +41,7 @@ int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
   for (int round = 0; round < release_rounds; ++round) {
     apply_thin_plate(grid, shared.double_rows, freed, none, shared.workers, shared.double_slots,
                      x.data(), gradient.data());
-    for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+    for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
       // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in
       // it.

@@ -71,6 +71,34 @@ def test_mending_is_the_default_and_leaves_the_source_alone(capfd):
     assert np.array_equal(positions(result.data)[:5], np.array(VERTICES, np.float32))
 
 
+def test_weld_joins_what_lies_close(capfd):
+    """Two quads that share no vertex, a little apart."""
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    points = [(x + 1.01 * k, y, 0.2 * x * k) for k in (0, 1) for x, y in square]
+    source = add("Cut", points, [(0, 1, 2, 3), (4, 5, 6, 7)])
+    before = snapshot(source)
+    apart = fair(levels=1)
+    assert len(apart.data.vertices) == 2 * 9 and "merged" not in capfd.readouterr().out
+    activate(source)
+    source.hide_set(False)
+    welded = fair(levels=1, weld=0.02)
+    assert snapshot(source) == before
+    loose = [
+        v
+        for v in welded.data.vertices
+        if not any(v.index in p.vertices for p in welded.data.polygons)
+    ]
+    assert len(welded.data.polygons) == 8 and len(welded.data.vertices) - len(loose) == 9 + 6
+    assert "2 vertices" in capfd.readouterr().out
+    acts = recall(welded, "report")["repairs"]
+    assert [(a["code"], a["elements"]) for a in acts] == [("COINCIDENT_VERTICES", [4, 7])]
+    activate(welded)
+    assert welded.discrete_fairing.weld == np.float32(0.02)
+    welded.discrete_fairing.repair = "REFUSE"  # which does not weld
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert len(welded.data.vertices) == 2 * 9
+
+
 def test_uvs_and_attributes_follow():
     add_defective()
     mesh = fair(levels=1).data

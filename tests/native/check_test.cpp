@@ -146,10 +146,10 @@ TEST(Check, Orientation) {
   EXPECT_EQ(check(mesh.view(), {.repair_orientation = true}).flipped_faces, (Ids{1}));
 }
 
-TEST(Check, MobiusStripIsRefusedRepairOrNot) {
-  const Ids all{0, 1, 2, 3, 4};
-  expect_refused(mobius(5), ErrorCode::non_orientable, all);
-  expect_refused(mobius(5), ErrorCode::non_orientable, all, {.repair_orientation = true});
+TEST(Check, AMobiusStripIsToldOfAndHasNoFacesToFlip) {
+  expect_warned(mobius(5), "NON_ORIENTABLE", {0, 1, 2, 3, 4});
+  EXPECT_TRUE(check(mobius(5).view(), {.repair_orientation = true}).flipped_faces.empty());
+  EXPECT_EQ(thrown([] { faces_to_flip(mobius(5).view()); }).code, ErrorCode::non_orientable);
 }
 
 TEST(Check, DegenerateFaces) {

@@ -124,10 +124,23 @@ void expect_copies(const ControlMesh& mesh) {
     for (std::size_t h = 0; h < 2; ++h)
       EXPECT_EQ(mesh.original_vertex(edge.vertex[h]), mesh.original_vertex(original.vertex[h]));
     EXPECT_TRUE(!mesh.nonmanifold(e) || mesh.feature_edge[std::size_t(e)]);
-    if (mesh.inside_polygon(e)) continue;
+    EXPECT_FALSE(mesh.nonmanifold(e) && mesh.second_edge(e));
     const auto [between, is_first] = first_between.insert(
         {{mesh.original_vertex(edge.vertex[0]), mesh.original_vertex(edge.vertex[1])}, e});
     EXPECT_EQ(mesh.original_edge(e), between->second);
+  }
+  for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f) {
+    const Face& face = mesh.faces[std::size_t(f)];
+    const Face& original =
+        mesh.faces[std::size_t(mesh.copied_face[std::size_t(f - mesh.first_copied_face())])];
+    ASSERT_EQ(face.size, original.size);
+    EXPECT_EQ(face.polygon, original.polygon);
+    for (int i = 0; i < face.size; ++i) {  // at the same place, reversed, a half each
+      const Index v = face.vertex[std::size_t(i)],
+                  w = original.vertex[std::size_t((original.size - i) % original.size)];
+      EXPECT_EQ(mesh.original_vertex(v), mesh.original_vertex(w));
+      EXPECT_NE(mesh.second_vertex(v), mesh.second_vertex(w));
+    }
   }
 }
 

@@ -74,6 +74,28 @@ TEST(Mend, AllFacesAcrossASideGetItsVertex) {
   EXPECT_EQ(faces, (std::vector<Polygon>{{0, 4, 1, 2}, {4, 0, 3}, {1, 4, 3}, {1, 4, 0, 5}}));
 }
 
+// Flat faces in a fan on one line: the face beside them gets a vertex of each. Whatever goes through
+// corners asks at every 1024th.
+TEST(Mend, AFanOfFlatFacesTakesLinearTime) {
+  constexpr std::int64_t count = 20000;
+  OwnedPolygonMesh mesh;
+  for (std::int64_t k = 0; k <= count; ++k)
+    mesh.coordinates.insert(mesh.coordinates.end(), {double(k), 0, 0});
+  mesh.coordinates.insert(mesh.coordinates.end(), {count / 2.0, double(count), 0});
+  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    mesh.corners.insert(mesh.corners.end(), {a, b, c});
+    mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
+  };
+  for (std::int64_t k = 1; k < count; ++k) add(0, k, k + 1);
+  add(0, count + 1, count);
+  Monitor monitor;
+  const CancelScope scope(&monitor);
+  monitor.cancel_at_question(1000);
+  const std::vector<Polygon> faces = faces_of(mend(mesh.view()));
+  ASSERT_EQ(faces.size(), 1u);
+  EXPECT_EQ(faces[0].size(), std::size_t(count + 2));
+}
+
 TEST(Mend, WeldingJoinsEachVertexWithTheLowestInReach) {
   const OwnedPolygonMesh mesh =
       make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1e-3}, {0, 1, 0}, {1, 1, 0}},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "grid/linear.h"
@@ -58,6 +59,12 @@ void expect_a_mirror(const ControlMesh& mesh, const Mirror& mirror) {
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     const Face &face = at(mesh.faces, f), &image = at(mesh.faces, at(mirror.face, f));
     ASSERT_EQ(face.size, image.size);
+    if (at(mirror.turn, f) == Mirror::in_plane) {
+      EXPECT_EQ(at(mirror.face, f), f);
+      for (int c = 0; c < face.size; ++c)
+        EXPECT_EQ(at(mirror.vertex, at(face.vertex, c)), at(face.vertex, c));
+      continue;
+    }
     for (int c = 0; c < face.size; ++c)
       EXPECT_EQ(image.vertex[std::size_t((at(mirror.turn, f) - c + face.size) % face.size)],
                 at(mirror.vertex, face.vertex[std::size_t(c)]));
@@ -70,6 +77,19 @@ TEST(Mirror, OfSheetsThatMeet) {
     const std::vector<Mirror> found = mirrors(mesh);
     EXPECT_EQ(found.size(), 3u);
     for (const Mirror& mirror : found) expect_a_mirror(mesh, mirror);
+  }
+}
+
+// In either plane one of two fins is a wall.
+TEST(Mirror, OfAWallInThePlane) {
+  for (const ControlMesh& mesh :
+       {working(control(plate_with_fins())), turned(control(plate_with_fins()))}) {
+    const std::vector<Mirror> found = mirrors(mesh);
+    EXPECT_EQ(found.size(), 2u);
+    for (const Mirror& mirror : found) {
+      expect_a_mirror(mesh, mirror);
+      EXPECT_GT(std::count(mirror.turn.begin(), mirror.turn.end(), Mirror::in_plane), 0);
+    }
   }
 }
 

@@ -57,6 +57,24 @@ TEST(Sheets, CubesThatShareAnEdge) {
   EXPECT_EQ(crease_edges(mesh).size(), 2u);
 }
 
+TEST(Sheets, AMobiusStripIsThereTwice) {
+  const ControlMesh mesh = build(mobius(5));
+  EXPECT_EQ(mesh.copied_vertex.size(), 10u);
+  EXPECT_EQ(mesh.second, std::vector<std::uint8_t>(10, 1));
+  EXPECT_EQ(mesh.copied_face, (Ids{0, 1, 2, 3, 4}));
+  EXPECT_EQ(mesh.copied_edge.size(), 15u);
+  EXPECT_EQ(number_sheets(mesh).count, 1);
+  ASSERT_EQ(mesh.chains.size(), 1u);  // one boundary
+  EXPECT_TRUE(mesh.chains[0].closed);
+  EXPECT_EQ(mesh.chains[0].edges.size(), 10u);
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e) EXPECT_FALSE(mesh.nonmanifold(e));
+  EXPECT_TRUE(crease_edges(mesh).empty());
+  for (int level = 0; level < 4; ++level) {
+    const GridLevel grid(mesh, level);
+    EXPECT_EQ(Weld(grid).size(), std::size_t(grid_size(10, 15, 0, 5, level)));
+  }
+}
+
 TEST(Sheets, ConesThatTouchInAPoint) {
   const ControlMesh mesh = build(hourglass());
   EXPECT_EQ(mesh.copied_vertex, (Ids{0}));

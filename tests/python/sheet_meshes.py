@@ -98,3 +98,16 @@ def mirrored_book(seed: int = 4):
     for first in (0, 2 * size):
         faces[first + size : first + 2 * size] = image[faces[first : first + size, ::-1]]
     return vertices, faces
+
+
+def mirrored_book_with_a_wall(seed: int = 4):
+    """The same with a fifth page, uneven but in x = 0: (vertices, faces, faces of the wall)."""
+    vertices, faces = mirrored_book(seed)
+    size = len(faces) // 4
+    out = np.arange(1, 4)[:, None, None] * [0.0, 1.1, 0.2] + vertices[:4]
+    out += np.random.default_rng(seed).uniform(-0.3, 0.3, out.shape) * [0, 1, 1]
+    at = np.concatenate([[np.arange(4)], np.arange(12).reshape(3, 4) + len(vertices)])
+    wall = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
+    assert len(wall) == size
+    mesh = np.concatenate([vertices, out.reshape(-1, 3)]), np.concatenate([faces, wall])
+    return *mesh, np.arange(size) + 4 * size

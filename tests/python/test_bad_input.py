@@ -101,11 +101,6 @@ def test_orientation_repaired_on_request():
     assert np.abs(np.sort(sound.vertices, 0) - np.sort(result.vertices, 0)).max() < 1e-8
 
 
-@pytest.mark.parametrize("repair", [False, True])
-def test_a_moebius_strip_is_refused(repair):
-    assert_refused("NON_ORIENTABLE", list(range(7)), *meshes.moebius(), repair_orientation=repair)
-
-
 def test_zero_area_triangle():
     vertices, faces = meshes.grid(2, 2)
     cut = meshes.cut_quads((vertices, faces))[1]

@@ -270,7 +270,7 @@ def test_what_no_program_can_mend_is_refused_in_the_input_s_ids():
 def test_a_one_sided_surface_is_named_by_the_faces_of_the_input():
     strip, quads = meshes.moebius()
     with pytest.raises(df.FairingError) as caught:
-        df.fair(strip, [quads[0], *quads], 1, repair="mend")
+        df.fair(strip, [quads[0], *quads], 1, "total_curvature", repair="mend")
     ids = [0, *range(2, 8)]
     assert (caught.value.code, caught.value.elements) == ("NON_ORIENTABLE", ids)
     assert str(caught.value).startswith("7 faces (0, 2, 3, 4, 5, …) belong to a surface")

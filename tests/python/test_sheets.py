@@ -100,6 +100,7 @@ def test_sheets_are_counted_and_told():
         "count": 3,
         "nonmanifold_edges": 4,
         "nonmanifold_vertices": 0,
+        "one_sided": 0,
     }
     (warning,) = result.report["warnings"]
     assert warning["code"] == "NONMANIFOLD_EDGE" and len(warning["elements"]) == 8
@@ -110,6 +111,7 @@ def test_sheets_are_counted_and_told():
         "count": 1,
         "nonmanifold_edges": 0,
         "nonmanifold_vertices": 0,
+        "one_sided": 0,
     }
 
 
@@ -125,6 +127,22 @@ def test_a_box_with_a_wall():
     middle = np.array([1, 0.5, 0.5])
     radii = np.linalg.norm(result.vertices[rim] - middle, axis=1)  # as of a spline through four
     assert radii.min() > 0.97 * 0.5**0.5 and radii.max() < 1.0001 * 0.5**0.5
+
+
+def test_no_triangle_is_cut_from_two_polygons():
+    """A pentagon and a quad have two edges in common, where others meet them. If both were cut
+    between these, curves would leave no room between the halves."""
+    vertices = [
+        [-0.85, 1.22, -1.36],
+        [0.99, -0.02, -1.47],
+        [-0.4, 1.2, -0.59],
+        [-1.21, -0.29, -0.82],
+    ]
+    vertices += [[-1.25, 0.44, 0.8], [-0.55, 0.52, -0.39], [-0.1, 0.12, 1.49], [0.51, -1.0, 0.52]]
+    for level in (0, 1, 2):
+        result = df.fair(vertices, [[0, 1, 2, 3, 4], [0, 1, 2, 5], [0, 1, 6], [1, 2, 7]], level)
+        triangles = np.sort(result.faces[0], axis=1)
+        assert len(np.unique(triangles, axis=0)) == len(triangles) > 0
 
 
 @pytest.mark.parametrize("mesh", [hourglass, bow_ties])

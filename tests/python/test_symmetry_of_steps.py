@@ -3,12 +3,13 @@
 is."""
 
 import control_meshes as meshes
+import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
 from mesh_files import read_mesh, weld
 from shared_data import shared_files
-from sheet_meshes import mirrored_book
+from sheet_meshes import mirrored_book, mirrored_book_with_a_wall
 from surfaces import assert_same_points, assert_same_positions, random_rotation, size_of
 
 ENERGIES = ["total_curvature", "minimum_variation"]
@@ -156,3 +157,14 @@ def test_of_sheets_that_meet(energy):
     result = tight.fair(vertices, faces, 2, energy)
     assert result.report["sheets"]["count"] == 4
     assert_symmetric(result.vertices)
+
+
+@pytest.mark.parametrize("pad_size", [0.0, 1.0])
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_of_a_wall_in_the_plane(energy, pad_size):
+    vertices, faces, wall = mirrored_book_with_a_wall()
+    result = df.fair(vertices, faces, 2, energy, pad_size=pad_size)
+    assert result.report["sheets"]["count"] == 5
+    assert_symmetric(result.vertices)
+    quads = result.faces[1][np.isin(result.quad_polygon, wall)]
+    assert (result.vertices[quads][..., 0] == 0).all()

@@ -3,10 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
+#include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
@@ -16,32 +17,6 @@ namespace {
 
 // A polygon no wider than this, of its length, is a line.
 constexpr double least_width = 1e-9;
-
-// A vertex inside a side of a face, and how far along.
-struct Between {
-  double share;
-  Index vertex;
-  bool operator<(const Between& other) const {
-    return share != other.share ? share < other.share : vertex < other.vertex;
-  }
-};
-
-// Where a corner is along the input's side from one corner to another; -1: not on it.
-double place_on(const CornerOrigin& origin, Index from, Index to) {
-  if (origin.share == 0) return origin.from == from ? 0 : origin.from == to ? 1 : -1;
-  if (origin.from == from && origin.beside == to) return origin.share;
-  return origin.from == to && origin.beside == from ? 1 - origin.share : -1;
-}
-
-// Of a corner so far along from corner a to the next, b.
-CornerOrigin origin_between(const CornerOrigin& a, const CornerOrigin& b, double share) {
-  const bool cut = a.share != 0 || b.share == 0;
-  const Index from = a.share == 0 && b.share != 0 ? b.from : a.from;
-  const Index to = a.share != 0 ? a.beside : cut ? b.from : b.beside;
-  const double begin = place_on(a, from, to), end = place_on(b, from, to);
-  if (begin < 0 || end < 0) return share < 0.5 ? a : b;
-  return {from, to, begin + share * (end - begin)};
-}
 
 // A face whose turn comes, the longest first: then its vertices go into faces that stay, rather than
 // into others that go. Its place does not depend on the order of faces.
@@ -53,12 +28,6 @@ struct Waiting {
     if (longest_side != other.longest_side) return longest_side > other.longest_side;
     return vertices != other.vertices ? vertices < other.vertices : face < other.face;
   }
-};
-
-// A side of faces, and what lies inside it, in order from `low`.
-struct CutSide {
-  Index low, high;
-  std::vector<Between> between;
 };
 
 bool is_flat(std::span<const double> coordinates, std::span<const MendCorner> loop,
@@ -84,13 +53,16 @@ class Dissolver {
       : coordinates_(coordinates),
         loops_(loops),
         edges_(loops),
-        changed_at_(std::size_t(loops.count()), -1) {}
+        changed_at_(std::size_t(loops.count()), -1),
+        state_(std::size_t(loops.count()), State::sound) {}
 
   Dissolved run(const std::vector<Index>& flat) {
     for (const Index f : flat) wait(f, face(f));
     // Enough for any mesh that was not made to defeat it.
     std::size_t left = 16 * loops_.corners.size() + 1024;
-    for (; !waiting_.empty() && left > 0; --left) {
+    for (; left > 0; --left) {
+      if (waiting_.empty()) cut_sides_of_faces();
+      if (waiting_.empty()) break;
       stop_if_cancelled(left);
       const Index f = waiting_.begin()->face;
       waiting_.erase(waiting_.begin());
@@ -148,6 +120,7 @@ class Dissolver {
   }
 
   void wait(Index f, std::span<const MendCorner> loop) {
+    state_[std::size_t(f)] = State::flat;
     Waiting one{0, {}, f};
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Index here = loop[i].vertex, next = loop[(i + 1) % loop.size()].vertex;
@@ -164,6 +137,7 @@ class Dissolver {
       at = Index(changed_.size());
       changed_.emplace_back();
     }
+    state_[std::size_t(f)] = State::sound;
     if (!loop.empty() && is_flat(coordinates_, loop, ids_)) wait(f, loop);
     changed_[std::size_t(at)] = std::move(loop);
   }
@@ -175,6 +149,7 @@ class Dissolver {
       if (i > 0) {
         new_origin_.push_back(from);
         changed_at_.push_back(-1);
+        state_.push_back(State::sound);
       }
       const Index to = i == 0 ? f : Index(changed_at_.size()) - 1;
       edges_.add(loops[i], to);
@@ -185,43 +160,71 @@ class Dissolver {
   void dissolve(Index f, const Loop& loop) {
     set(f, {});
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const CutSide side = cut_side(loop, loop[i].vertex, loop[(i + 1) % loop.size()].vertex);
+      CutSide side = cut_side(loop, loop[i].vertex, loop[(i + 1) % loop.size()].vertex);
       if (side.between.empty()) continue;
-      for (const Index other : edges_.around(side.low, side.high)) insert(other, side);
-      auto& known = cut_[{side.low, side.high}];
-      known.clear();
-      for (const Between& one : side.between) known.push_back(one.vertex);
+      for (const Index other : edges_.around(side.low, side.high)) {
+        State& state = state_[std::size_t(other)];
+        if (state == State::flat)
+          insert(other, side);
+        else if (std::exchange(state, State::to_cut) == State::sound)
+          to_cut_.push_back(other);
+      }
+      cut_.add(std::move(side));
     }
   }
 
-  // The side between two corners, with all others that lie strictly inside it.
+  // What has an area gets the vertices inside its sides once no flat face is left: a side may be cut
+  // many times over, and a face is long then.
+  void cut_sides_of_faces() {
+    std::vector<Index> faces = std::move(to_cut_);
+    to_cut_.clear();
+    std::sort(faces.begin(), faces.end());
+    for (const Index f : faces) {
+      if (state_[std::size_t(f)] != State::to_cut) continue;
+      state_[std::size_t(f)] = State::sound;
+      Loop longer = cut_.expanded(face(f));
+      if (longer.size() > face(f).size()) replace(f, without_repeats(std::move(longer)));
+    }
+  }
+
+  static std::vector<Loop> without_repeats(Loop loop) {
+    std::vector<Index> vertices;
+    for (const MendCorner& corner : loop) vertices.push_back(corner.vertex);
+    std::sort(vertices.begin(), vertices.end());
+    if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end())
+      return simple_loops(loop);
+    return {std::move(loop)};
+  }
+
+  // The side between two corners, with all others that lie strictly inside it: nearer to either end
+  // than these are to each other.
   CutSide cut_side(const Loop& loop, Index a, Index b) const {
     CutSide side{std::min(a, b), std::max(a, b), {}};
-    const Vec3 begin = point(side.low), way = point(side.high) - begin;
+    const Vec3 begin = point(side.low), end = point(side.high), way = end - begin;
     for (const MendCorner& corner : loop) {
       if (corner.vertex == a || corner.vertex == b) continue;
       const double share = way.dot(point(corner.vertex) - begin) / way.squaredNorm();
-      if (share > 0 && share < 1) side.between.push_back({share, corner.vertex});
+      const double farther =
+          std::max((point(corner.vertex) - begin).norm(), (point(corner.vertex) - end).norm());
+      if (share > 0 && share < 1 && farther < way.norm())
+        side.between.push_back({share, corner.vertex});
     }
     std::sort(side.between.begin(), side.between.end());
     return side;
   }
 
-  // Gives a face, if it still has this side whichever way round, the vertices inside it.
+  // Gives a flat face, if it still has this side whichever way round, the vertices inside it.
   void insert(Index f, const CutSide& side) {
     const auto loop = face(f);
-    const std::size_t more = side.between.size();
     Loop longer;
     for (std::size_t i = 0; i < loop.size(); ++i) {
+      stop_if_cancelled(++steps_);
       const MendCorner &here = loop[i], &next = loop[(i + 1) % loop.size()];
       longer.push_back(here);
-      const bool ahead = here.vertex == side.low && next.vertex == side.high;
-      if (!ahead && !(here.vertex == side.high && next.vertex == side.low)) continue;
-      for (std::size_t k = 0; k < more; ++k) {
-        const Between& one = side.between[ahead ? k : more - 1 - k];
-        const double share = ahead ? one.share : 1 - one.share;
-        longer.push_back({one.vertex, origin_between(here.origin, next.origin, share)});
-      }
+      if (std::min(here.vertex, next.vertex) != side.low ||
+          std::max(here.vertex, next.vertex) != side.high)
+        continue;
+      for (const MendCorner& corner : corners_between(side, here, next)) longer.push_back(corner);
     }
     if (longer.size() == loop.size()) return;
     const auto meets = [&](const MendCorner& corner) {
@@ -260,8 +263,7 @@ class Dissolver {
     auto& faces = done_.faces;
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    for (auto& [edge, between] : cut_)
-      done_.cut_edges.push_back({edge.first, edge.second, std::move(between)});
+    done_.cut_edges = cut_.edges();
   }
 
   std::span<const double> coordinates_;
@@ -272,8 +274,12 @@ class Dissolver {
   std::vector<Index> changed_at_;
   std::vector<Loop> changed_;
   std::vector<Index> new_origin_;
+  enum class State : std::uint8_t { sound, flat, to_cut };
+  std::vector<State> state_;
   std::set<Waiting> waiting_;
-  std::map<std::pair<Index, Index>, std::vector<Index>> cut_;
+  std::vector<Index> to_cut_;
+  CutSides cut_;
+  std::size_t steps_ = 0;  // between questions
   Dissolved done_;
   std::vector<std::int64_t> ids_;
 };

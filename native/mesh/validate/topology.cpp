@@ -49,7 +49,7 @@ void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_has
 
 std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
   std::int32_t size = 0;
-  half_edges.visit_fan(k, [&](std::int32_t) { ++size; });
+  half_edges.visit_fan(k, [&](std::int32_t, bool) { ++size; });
   return size;
 }
 
@@ -221,8 +221,8 @@ void check_orientation(const Orientation& orientation, bool repair, Defects& fou
         ErrorCode::non_orientable,
         listing(face_s, one_sided, {"belongs", "belong"}) +
             " to a surface with only one side, like a Möbius strip: no turning of faces can "
-            "help. Cut it open.",
-        one_sided);
+            "help. Only the thin plate takes it; cut it open for other energies.",
+        one_sided, Severity::warning);
   if (!to_flip.empty())
     found.emplace_back(
         ErrorCode::inconsistent_orientation,

@@ -25,6 +25,7 @@ op.use_corner_angle = False
 op.corner_angle = 1.047198
 op.metric_exponent = 0.5
 op.repair = "MEND"
+op.weld = 0.0
 op.use_shape_keys = True
 op.copy_modifiers = False
 op.hide_source = True

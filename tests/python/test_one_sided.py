@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets with only one side: the thin plate fairs them as it does their double covers."""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from one_sided_meshes import core, klein_bottle, strip
+from surfaces import euler_characteristic, output_faces
+from test_sheets import assert_welded, corners_of
+from tight import Solver, fair
+
+AROUND, ACROSS = 9, 2
+HALF = AROUND * (ACROSS + 1)
+
+
+def cases(triangles=False):
+    return (strip(AROUND, ACROSS, triangles), strip(AROUND, ACROSS, triangles, cover=True))
+
+
+def assert_half_of(one, two, faces, tolerance=1e-9):
+    own = np.arange(faces)
+    assert np.abs(corners_of(one, own) - corners_of(two, own)).max() <= tolerance
+
+
+def on_cover(edges):
+    """Edges of the strip on its cover: a vertex (i, j) is at (i, j) and at (i + around, -j)."""
+    row, column = np.divmod(np.asarray(edges), ACROSS + 1)
+    over = (row + AROUND) * (ACROSS + 1) + ACROSS - column
+    at = [np.asarray(edges), over]
+    pairs = np.concatenate([np.stack([a[:, 0], b[:, 1]], -1) for a in at for b in at])
+    rows = pairs // (ACROSS + 1)
+    apart = np.abs(rows[:, 0] - rows[:, 1])
+    return pairs[np.minimum(apart, 2 * AROUND - apart) <= 1]
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+@pytest.mark.parametrize("levels", [0, 1, 3])
+def test_a_strip_is_half_its_double_cover(triangles, levels):
+    (vertices, faces), cover = cases(triangles)
+    result = fair(vertices, faces, levels, relative_residual=1e-12)
+    assert result.report["converged"]
+    assert_welded(result, vertices, faces)
+    assert result.report["sheets"]["one_sided"] == result.report["sheets"]["count"] == 1
+    assert [w["code"] for w in result.report["warnings"]] == ["NON_ORIENTABLE"]
+    twice = fair(*cover, levels, relative_residual=1e-12)
+    assert_half_of(result, twice, len(faces))
+    for part in ("result", "polyhedron"):
+        for name, whole in twice.report["energy"][part].items():
+            assert result.report["energy"][part][name] == pytest.approx(whole / 2, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"pad_size": 1.0},
+        {"boundary": "free"},
+        {"boundary": "linear", "pad_size": 1.0},
+        {"corner_vertices": [0, 4]},
+        {"crease_angle": 0.3, "corner_angle": 0.5},
+        {"tension": 0.5},
+        {"epsilon": 0.1},
+        {"interpolation": "approximate", "tolerance": 0.1, "pad_size": 1.0},
+    ],
+    ids=lambda options: "-".join(options),
+)
+def test_with_all_options(options):
+    (vertices, faces), cover = cases()
+    twice = dict(options)
+    if "corner_vertices" in options:
+        corners = np.array(options["corner_vertices"])
+        twice["corner_vertices"] = np.unique(on_cover(np.stack([corners, corners], -1)))
+    result = fair(vertices, faces, 2, **options)
+    assert result.report["converged"]
+    assert_half_of(result, fair(*cover, 2, **twice), len(faces), 1e-4)
+    moves = "epsilon" in options or "tolerance" in options
+    moved = np.linalg.norm(result.vertices[: len(vertices)] - vertices, axis=1)
+    assert moved.max() <= 0.1 and (moved.max() > 1e-3) == moves
+
+
+def test_weights_of_vertices():
+    (vertices, faces), cover = cases()
+    weights = np.exp(np.sin(np.arange(HALF)))
+    both = weights[
+        np.concatenate([np.arange(HALF), np.arange(HALF).reshape(-1, 3)[:, ::-1].ravel()])
+    ]
+    near = {"interpolation": "approximate"}
+    result = fair(vertices, faces, 2, weights=weights, **near)
+    assert_half_of(result, fair(*cover, 2, weights=both, **near), len(faces), 1e-6)
+
+
+def test_a_crease_that_goes_around_once():
+    (vertices, faces), cover = cases()
+    middle = core(AROUND, ACROSS)
+    result = fair(vertices, faces, 3, crease_edges=middle)
+    assert sorted(map(sorted, result.crease_edges.tolist())) == sorted(map(sorted, middle.tolist()))
+    assert_half_of(result, fair(*cover, 3, crease_edges=on_cover(middle)), len(faces), 1e-7)
+    # a closed curve, smooth all around
+    smooth = fair(vertices, faces, 3)
+    assert not np.array_equal(result.vertices, smooth.vertices)
+
+
+@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
+def test_regions(joint):
+    (vertices, faces), cover = cases()
+    chosen = np.arange(4, 12)
+    result = fair(vertices, faces, 2, region=chosen, joint=joint)
+    twice = fair(*cover, 2, region=np.concatenate([chosen, chosen + len(faces)]), joint=joint)
+    assert_half_of(result, twice, len(faces), 1e-6)
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+def test_the_symmetry_of_the_strip_stays(triangles):
+    vertices, faces = strip(11, 2)
+    if triangles:  # each quad about its own centre, so that the turn maps faces to faces
+        centres = vertices[faces].mean(1)
+        ids = np.arange(len(faces)) + len(vertices)
+        faces = np.concatenate(
+            [np.stack([faces[:, k], faces[:, (k + 1) % 4], ids], -1) for k in range(4)]
+        )
+        vertices = np.concatenate([vertices, centres])
+    points = fair(vertices, faces, 3, relative_residual=1e-12).vertices
+    turned = points * [1, -1, -1]
+    nearest = np.linalg.norm(points[:, None] - turned[None], axis=-1).min(0)
+    assert nearest.max() <= 1e-9
+
+
+def test_faces_may_look_either_way():
+    vertices, faces = strip(AROUND, ACROSS)
+    turned = faces.copy()
+    turned[::3] = turned[::3, ::-1]
+    here, there = fair(vertices, faces, 2), fair(vertices, turned, 2, repair="mend")
+    for f in (1, 2, 4, 17):  # these are as they were
+        assert np.abs(corners_of(here, [f]) - corners_of(there, [f])).max() <= 1e-7
+    assert there.report["flipped_faces"] == there.report["repairs"] == []
+
+
+def test_a_closed_one_with_polygons():
+    vertices, quads = klein_bottle()
+    result = fair(vertices, quads, 2)
+    assert_welded(result, vertices, quads)
+    assert result.report["sheets"]["one_sided"] == 1 and euler_characteristic(quads.tolist()) == 0
+    # two quads as a hexagon, which is split around its centre
+    a, b = quads[0], quads[6]
+    hexagon = [a[0], a[1], b[1], b[2], a[2], a[3]]
+    assert set(a) & set(b) == {a[1], a[2]}
+    faces = [hexagon, *np.delete(quads, [0, 6], 0).tolist()]
+    split = fair(vertices, faces, 2)
+    fine = output_faces(split)
+    assert euler_characteristic(fine) == 0
+    assert np.array_equal(np.unique(np.concatenate(fine)), np.arange(len(split.vertices)))
+    assert len(split.vertices) == df.predicted_size(len(vertices), faces, 2)["vertices"]
+
+
+def test_beside_other_sheets():
+    """A strip with a fin along its middle, and a ball in the same mesh."""
+    vertices, faces = strip(AROUND, ACROSS)
+    ball, quads = meshes.cube()
+    middle = core(AROUND, ACROSS)[:-1]
+    first = len(vertices)
+    fin = vertices[middle[:, 0]] * [0.5, 0.5, 1] + [0, 0, 1.5]
+    at = np.concatenate(
+        [middle[:-1], np.stack([first + 1 + np.arange(7), first + np.arange(7)], -1)], 1
+    )
+    all_faces = np.concatenate([faces, at, quads + first + len(fin)])
+    points = np.concatenate([vertices, fin, ball + [9, 0, 0]])
+    result = fair(points, all_faces, 2)
+    assert_welded(result, points, all_faces)
+    sheets = result.report["sheets"]
+    assert (sheets["count"], sheets["one_sided"], sheets["nonmanifold_edges"]) == (3, 1, 7)
+    own = np.arange(len(faces) + len(at), len(all_faces))
+    alone = fair(ball + [9, 0, 0], quads, 2)
+    assert np.abs(corners_of(result, own) - corners_of(alone, np.arange(len(quads)))).max() <= 1e-9
+
+
+def test_shapes_a_solver_and_threads():
+    vertices, faces = strip(AROUND, ACROSS)
+    moved = vertices + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]])
+    result = fair(vertices, faces, 2, shapes=[moved])
+    solver = Solver(vertices, faces, 2)
+    assert np.array_equal(solver.solve().vertices, result.vertices)
+    assert np.abs(solver.solve(moved).vertices - result.shapes[0]).max() <= 1e-6
+    solver.rebase(moved)
+    again = fair(moved, faces, 2)
+    assert np.abs(solver.solve().vertices - again.vertices).max() <= 1e-6
+    two = fair(vertices, faces, 2, threads=2)
+    assert np.array_equal(fair(vertices, faces, 2, threads=1).vertices, two.vertices)
+
+
+def test_as_smooth_where_it_closes_as_anywhere():
+    """The default accuracy leaves the two halves of the cover apart: no step may be seen."""
+    vertices, faces = strip(AROUND, ACROSS)
+    points, quads = df.fair(vertices, faces, 4), None
+    quads = points.faces[1]
+    corner = points.vertices[quads]
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    sides = np.sort(np.stack([quads, np.roll(quads, -1, 1)], -1).reshape(-1, 2), 1)
+    order = np.lexsort(sides.T)
+    pairs = np.flatnonzero((sides[order][1:] == sides[order][:-1]).all(1))
+    f, g = order[pairs] // 4, order[pairs + 1] // 4
+    angle = np.arccos(np.clip(np.abs((normal[f] * normal[g]).sum(1)), 0, 1))
+    seam = (points.quad_polygon[f] // ACROSS == AROUND - 1) & (points.quad_polygon[g] < ACROSS)
+    seam |= (points.quad_polygon[g] // ACROSS == AROUND - 1) & (points.quad_polygon[f] < ACROSS)
+    assert seam.sum() == 16 * ACROSS
+    assert angle[seam].max() <= 1.5 * np.median(angle[~seam]) + 0.02
+
+
+@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
+@pytest.mark.parametrize("repair", ["refuse", "mend"])
+def test_other_energies_say_why_not(energy, repair):
+    vertices, faces = strip(7, 1)
+    with pytest.raises(df.FairingError, match="one side, like a Möbius strip. Only the thin") as e:
+        df.fair(vertices, faces, 2, energy, repair=repair)
+    assert (e.value.code, e.value.elements) == ("NON_ORIENTABLE", list(range(7)))
