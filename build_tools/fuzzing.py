@@ -9,7 +9,8 @@ from layout import BUILD, ROOT, VENV_PYTHON
 from shell import DevError, output, run
 
 TESTS = ROOT / "tests" / "fuzz"
-PRESET = "asan-ubsan"
+ADDRESSES, THREADS = "asan-ubsan", "tsan"  # presets
+LIBRARIES = {ADDRESSES: ("libasan.so", "libubsan.so"), THREADS: ("libtsan.so",)}
 
 
 def fuzz(minutes: float) -> int:
@@ -20,37 +21,34 @@ def fuzz(minutes: float) -> int:
     return run(VENV_PYTHON, TESTS / "run.py", *arguments, check=False, PYTHONPATH=meshes)
 
 
-def sanitized_package() -> Path:
-    """A folder to import discrete_fairing from, built with the sanitizers."""
+def sanitized_package(preset: str) -> Path:
+    """A folder to import discrete_fairing from, built with the preset's sanitizers."""
     code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
     if code:
         raise DevError("pybind11 is not in .venv: run `dev.py setup`.")
     run(
         "cmake",
         "--preset",
-        PRESET,
+        preset,
         "-DDF_BUILD_PYTHON=ON",
         f"-Dpybind11_DIR={pybind11.strip()}",
         f"-DPython_EXECUTABLE={VENV_PYTHON}",
     )
-    run("cmake", "--build", "--preset", PRESET, "--target", "_native")
-    folder = BUILD / PRESET / "package"
+    run("cmake", "--build", "--preset", preset, "--target", "_native")
+    folder = BUILD / preset / "package"
     shutil.rmtree(folder, ignore_errors=True)
     package = folder / "discrete_fairing"
     shutil.copytree(ROOT / "native" / "binding" / "discrete_fairing", package)
-    for module in (BUILD / PRESET).rglob("_native*.so"):
+    for module in (BUILD / preset).rglob("_native*.so"):
         shutil.copy(module, package)
     return folder
 
 
-def sanitized_environment() -> dict[str, str]:
-    """What makes a plain Python load and obey the sanitizers."""
-    libraries = [
-        output("g++", f"-print-file-name={name}")[1].strip()
-        for name in ("libasan.so", "libubsan.so")
-    ]
+def sanitized_environment(preset: str = ADDRESSES) -> dict[str, str]:
+    """What makes a plain Python load and obey the preset's sanitizers."""
+    libraries = [output("g++", f"-print-file-name={name}")[1].strip() for name in LIBRARIES[preset]]
     return {
-        "PYTHONPATH": str(sanitized_package()),
+        "PYTHONPATH": str(sanitized_package(preset)),
         "LD_PRELOAD": " ".join(libraries),
         # Python leaves much behind at exit; a refused allocation is for us to answer
         "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1",

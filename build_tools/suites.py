@@ -22,6 +22,7 @@ REPORTS = BUILD / "reports"
 # tests of one label alone, or all others
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
+NIGHT_OF_FUZZING = 30.0  # minutes
 
 
 def read_junit(report: Path) -> Tally:
@@ -69,9 +70,9 @@ def faults_suite() -> dict[str, Tally]:
 
 
 def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
-    """pytest on one folder below tests/."""
+    """pytest on one folder or file below tests/."""
     native_wheel.install()
-    report = fresh_report(name)
+    report = fresh_report(name.replace("/", "-"))
     command = [VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}"]
     code = run(*command, *options, check=False, **environment)
     return with_exit_code(read_junit(report), code)
@@ -131,10 +132,28 @@ def arm_suite() -> Tally:
     return qemu.run_suite()
 
 
+def long_fuzz() -> Tally:
+    """Random calls that no run has made before."""
+    failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0
+    return Tally(passed=int(not failed), failed=int(failed))
+
+
+def nightly_suite() -> dict[str, Tally]:
+    """What is too long for every day: races between threads, new random calls."""
+    return {
+        "races, native": native_suite(fuzzing.THREADS, *NO_FAULTS),
+        "races, package": pytest_suite(
+            "python/test_threads.py", **fuzzing.sanitized_environment(fuzzing.THREADS)
+        ),
+        "fuzz": long_fuzz(),
+    }
+
+
 # by name alone: they take half an hour each
 LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "windows": windows_suite,
     "arm": arm_suite,
+    "nightly": nightly_suite,
 }
 
 

@@ -31,8 +31,14 @@ constexpr int degree_of_blocks = 2;
 // Solves with a factor, each on the residual that the one before has left.
 constexpr int refinement_steps = 3;
 
+// Of the products' terms: what rounding may leave of the residual.
+constexpr double rounding = 2e-15;
+
 // On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
 constexpr double settled_margin = 1.03;
+
+// Numbers a column of a narrow level's factor; that of a plate has some 80.
+constexpr std::size_t most_numbers_of_narrow = 20;
 
 // Of a level larger than direct_limit_of_hard that is factored nevertheless: half of what one of that
 // size takes on an even mesh.
@@ -43,8 +49,8 @@ constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
 // that, minimum variation of Suzanne went on for minutes).
 constexpr int least_degree_of_hard = 8;
 constexpr std::size_t hopeless_degree = 60;
-int degree_of_hard(std::size_t unknowns, std::size_t cheap, std::size_t price) {
-  const std::size_t dear = unknowns <= cheap ? unknowns / 5000 : price * unknowns / 1000;
+int degree_of_hard(std::size_t unknowns, bool is_cheap, std::size_t price) {
+  const std::size_t dear = is_cheap ? unknowns / 5000 : price * unknowns / 1000;
   return int(std::min<std::size_t>(least_degree_of_hard + dear, hopeless_degree));
 }
 
@@ -87,7 +93,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
                             double* x, const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
-    const CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
+    CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
     solve_direct(solver, limits, residual, x, out);
     return out;
   }
@@ -115,11 +121,22 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
 
 // A narrow level, as a disc of thin faces about one vertex, has a factor of few numbers however large
 // it is; the factor of the level below tells.
-bool Hierarchy::factors_cheaply(std::size_t index) const {
-  if (index != cycle_.base + 1 || !coarse_->direct()) return false;
+bool Hierarchy::knows_factor_below(std::size_t index) const {
+  return index == cycle_.base + 1 && coarse_->direct();
+}
+
+bool Hierarchy::may_factor(std::size_t index) const {
+  if (unknowns_[index] <= direct_limit_of_hard) return true;
+  if (!knows_factor_below(index)) return false;
   const double growth =
       double(unknowns_[index]) / double(std::max<std::size_t>(unknowns_[index - 1], 1));
   return growth * double(coarse_->factor_numbers()) <= double(most_factor_numbers);
+}
+
+bool Hierarchy::factors_cheaply(std::size_t index) const {
+  return unknowns_[index] <= options_.cheap_factor ||
+         (knows_factor_below(index) &&
+          coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
 }
 
 // Conjugate gradients, once more where the smoother takes blocks on the way; to the end, or until
@@ -164,9 +181,8 @@ Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start)
 }
 
 bool Hierarchy::is_too_hard(std::size_t index) const {
-  return (unknowns_[index] <= direct_limit_of_hard || factors_cheaply(index)) &&
-         MemoryLedger::fits(factor_bytes(unknowns_[index])) &&
-         cycle_.degree >= degree_of_hard(unknowns_[index], options_.cheap_factor, factor_price_);
+  return may_factor(index) && MemoryLedger::fits(factor_bytes(unknowns_[index])) &&
+         cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index), factor_price_);
 }
 
 // Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
@@ -187,7 +203,9 @@ void Hierarchy::take_blocks(std::size_t index) {
   if (options_.may_block) cycle_.degree = degree_of_blocks;
 }
 
-void Hierarchy::solve_direct(const CoarseSolver& solver, const PcgLimits& limits,
+// Where the factor's trace keeps it from K, once more with less of one. What is then left in spite of
+// a factor may be rounding, of which iterations make no less.
+void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
                              const Residual& residual, double* x, LevelSolve& out) {
   const std::size_t size = solver.size();
   Array<double>& r = pcg_.residual;
@@ -195,14 +213,20 @@ void Hierarchy::solve_direct(const CoarseSolver& solver, const PcgLimits& limits
   out.direct = true;
   out.smoother_degree = 0;
   const double scale = limits.from_start ? norm(workers_, size, r.data()) : limits.residual_scale;
-  for (int k = 0; k < refinement_steps && !out.converged; ++k) {
-    solver.solve(r.data(), step.data());
-    for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
-    residual(x, r.data());
-    const double now = norm(workers_, size, r.data());
-    out.residual = scale > 0 ? now / scale : 0;
-    out.converged = out.residual <= limits.tolerance || now <= limits.noise;
-  }
+  const auto refine = [&] {
+    for (int k = 0; k < refinement_steps && !out.converged; ++k) {
+      solver.solve(r.data(), step.data());
+      for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
+      residual(x, r.data());
+      const double now = norm(workers_, size, r.data());
+      out.residual = scale > 0 ? now / scale : 0;
+      out.converged = out.residual <= limits.tolerance || now <= limits.noise;
+    }
+  };
+  refine();
+  if (!out.converged && solver.lessen_trace()) refine();
+  if (!out.converged)
+    out.converged = norm(workers_, size, r.data()) <= rounding * solver.norm_of_terms(x);
 }
 
 // Stencils hardly change from level to level, and from some fineness on the spectrum's upper end

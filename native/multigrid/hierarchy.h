@@ -83,7 +83,7 @@ class Hierarchy {
   };
 
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
-  void solve_direct(const CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
+  void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
                     double* x, LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
   bool is_too_hard(std::size_t index) const;
@@ -92,6 +92,8 @@ class Hierarchy {
   PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
                     const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   void promote_to_coarsest(std::size_t index);
+  bool knows_factor_below(std::size_t index) const;
+  bool may_factor(std::size_t index) const;
   bool factors_cheaply(std::size_t index) const;
   void raise_degree(std::size_t index, const PcgResult& result, double tolerance);
 

@@ -3,10 +3,12 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "parallel/reductions.h"
 
 namespace fairing {
 
@@ -38,10 +40,11 @@ namespace {
 // Of the diagonal. A valence-three vertex alone cannot see some coarse waves; a trace of the
 // diagonal, well above rounding, keeps the factor definite, and the preconditioner as good. The same
 // serves what is left beside large rings. (More of it there spoils the steps: thin faces make K
-// ill-conditioned.)
-constexpr double trace = 1e-12;
+// ill-conditioned.) Where thousands of faces meet at a vertex they are so thin that it outweighs K on
+// smooth vectors; the least trace is just above rounding.
+constexpr double usual_trace = 1e-12, least_trace = 1e-15;
 
-void strengthen_diagonal(AssembledSystem& system) {
+void strengthen_diagonal(AssembledSystem& system, double trace) {
   const Eigen::VectorXd diagonal = system.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     system.matrix.coeffRef(i, i) += trace * diagonal(i);
@@ -51,29 +54,41 @@ void strengthen_diagonal(AssembledSystem& system) {
 
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
                            bool always_direct)
-    : op_(op), workers_(workers) {
+    : op_(op), workers_(workers), trace_(usual_trace) {
   if (unknowns > direct_limit && !always_direct) return;
   factor_ = std::make_unique<Factor>();
   refactor();
 }
 
 void CoarseSolver::refactor() {
+  if (factors()) return;
+  if (std::exchange(trace_, usual_trace) < usual_trace && factors()) return;
+  throw FairingError(ErrorCode::underdetermined,
+                     "The surface is not determined: a part of the mesh has too few fixed points. "
+                     "Interpolate more control vertices, or give them weights.");
+}
+
+bool CoarseSolver::lessen_trace() {
+  if (std::exchange(trace_, least_trace) == least_trace) return false;
+  refactor();
+  return trace_ == least_trace;
+}
+
+bool CoarseSolver::factors() {
   MemoryLedger::remove(std::exchange(factor_bytes_, 0));
   AssembledSystem system = op_.assemble();
-  strengthen_diagonal(system);
+  strengthen_diagonal(system, trace_);
   factor_->points = std::move(system.unknown_points);
-  if (factor_->points.empty()) return;
+  if (factor_->points.empty()) return true;
   factor_->compute(system.matrix);
   // A pivot that is no number is left to the steps, which refuse what comes of it.
   if (factor_->ldlt->info() != Eigen::Success ||
       (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
-    throw FairingError(ErrorCode::underdetermined,
-                       "The surface is not determined: a part of the mesh has too few fixed "
-                       "points. Interpolate more "
-                       "control vertices, or give them weights.");
+    return false;
   factor_numbers_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros());
   factor_bytes_ = factor_numbers_ * (sizeof(double) + sizeof(int));
   MemoryLedger::add(factor_bytes_);
+  return true;
 }
 
 CoarseSolver::~CoarseSolver() { MemoryLedger::remove(factor_bytes_); }
@@ -91,6 +106,15 @@ void CoarseSolver::solve(const double* b, double* x) const {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
+}
+
+double CoarseSolver::norm_of_terms(const double* x) const {
+  const Array<float>& inverse = op_.inverse_diagonal();
+  const std::size_t components = op_.components();
+  return std::sqrt(sum(workers_, op_.size(), [&](std::size_t i) {
+    const double over = inverse[i / components];
+    return over > 0 ? x[i] * x[i] / (over * over) : 0.0;
+  }));
 }
 
 void CoarseSolver::solve(const BlockJacobi* blocks, double largest_eigenvalue, int degree,

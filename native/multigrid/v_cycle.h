@@ -25,6 +25,8 @@ class CoarseSolver {
 
   // Call after the operator has changed.
   void refactor();
+  // Where solves gain too little: factors anew, nearer to K. Returns whether it could.
+  bool lessen_trace();
 
   std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
@@ -35,11 +37,16 @@ class CoarseSolver {
              SmootherState& state);
   // x <- K^-1 b in double; direct() only.
   void solve(const double* b, double* x) const;
+  // |D x|, D the diagonal of K: what products with x are made of.
+  double norm_of_terms(const double* x) const;
 
  private:
   struct Factor;
+  bool factors();
+
   LevelOperator& op_;
   Workers& workers_;
+  double trace_;  // that the diagonal takes
   std::unique_ptr<Factor> factor_;
   std::size_t factor_numbers_ = 0, factor_bytes_ = 0;
 };
