@@ -39,7 +39,9 @@ std::vector<Vec3> CurveSource::edge_points(Index e) const {
   return out;
 }
 
-CurveData CurveSource::sharp_edge(Index e) const { return {edge_points(e), {}}; }
+CurveData CurveSource::sharp_edge(Index e) const {
+  return {edge_points(e), {}, topology_.edges[std::size_t(e)].halved};
+}
 
 Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
   const int n = lattice_.n();
@@ -62,7 +64,7 @@ CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_norm
   const SideUse& use = edge.uses.front();
   const auto& sectors = topology_.face_sectors[std::size_t(use.face)];
   const int next = (use.side + 1) % lattice_.corners(use.face);
-  CurveData out{edge_points(e), {}};
+  CurveData out{edge_points(e), {}, edge.halved};
   const int n = lattice_.n(), stride = n / samples();
   for (int k = 0; k <= n; k += stride) {
     if (k > 0 && k < n)

@@ -9,7 +9,10 @@ namespace fairing {
 namespace {
 
 // What sliding along the curve counts, and what a tangent out of the surface's tangent plane does.
-constexpr double slide = 0.01, tilt = 0.3;
+constexpr double slide = 0.01, tilt = 0.03;
+// What the middle of a halved curve counts, which other curves start from.
+constexpr double middle_weight = 10;
+constexpr int refits = 3;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 
@@ -62,7 +65,10 @@ class CurveSystem {
       const std::size_t at = std::size_t(k);
       const CubicBasis b = cubic_basis(spans_, t[at]);
       Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
-      if (!along.empty()) weight -= (1 - slide) * along[at] * along[at].transpose();
+      if (data_.is_middle(at))
+        weight *= middle_weight;
+      else if (!along.empty())
+        weight -= (1 - slide) * along[at] * along[at].transpose();
       for (int i = 0; i < 4; ++i) {
         const Eigen::Index column = 3 * (b.first + i);
         rows.block<3, 3>(height * k, column) = b.value[std::size_t(i)] * weight;
@@ -112,27 +118,60 @@ double farthest(const SplineCurve& curve, const std::vector<Vec3>& points,
   return error;
 }
 
-FittedCurve fit_with(const CurveData& data, int spans) {
-  const CurveSystem system(data, spans);
+std::vector<double> even_parameters(std::size_t count) {
+  std::vector<double> t(count);
+  for (std::size_t k = 0; k < count; ++k) t[k] = double(k) / double(count - 1);
+  return t;
+}
+
+// By the length of the points' polygon. Of a halved curve by that rational function of it which
+// keeps both ends and has the middle point at 1/2.
+std::vector<double> length_parameters(const CurveData& data) {
+  std::vector<double> t{0.0};
+  for (std::size_t k = 1; k < data.points.size(); ++k)
+    t.push_back(t.back() + (data.points[k] - data.points[k - 1]).norm());
+  const double all = t.back();
+  if (!(all > 0)) return even_parameters(t.size());
+  const double middle = data.halved ? t[t.size() / 2] / all : 0.5;
+  if (!(middle > 0 && middle < 1)) return even_parameters(t.size());
+  for (double& at : t) at = at / all * (1 - middle) / (at / all * (1 - 2 * middle) + middle);
+  t.back() = 1;
+  return t;
+}
+
+FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   FittedCurve out;
   out.normals = data.normals;
-  const std::size_t last = data.points.size() - 1;
-  for (std::size_t k = 0; k <= last; ++k) out.parameters.push_back(double(k) / double(last));
+  out.parameters = even_parameters(data.points.size());
   out.curve = system.solve(out.parameters, {});
   out.error = farthest(out.curve, data.points, out.parameters);
-  if (out.error <= exact * length_of(data.points)) return out;
-  for (int round = 0; round < 3; ++round) {
-    std::vector<Vec3> along;
-    for (std::size_t k = 0; k <= last; ++k) {
+  return out;
+}
+
+FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system) {
+  FittedCurve out;
+  out.normals = data.normals;
+  out.parameters = length_parameters(data);
+  out.curve = system.solve(out.parameters, {});
+  const std::size_t last = data.points.size() - 1;
+  for (int round = 0; round <= refits; ++round) {
+    std::vector<Vec3> along{out.curve.at(0).tangent.normalized()};
+    for (std::size_t k = 1; k <= last; ++k) {
       double& t = out.parameters[k];
-      if (k > 0 && k < last) t = foot_of(out.curve, data.points[k], t);
+      if (k < last && !data.is_middle(k)) t = foot_of(out.curve, data.points[k], t);
       along.push_back(out.curve.at(t).tangent.normalized());
     }
-    if (round == 2) break;  // the last feet are what is reported
-    out.curve = system.solve(out.parameters, along);
+    if (round < refits) out.curve = system.solve(out.parameters, along);
   }
   out.error = farthest(out.curve, data.points, out.parameters);
   return out;
+}
+
+FittedCurve fit_with(const CurveData& data, int spans) {
+  const CurveSystem system(data, spans);
+  FittedCurve even = fit_evenly(data, system);
+  if (even.error <= exact * length_of(data.points)) return even;
+  return fit_by_length(data, system);
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace fairing {
 // normal of the surface; creases and boundaries have none.
 struct CurveData {
   std::vector<Vec3> points, normals;
+  bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
+
+  bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
 };
 
 struct FittedCurve {

@@ -25,6 +25,33 @@ std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& 
   return out;
 }
 
+// Where a curve has the points that lie evenly along a side of the lattice: blended from side to
+// side, these are where a patch's samples start.
+class SideMap {
+ public:
+  SideMap(const FittedCurve& curve, const PatchSide& side) : curve_(curve), side_(side) {
+    const bool half = side.part != Part::whole;
+    from_ = half ? on_side(side, curve_at(on_curve(side, 0))) : 0;
+    to_ = half ? on_side(side, curve_at(on_curve(side, 1))) : 1;
+  }
+  double operator()(double t) const {
+    return (on_side(side_, curve_at(on_curve(side_, t))) - from_) / (to_ - from_);
+  }
+
+ private:
+  double curve_at(double even) const {
+    const std::size_t last = curve_.parameters.size() - 1;
+    const double x = even * double(last);
+    const std::size_t k = std::min(std::size_t(x), last - 1);
+    const double share = x - double(k);
+    return (1 - share) * curve_.parameters[k] + share * curve_.parameters[k + 1];
+  }
+
+  const FittedCurve& curve_;
+  const PatchSide& side_;
+  double from_ = 0, to_ = 1;
+};
+
 // The inside of a quad, at even parameters.
 template <class Visit>
 void for_quad_points(int n, Visit&& visit) {
@@ -78,9 +105,14 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
     out.side[s] = part_of(curve.curve, side);
     out.normals[s] = side_normals(curve, side);
   }
+  const auto map = [&](std::size_t s) {
+    return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
+  };
+  const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
-    out.samples.push_back(
-        {lattice.position(place.face, p), lattice_normal(lattice, place.face, p), u, v, true});
+    out.samples.push_back({lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
+                           (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v),
+                           true});
   });
   return out;
 }
