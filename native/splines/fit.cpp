@@ -91,12 +91,16 @@ class Fitting {
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, place, curves_);
+    data.tolerance = tolerance();
+    data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
     const int most = std::max({most_on(place.corner >= 0), spans_u, spans_v});
     for (;;) {
       choose_fitted(lattice_, place, std::max(spans_u, spans_v), data);
-      fitted_[p] = fit_patch(data, spans_u, spans_v);
+      FittedPatch next = fit_patch(data, spans_u, spans_v);
+      if (fitted_[p].patch.net.empty() || next.misses < fitted_[p].misses)
+        fitted_[p] = std::move(next);
       if (!to_tolerance || fitted_[p].residual <= tolerance()) return;
       const double more = bends_more_along_u(fitted_[p].patch);
       const bool grow_u = spans_u < most && (more > 1 / one_sided || spans_v >= most),

@@ -14,7 +14,7 @@ namespace {
 constexpr double tilt = 0.3, rough = 1e-3;
 // What counts that a sample slides along the patch: on poor surfaces the least lets patches fold.
 constexpr double slides[] = {0.01, 0.1, 1.0};
-constexpr double right_angle = 1.5707963267948966;
+constexpr double folded = 0.5;  // radians
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -125,9 +125,17 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     for (const SideNormal& n : data.normals[std::size_t(s)]) {
       double& angle = out.side_angle[std::size_t(s)];
       angle = std::max(angle, angle_between(on_side(patch, s, n.t).normal(), n.normal));
+      out.turned = std::max(out.turned, angle);
     }
   out.patch = std::move(patch);
   return out;
+}
+
+double misses(const PatchData& data, const FittedPatch& fitted) {
+  double angle = 0;
+  for (const double side : fitted.side_angle) angle = std::max(angle, side);
+  const double miss = std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance);
+  return fitted.turned < folded ? miss : 1e6 * (1 + fitted.turned);
 }
 
 }  // namespace
@@ -154,8 +162,9 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
       fit_once(moved, patch, &slide);
     }
     FittedPatch next = measured(moved, std::move(patch));
-    if (slide == slides[0] || next.turned < best.turned) best = std::move(next);
-    if (best.turned < right_angle) break;
+    next.misses = misses(data, next);
+    if (slide == slides[0] || next.misses < best.misses) best = std::move(next);
+    if (best.misses <= 1) break;
   }
   return best;
 }
