@@ -58,6 +58,7 @@ void bind_errors(py::module_& m) {
 void bind_monitor(py::module_& m) {
   py::class_<Monitor>(m, "Monitor", "Watches a run, and cancels it, from any thread.")
       .def(py::init<>())
+      .def("_enter_part", &Monitor::enter_part)  // for the package's calls of several runs
       .def("cancel", &Monitor::cancel, "Makes the run stop soon, with the error CANCELLED.")
       .def_property_readonly("fraction", &Monitor::fraction,
                              "How much of the work is done, from 0 to 1; never decreases.")
@@ -140,6 +141,7 @@ PYBIND11_MODULE(_native, m) {
         py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");
   bind_solver(m);
+  bind_splines(m);
   bind_end();
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;

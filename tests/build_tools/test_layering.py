@@ -17,7 +17,7 @@ ROOMS = (
     ("parallel",),
     ("mesh",),
     ("grid",),
-    ("stencil",),
+    ("stencil", "splines"),
     ("curves", "hold"),
     ("sparse",),
     ("transfer",),

@@ -9,8 +9,11 @@
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size, repair_orientation
 from .fairing import fair
+from .fitting import fit_patches
+from .patches import SplinePatches, spline_knots
 from .result import Result
 from .solver import Solver
+from .step import write_step
 
 __all__ = [
     "Defect",
@@ -18,9 +21,13 @@ __all__ = [
     "Monitor",
     "Result",
     "Solver",
+    "SplinePatches",
     "__version__",
     "check",
     "fair",
+    "fit_patches",
     "predicted_size",
     "repair_orientation",
+    "spline_knots",
+    "write_step",
 ]

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""fit_patches(): from a control mesh to spline patches of its fair surface, in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf, nan
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, vertex_array
+from .checking import predicted_size
+from .errors import fairing_error
+from .fairing import fair
+from .options import real, switch, whole
+from .patches import SplinePatches, control_polygons
+from .result import Result
+from .watching import Progress, check_watchers
+
+FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
+# Points of a surface that is begun with, and of a finer one that a tolerance asks for.
+MOST_POINTS, MOST_FINER_POINTS = 6_000_000, 300_000
+TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
+FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
+# The share of the tolerance that the refined surface itself may be off.
+LATTICE_SHARE = 0.5
+
+
+def fit_patches(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    *,
+    tolerance: float = 1e-4,
+    normal_tolerance: float = 8e-4,
+    levels: int | None = None,
+    insist: bool = False,
+    fair_tolerance: float | ArrayLike | None = None,
+    threads: int = 0,
+    progress: Progress | None = None,
+    monitor: _native.Monitor | None = None,
+    **options: object,
+) -> SplinePatches:
+    """Bicubic B-spline patches of a control mesh's fair surface, ready for CAD (write_step).
+
+    Parameters
+    ----------
+    vertices, faces
+        As those of fair().
+    tolerance : float, share of the size
+        The farthest that a patch may be from the refined surface, and about that surface from finer
+        ones; the size is the largest extent along an axis.
+    normal_tolerance : float, radians
+        The sharpest angle between the normals of two patches along an edge that is no crease.
+    levels : int
+        How often the mesh is refined before patches are fitted. None: 5, or more where a tolerance
+        asks for it and the surface stays below 300 000 points; less for very large meshes.
+    insist : bool
+        Return patches also where the refined surface folds or is not resolved. Their input faces
+        are in patches.unresolved then.
+    fair_tolerance : float or (n,) float, mesh units
+        fair()'s own tolerance, with interpolation="approximate".
+    threads, progress, monitor, **options
+        As those of fair(): energy, creases, boundary and so on.
+
+    Returns
+    -------
+    SplinePatches
+        Where a tolerance could not be met, patches.unmet has the input faces.
+
+    Raises
+    ------
+    FairingError
+        As fair() does. UNRESOLVED where the refined surface folds, or turns by more than 20 degrees
+        between two of its faces; `elements` are the input faces there.
+    """
+    run = _Run(tolerance, normal_tolerance, switch("insist", insist))
+    check_watchers(progress, monitor)
+    if fair_tolerance is not None:
+        options["tolerance"] = fair_tolerance
+    watched = {
+        "threads": threads,
+        "monitor": monitor if monitor is not None else _native.Monitor(),
+        "progress": progress,
+    }
+    points = vertex_array(vertices)
+    polygons = face_arrays(faces)
+    if levels is not None:
+        level = whole("levels", levels)
+        watched["monitor"]._enter_part(0.0, 0.6)
+        result = fair(points, polygons, level, **options, **watched)
+        watched["monitor"]._enter_part(0.6, 1.0)
+        return run.checked(run.fitted(result, level, nan, watched))
+    return _at_own_level(run, points, polygons, options, watched)
+
+
+def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
+    """Finer and finer surfaces, until one serves or the next is too large."""
+    energy = options.get("energy", "thin_plate")
+
+    def count(level):
+        return predicted_size(len(points), polygons, level, 0, energy)["vertices"]
+
+    level = FIRST_LEVEL
+    while level > LEAST_LEVEL and count(level) > MOST_POINTS:
+        level -= 1
+    done = 0.0
+    coarser = None
+    for at in range(level - 1, LAST_LEVEL + 1):
+        watched["monitor"]._enter_part(done, done + 0.4 * (1 - done))
+        result = fair(points, polygons, at, **options, **watched)
+        done += 0.4 * (1 - done)
+        if at < level:
+            coarser = result
+            continue
+        last = at == LAST_LEVEL or count(at + 1) > MOST_FINER_POINTS
+        error = change_between(coarser, result, at) / 3  # of second order
+        coarser = result
+        size = float(np.ptp(result.vertices, axis=0).max(initial=0))
+        if error > LATTICE_SHARE * run.tolerance * size and not last:
+            continue
+        watched["monitor"]._enter_part(done, 1.0 if last else done + 0.5 * (1 - done))
+        found = run.fitted(result, at, error, watched)
+        done += 0.5 * (1 - done)
+        if last or not (len(found.unmet) or len(found.unresolved)):
+            break
+    return run.checked(found)
+
+
+class _Run:
+    """What is asked of patches."""
+
+    def __init__(self, tolerance: object, normal_tolerance: object, insist: bool):
+        self.tolerance = real("tolerance", tolerance)
+        self.normal_tolerance = real("normal_tolerance", normal_tolerance)
+        self.insist = insist
+        for name in ("tolerance", "normal_tolerance"):
+            if getattr(self, name) <= 0:
+                raise fairing_error(
+                    "BAD_OPTION", f"{name} is {getattr(self, name)}; it must be greater than 0."
+                )
+
+    def fitted(self, result: Result, level: int, lattice_error: float, watched) -> SplinePatches:
+        triangles, quads = result.faces
+        arrays = _native.fit_splines(
+            result.vertices,
+            triangles,
+            quads,
+            result.crease_edges,
+            level,
+            self.tolerance,
+            self.normal_tolerance,
+            whole("threads", watched["threads"]),
+            watched["monitor"],
+            watched["progress"],
+        )
+        bad = arrays["lattice_turn"] > TURN_LIMIT
+        bad[arrays["patch_face"][~(arrays["turned"] <= FOLD_LIMIT)]] = True
+        arrays.update(
+            tolerance=self.tolerance,
+            normal_tolerance=self.normal_tolerance,
+            lattice_error=lattice_error,
+            unresolved=np.unique(control_polygons(result, level)[bad]).astype(np.int64),
+        )
+        return SplinePatches(arrays, result, level)
+
+    def checked(self, patches: SplinePatches) -> SplinePatches:
+        faces = patches.unresolved.tolist()
+        if faces and not self.insist:
+            listed = ", ".join(map(str, faces[:5])) + (", …" if len(faces) > 5 else "")
+            noun, verb = ("face", "has") if len(faces) == 1 else ("faces", "have")
+            raise fairing_error(
+                "UNRESOLVED",
+                f"{len(faces)} {noun} ({listed}) {verb} a surface that folds or turns too sharply "
+                "for patches. Move or add control vertices there, or give insist=True.",
+                faces,
+                "face",
+            )
+        return patches
+
+
+def change_between(coarse: Result, fine: Result, levels: int) -> float:
+    """The largest distance, along normals, between the surface of `levels` and the one of a level
+    less, at the points that both have; mesh units.
+    """
+    largest = 0.0 if coarse is not None else inf
+    for corners, few, many in zip((3, 4), coarse.faces, fine.faces):
+        if not len(few):
+            continue
+        n = 2**levels
+        few = few.reshape(-1, n * n // 4, corners)
+        many = many.reshape(-1, n * n, corners)[:, _even_cells(corners, n)]
+        a, b, c = (fine.vertices[many[:, :, k]] for k in (0, 1, corners - 1))
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal, axis=2)
+        gap = np.einsum(
+            "fck,fck->fc", a - coarse.vertices[few[:, _all_cells(corners, n), 0]], normal
+        )
+        far = np.abs(gap) / np.where(length > 0, length, inf)
+        largest = max(largest, float(far.max(initial=0)))
+    return largest
+
+
+def _rows(corners: int, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Steps i and rows j of the cells of a face with `n` steps a side whose first corner is (i, j)."""
+    j, i = np.divmod(np.arange(n * n), n)
+    kept = i + j < n if corners == 3 else np.ones(n * n, bool)
+    return i[kept], j[kept]
+
+
+def _cell(corners: int, n: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    return n * n - (n - j) ** 2 + 2 * i if corners == 3 else n * j + i
+
+
+def _all_cells(corners: int, n: int) -> np.ndarray:
+    return _cell(corners, n // 2, *_rows(corners, n // 2))
+
+
+def _even_cells(corners: int, n: int) -> np.ndarray:
+    i, j = _rows(corners, n // 2)
+    return _cell(corners, n, 2 * i, 2 * j)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spline patches: what fit_patches() returns."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from .result import Result
+
+SMOOTH, CREASE, BOUNDARY = range(3)
+
+
+def spline_knots(spans: int) -> np.ndarray:
+    """(spans + 7,) float64: the knots of a cubic with so many spans, uniform on [0, 1] and clamped
+    at both ends.
+    """
+    inside = np.linspace(0.0, 1.0, spans + 1)
+    return np.concatenate([[0.0] * 3, inside, [1.0] * 3])
+
+
+class SplinePatches:
+    """P bicubic B-spline patches, C2 inside, that share E edges and V vertices.
+
+    Knots are uniform and clamped (spline_knots). A control quad is one patch, a control triangle
+    three, around its centroid. Lengths are in mesh units, angles in radians.
+
+    vertices: (V, 3) float64.
+    patch_spans: (P, 2) int32, along u and v. Patch p has (spans + 3) control points each way.
+    patch_points: (C, 3) float64, the control points of all patches; net(p) has those of one.
+    patch_offsets: (P + 1,) int64: patch p has the rows patch_offsets[p] ... [p + 1] - 1.
+    patch_polygon: (P,) int32, the input face that each patch comes from.
+    patch_face: (P,) int32, its control face: all triangles come first, then all quads.
+    patch_shell: (P,) int32, the shell that each belongs to.
+    shell_closed: (S,) bool, whether a shell has no free edge.
+    edge_spans: (E,) int32; edge_points: (D, 3) float64; edge_offsets: (E + 1,) int64; as of patches.
+    edge_vertices: (E, 2) int32, where an edge starts and ends.
+    edge_kind: (E,) uint8, 0 smooth, 1 crease, 2 boundary.
+    loop_edges: (L,) int32; loop_forward: (L,) bool; loop_offsets: (P + 1,) int64: the edges around
+    each patch, counter-clockwise, from u = v = 0 along u; four, or up to eight beside triangles.
+    residual: (P,) float64, the farthest that a point of the refined surface is from its patch.
+    turned: (P,) float64, the sharpest angle between the normals of patch and refined surface.
+    edge_error: (E,) float64, the farthest that a point of the refined surface is from the curve.
+    edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
+    along creases and boundaries.
+    lattice_error: float, how far the refined surface itself is about from the limit of finer ones;
+    NaN where `levels` was given.
+    unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
+    size: float, the largest extent along an axis.
+    tolerance, normal_tolerance: float, those asked for; tolerance is a share of the size.
+    levels: int, of the refined surface; result: Result, that surface.
+    """
+
+    def __init__(self, arrays: dict[str, Any], result: Result, levels: int):
+        self.result = result
+        self.levels = levels
+        self.vertices: np.ndarray = arrays["vertices"]
+        self.patch_spans: np.ndarray = arrays["patch_spans"]
+        self.patch_points: np.ndarray = arrays["patch_points"]
+        self.patch_offsets = _offsets((self.patch_spans.astype(np.int64) + 3).prod(axis=1))
+        self.patch_face: np.ndarray = arrays["patch_face"]
+        self.patch_polygon = control_polygons(result, levels)[self.patch_face]
+        self.edge_spans: np.ndarray = arrays["edge_spans"]
+        self.edge_points: np.ndarray = arrays["edge_points"]
+        self.edge_offsets = _offsets(self.edge_spans.astype(np.int64) + 3)
+        self.edge_vertices: np.ndarray = arrays["edge_vertices"]
+        self.edge_kind: np.ndarray = arrays["edge_kind"]
+        self.loop_edges: np.ndarray = arrays["loop_edges"]
+        self.loop_forward = arrays["loop_forward"].astype(bool)
+        self.loop_offsets: np.ndarray = arrays["loop_offsets"]
+        self.residual: np.ndarray = arrays["residual"]
+        self.turned: np.ndarray = arrays["turned"]
+        self.edge_error: np.ndarray = arrays["edge_error"]
+        self.edge_angles: np.ndarray = arrays["angles"]
+        self.size: float = arrays["size"]
+        self.tolerance: float = arrays["tolerance"]
+        self.normal_tolerance: float = arrays["normal_tolerance"]
+        self.lattice_error: float = arrays["lattice_error"]
+        self.unresolved: np.ndarray = arrays["unresolved"]
+        self.patch_shell, self.shell_closed = self._shells()
+
+    def __len__(self) -> int:
+        return len(self.patch_spans)
+
+    def net(self, p: int) -> np.ndarray:
+        """(spans_u + 3, spans_v + 3, 3) float64: the control points of patch p, a view."""
+        rows, columns = self.patch_spans[p] + 3
+        first = self.patch_offsets[p]
+        return self.patch_points[first : first + rows * columns].reshape(rows, columns, 3)
+
+    def edge(self, e: int) -> np.ndarray:
+        """(spans + 3, 3) float64: the control points of edge e, a view."""
+        return self.edge_points[self.edge_offsets[e] : self.edge_offsets[e + 1]]
+
+    def loop(self, p: int) -> list[tuple[int, bool]]:
+        """The edges around patch p, counter-clockwise, each with whether it runs forward."""
+        part = slice(self.loop_offsets[p], self.loop_offsets[p + 1])
+        return list(zip(self.loop_edges[part].tolist(), self.loop_forward[part].tolist()))
+
+    @cached_property
+    def unmet(self) -> np.ndarray:
+        """(k,) int64: input faces with a patch or an edge that misses a tolerance."""
+        far = self.residual > self.tolerance * self.size
+        worst = np.nan_to_num(self.edge_angles).max(axis=1, initial=0)
+        bad = (worst > self.normal_tolerance) | (self.edge_error > self.tolerance * self.size)
+        patch = np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
+        far[patch[bad[self.loop_edges]]] = True
+        return np.unique(self.patch_polygon[far]).astype(np.int64)
+
+    @property
+    def largest_residual(self) -> float:
+        """The farthest that a point of the refined surface is from its patch or edge, mesh units."""
+        return float(max(self.residual.max(initial=0), self.edge_error.max(initial=0)))
+
+    @property
+    def largest_angle(self) -> float:
+        """The sharpest angle between normals at a smooth edge, radians."""
+        return float(np.nan_to_num(self.edge_angles).max(initial=0))
+
+    def _shells(self) -> tuple[np.ndarray, np.ndarray]:
+        count = np.bincount(self.loop_edges, minlength=len(self.edge_spans))
+        patch = np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
+        order = np.argsort(self.loop_edges, kind="stable")
+        shared = order[count[self.loop_edges[order]] == 2].reshape(-1, 2)
+        # faces on both sides look the same way where they run against each other
+        agree = self.loop_forward[shared[:, 0]] != self.loop_forward[shared[:, 1]]
+        shell = connected_parts(len(self), patch[shared[agree]])
+        closed = np.ones(shell.max(initial=-1) + 1, bool)
+        free = np.ones(len(self.edge_spans), bool)
+        free[self.loop_edges[shared[agree, 0]]] = False
+        closed[shell[patch[free[self.loop_edges]]]] = False
+        return shell, closed
+
+    def __repr__(self) -> str:
+        return (
+            f"SplinePatches({len(self)} patches, {len(self.shell_closed)} shells, "
+            f"{self.largest_residual / self.size if self.size else 0:.1e} of the size off, "
+            f"{np.degrees(self.largest_angle):.3f} degrees at edges)"
+        )
+
+
+def control_polygons(result: Result, levels: int) -> np.ndarray:
+    """(F,) int32: the input face of each control face, triangles first."""
+    cells = 4**levels
+    return np.concatenate([result.triangle_polygon[::cells], result.quad_polygon[::cells]])
+
+
+def connected_parts(count: int, pairs: np.ndarray) -> np.ndarray:
+    """(count,) int32: which connected part each of `count` things is in; `pairs` (k, 2) connect.
+
+    Parts are numbered in the order of their first things.
+    """
+    part = np.arange(count)
+    while len(pairs):
+        low = np.minimum(part[pairs[:, 0]], part[pairs[:, 1]])
+        before = part.copy()
+        np.minimum.at(part, part[pairs[:, 0]], low)
+        np.minimum.at(part, part[pairs[:, 1]], low)
+        part = part[part]
+        if (part == before).all():
+            break
+    return np.unique(part, return_inverse=True)[1].reshape(-1).astype(np.int32)
+
+
+def _offsets(sizes: np.ndarray) -> np.ndarray:
+    return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/fit.h"
+
+#include <pybind11/pybind11.h>
+
+#include "binding/arrays.h"
+#include "binding/bindings.h"
+#include "binding/runner.h"
+
+namespace py = pybind11;
+
+namespace fairing {
+namespace {
+
+template <class T>
+std::span<const T> view(const Contiguous<T>& a) {
+  return {a.data(), std::size_t(a.size())};
+}
+
+template <class T>
+py::array to_numpy(const std::vector<T>& values, py::ssize_t columns = 1) {
+  Array<T> copy(values.begin(), values.end());
+  return to_numpy(std::move(copy), columns);
+}
+
+py::array points_array(const std::vector<Vec3>& points) {
+  Array<double> flat;
+  for (const Vec3& p : points)
+    for (const double x : p) flat.push_back(x);
+  return to_numpy(std::move(flat), 3);
+}
+
+void add_edges(py::dict& to, const std::vector<SplineEdge>& edges) {
+  std::vector<std::int32_t> spans, vertices;
+  std::vector<std::uint8_t> kinds;
+  std::vector<double> errors;
+  std::vector<Vec3> points;
+  for (const SplineEdge& edge : edges) {
+    spans.push_back(edge.curve.spans);
+    vertices.insert(vertices.end(), edge.vertex.begin(), edge.vertex.end());
+    kinds.push_back(std::uint8_t(edge.kind));
+    errors.push_back(edge.error);
+    points.insert(points.end(), edge.curve.points.begin(), edge.curve.points.end());
+  }
+  to["edge_spans"] = to_numpy(spans);
+  to["edge_vertices"] = to_numpy(vertices, 2);
+  to["edge_kind"] = to_numpy(kinds);
+  to["edge_error"] = to_numpy(errors);
+  to["edge_points"] = points_array(points);
+}
+
+void add_patches(py::dict& to, const SplineSurface& surface) {
+  std::vector<std::int32_t> spans, loops;
+  std::vector<std::int64_t> loop_offsets{0};
+  std::vector<std::uint8_t> forward;
+  std::vector<Vec3> points;
+  for (const SplinePatch& patch : surface.patches) {
+    spans.push_back(patch.spans_u);
+    spans.push_back(patch.spans_v);
+    points.insert(points.end(), patch.net.begin(), patch.net.end());
+  }
+  for (const std::vector<LoopEdge>& loop : surface.loops) {
+    for (const LoopEdge& edge : loop) {
+      loops.push_back(edge.edge);
+      forward.push_back(edge.forward);
+    }
+    loop_offsets.push_back(std::int64_t(loops.size()));
+  }
+  to["patch_spans"] = to_numpy(spans, 2);
+  to["patch_points"] = points_array(points);
+  to["patch_face"] = to_numpy(surface.face);
+  to["loop_edges"] = to_numpy(loops);
+  to["loop_forward"] = to_numpy(forward);
+  to["loop_offsets"] = to_numpy(loop_offsets);
+  to["residual"] = to_numpy(surface.residual);
+  to["turned"] = to_numpy(surface.turned);
+}
+
+py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::int32_t>& triangles,
+                    const Contiguous<std::int32_t>& quads,
+                    const Contiguous<std::int32_t>& crease_edges, int levels, double tolerance,
+                    double normal_tolerance, int threads, Monitor& monitor,
+                    const py::object& progress) {
+  // The arrays are the package's own: nobody else writes to them.
+  const RefinedSurface refined{levels, view(vertices), view(triangles), view(quads),
+                               view(crease_edges)};
+  const SplineOptions options{
+      .tolerance = tolerance, .normal_tolerance = normal_tolerance, .threads = threads};
+  SplineSurface surface;
+  Runner().run([&] { surface = fit_splines(refined, options, monitor); }, monitor, nullptr,
+               progress);
+  py::dict d;
+  d["vertices"] = points_array(surface.vertices);
+  add_edges(d, surface.edges);
+  add_patches(d, surface);
+  d["angles"] = to_numpy(surface.angles, angles_an_edge);
+  d["lattice_turn"] = to_numpy(surface.lattice_turn);
+  d["size"] = surface.size;
+  return d;
+}
+
+}  // namespace
+
+void bind_splines(py::module_& m) {
+  m.def("fit_splines", &fit_arrays, py::arg("vertices").noconvert(),
+        py::arg("triangles").noconvert(), py::arg("quads").noconvert(),
+        py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("tolerance"),
+        py::arg("normal_tolerance"), py::arg("threads"), py::arg("monitor"), py::arg("progress"),
+        "Patches of a refined surface, as flat arrays, which Patches of the package takes.");
+}
+
+}  // namespace fairing

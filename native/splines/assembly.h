@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fitted curves and patches, put together: edges, vertices, loops, and the angles at edges.
+#pragma once
+
+#include "splines/fit.h"
+
+namespace fairing {
+
+// Everything of `out` but angles and turns of the lattice.
+void assemble(const Lattice& lattice, const Topology& topology,
+              const std::vector<FittedCurve>& curves, std::vector<FittedPatch>& patches,
+              SplineSurface& out);
+
+// angles_an_edge an edge as assemble() numbers them, radians; NaN where no two patches meet
+// smoothly.
+std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
+                                std::size_t curves, Workers& workers);
+
+// By patches: whether one has an edge with too sharp an angle, and is off by a half of it.
+std::vector<std::uint8_t> patches_to_refine(const Topology& topology,
+                                            const std::vector<FittedPatch>& patches,
+                                            std::size_t curves, double tolerance, Workers& workers);
+
+}  // namespace fairing

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What curves are fitted to: points of the lattice, and normals from both sides of them.
+#pragma once
+
+#include "splines/curve_fit.h"
+#include "splines/topology.h"
+
+namespace fairing {
+
+class CurveSource {
+ public:
+  CurveSource(const Lattice& lattice, const Topology& topology)
+      : lattice_(lattice), topology_(topology) {}
+
+  // Of a crease or a boundary.
+  CurveData sharp_edge(Index e) const;
+  // The normal of the surface at the vertex of a sector. Where creases bound the sector, their
+  // `curves` lie in its plane.
+  Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const;
+  CurveData smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const;
+  // From the middle of side s of triangle f to its centroid; `edge` is the side's curve.
+  CurveData inner(Index f, int s, const FittedCurve& edge) const;
+
+ private:
+  int samples() const;
+  std::vector<Vec3> edge_points(Index e) const;
+  Vec3 edge_normal(const ControlEdge& edge, int k) const;
+  Vec3 on_median(Index f, int s, double row) const;
+  Vec3 centroid(Index f) const;
+  Vec3 normal_inside(Index f, double i, double j, const Vec3& at) const;
+  void add_crease_tangent(Index f, int s, bool at_end, const std::vector<FittedCurve>& curves,
+                          std::vector<Vec3>& tangents) const;
+
+  const Lattice& lattice_;
+  const Topology& topology_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/curve_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace fairing {
+namespace {
+
+// What sliding along the curve counts, and what a tangent out of the surface's tangent plane does.
+constexpr double slide = 0.1, tilt = 0.03;
+// What the middle of a halved curve counts, which other curves start from.
+constexpr double middle_weight = 10;
+constexpr int refits = 3;
+// A curve that is this close at even parameters is the lattice's own, as along creases.
+constexpr double exact = 1e-9;
+
+double length_of(const std::vector<Vec3>& points) {
+  double length = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
+  return length;
+}
+
+// Two unit vectors across n.
+Eigen::Matrix<double, 3, 2> plane_of(const Vec3& n) {
+  const Vec3 t = n.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> out;
+  out << t, n.cross(t);
+  return out;
+}
+
+class CurveSystem {
+ public:
+  CurveSystem(const CurveData& data, int spans) : data_(data), spans_(spans) {
+    const int count = control_points(spans);
+    fixed_ = Eigen::VectorXd::Zero(3 * count);
+    const bool smooth = !data.normals.empty();
+    const int free = 3 * (count - 2) - (smooth ? 2 : 0);
+    basis_ = Eigen::MatrixXd::Zero(3 * count, free);
+    set_fixed(0, data.points.front());
+    set_fixed(count - 1, data.points.back());
+    int column = 0;
+    for (int i = 1; i + 1 < count; ++i) {
+      const bool first = i == 1, last = i + 2 == count;
+      if (smooth && (first || last)) {
+        basis_.block<3, 2>(3 * i, column) =
+            plane_of(first ? data.normals.front() : data.normals.back());
+        set_fixed(i, first ? data.points.front() : data.points.back());
+        column += 2;
+      } else {
+        basis_.block<3, 3>(3 * i, column).setIdentity();
+        column += 3;
+      }
+    }
+  }
+
+  // `along`: the tangents at the points; empty: all directions count alike.
+  SplineCurve solve(const std::vector<double>& t, const std::vector<Vec3>& along) const {
+    const bool tilted = !along.empty() && !data_.normals.empty();
+    const Eigen::Index samples = Eigen::Index(t.size()), height = tilted ? 4 : 3;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(height * samples, fixed_.size());
+    Eigen::VectorXd target = Eigen::VectorXd::Zero(height * samples);
+    for (Eigen::Index k = 0; k < samples; ++k) {
+      const std::size_t at = std::size_t(k);
+      const CubicBasis b = cubic_basis(spans_, t[at]);
+      Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
+      if (data_.is_middle(at))
+        weight *= middle_weight;
+      else if (!along.empty())
+        weight -= (1 - slide) * along[at] * along[at].transpose();
+      for (int i = 0; i < 4; ++i) {
+        const Eigen::Index column = 3 * (b.first + i);
+        rows.block<3, 3>(height * k, column) = b.value[std::size_t(i)] * weight;
+        if (tilted)
+          rows.block<1, 3>(height * k + 3, column) =
+              tilt * b.slope[std::size_t(i)] * data_.normals[at].transpose();
+      }
+      target.segment<3>(height * k) = weight * data_.points[at];
+    }
+    const Eigen::MatrixXd reduced = rows * basis_;
+    const Eigen::VectorXd rest = target - rows * fixed_;
+    const Eigen::VectorXd free = reduced.colPivHouseholderQr().solve(rest);
+    const Eigen::VectorXd all = fixed_ + basis_ * free;
+    SplineCurve out{spans_, {}};
+    for (Eigen::Index i = 0; i < all.size(); i += 3) out.points.push_back(all.segment<3>(i));
+    return out;
+  }
+
+ private:
+  void set_fixed(int i, const Vec3& at) { fixed_.segment<3>(3 * i) = at; }
+
+  const CurveData& data_;
+  int spans_;
+  Eigen::VectorXd fixed_;
+  Eigen::MatrixXd basis_;
+};
+
+// The parameter where the curve is closest to p, from one nearby.
+double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
+  for (int step = 0; step < 6; ++step) {
+    const CurvePoint c = curve.at(t);
+    const double square = c.tangent.squaredNorm();
+    if (!(square > 0)) break;
+    const double next = std::clamp(t + c.tangent.dot(p - c.at) / square, 0.0, 1.0);
+    const double change = std::abs(next - t);
+    t = next;
+    if (change < 1e-10) break;
+  }
+  return t;
+}
+
+double farthest(const SplineCurve& curve, const std::vector<Vec3>& points,
+                const std::vector<double>& t) {
+  double error = 0;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    error = std::max(error, (curve.at(t[k]).at - points[k]).norm());
+  return error;
+}
+
+std::vector<double> even_parameters(std::size_t count) {
+  std::vector<double> t(count);
+  for (std::size_t k = 0; k < count; ++k) t[k] = double(k) / double(count - 1);
+  return t;
+}
+
+// By the length of the points' polygon. Of a halved curve by that rational function of it which
+// keeps both ends and has the middle point at 1/2.
+std::vector<double> length_parameters(const CurveData& data) {
+  std::vector<double> t{0.0};
+  for (std::size_t k = 1; k < data.points.size(); ++k)
+    t.push_back(t.back() + (data.points[k] - data.points[k - 1]).norm());
+  const double all = t.back();
+  if (!(all > 0)) return even_parameters(t.size());
+  const double middle = data.halved ? t[t.size() / 2] / all : 0.5;
+  if (!(middle > 0 && middle < 1)) return even_parameters(t.size());
+  for (double& at : t) at = at / all * (1 - middle) / (at / all * (1 - 2 * middle) + middle);
+  t.back() = 1;
+  return t;
+}
+
+FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
+  FittedCurve out;
+  out.normals = data.normals;
+  out.parameters = even_parameters(data.points.size());
+  out.curve = system.solve(out.parameters, {});
+  out.error = farthest(out.curve, data.points, out.parameters);
+  return out;
+}
+
+FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system) {
+  FittedCurve out;
+  out.normals = data.normals;
+  out.parameters = length_parameters(data);
+  out.curve = system.solve(out.parameters, {});
+  const std::size_t last = data.points.size() - 1;
+  for (int round = 0; round <= refits; ++round) {
+    std::vector<Vec3> along{out.curve.at(0).tangent.normalized()};
+    for (std::size_t k = 1; k <= last; ++k) {
+      double& t = out.parameters[k];
+      if (k < last && !data.is_middle(k)) t = foot_of(out.curve, data.points[k], t);
+      along.push_back(out.curve.at(t).tangent.normalized());
+    }
+    if (round < refits) out.curve = system.solve(out.parameters, along);
+  }
+  out.error = farthest(out.curve, data.points, out.parameters);
+  return out;
+}
+
+FittedCurve fit_with(const CurveData& data, int spans) {
+  const CurveSystem system(data, spans);
+  FittedCurve even = fit_evenly(data, system);
+  if (even.error <= exact * length_of(data.points)) return even;
+  return fit_by_length(data, system);
+}
+
+}  // namespace
+
+Vec3 normal_at(const FittedCurve& curve, double t) {
+  const auto after = std::upper_bound(curve.parameters.begin() + 1, curve.parameters.end() - 1, t);
+  const auto k = std::size_t(after - curve.parameters.begin());
+  const double from = curve.parameters[k - 1], width = curve.parameters[k] - from;
+  const double share = width > 0 ? (t - from) / width : 0.0;
+  return ((1 - share) * curve.normals[k - 1] + share * curve.normals[k]).normalized();
+}
+
+FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
+  FittedCurve best = fit_with(data, limits.least);
+  for (int spans = 2 * limits.least; spans <= limits.most && best.error > limits.tolerance;
+       spans *= 2) {
+    FittedCurve next = fit_with(data, spans);
+    if (next.error < best.error) best = std::move(next);
+  }
+  for (std::size_t k = 0; k < best.normals.size(); ++k) {
+    const Vec3 tangent = best.curve.at(best.parameters[k]).tangent.normalized();
+    const Vec3 across = best.normals[k] - best.normals[k].dot(tangent) * tangent;
+    if (across.norm() > 0) best.normals[k] = across.normalized();
+  }
+  return best;
+}
+
+}  // namespace fairing

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One curve a control edge, and three in a control triangle, each shared by the patches on both
+// sides.
+#pragma once
+
+#include <vector>
+
+#include "splines/spline.h"
+
+namespace fairing {
+
+// Points of the lattice that a curve runs through, ends included. Along smooth curves each has a
+// normal of the surface; creases and boundaries have none.
+struct CurveData {
+  std::vector<Vec3> points, normals;
+  bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
+
+  bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
+};
+
+struct FittedCurve {
+  SplineCurve curve;
+  std::vector<double> parameters;  // of the data's points: where the curve is closest
+  std::vector<Vec3> normals;       // the data's, turned to stand on the curve
+  double error = 0;                // the farthest that a point is from the curve
+};
+
+// Between those of the data; of smooth curves only.
+Vec3 normal_at(const FittedCurve& curve, double t);
+
+struct SpanLimits {
+  int least, most;
+  double tolerance;
+};
+
+// Minimizes the distances of the points from the curve, to slide along it costing little. Its ends
+// are the data's, with tangents in the planes of their normals. The spans are doubled until the
+// error is within the tolerance.
+FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits);
+
+}  // namespace fairing

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/lattice.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr int most_levels = 12;
+
+void require_ids(std::span<const std::int32_t> ids, std::size_t points) {
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    stop_if_cancelled(k);
+    if (ids[k] < 0 || std::size_t(ids[k]) >= points)
+      throw FairingError(ErrorCode::index_out_of_range, "A refined face has the vertex " +
+                                                            std::to_string(ids[k]) +
+                                                            ", which is none of its surface.");
+  }
+}
+
+double extent(std::span<const double> vertices) {
+  double largest = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double low = 0, high = 0;
+    for (std::size_t k = a; k < vertices.size(); k += 3) {
+      stop_if_cancelled(k);
+      low = k == a ? vertices[k] : std::min(low, vertices[k]);
+      high = k == a ? vertices[k] : std::max(high, vertices[k]);
+    }
+    largest = std::max(largest, high - low);
+  }
+  return largest;
+}
+
+// Two unit vectors that make a right-handed frame with n.
+Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
+  const Vec3 t = n.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> out;
+  out << t, n.cross(t);
+  return out;
+}
+
+}  // namespace
+
+Lattice::Lattice(const RefinedSurface& surface) : surface_(surface), n_(1) {
+  if (surface.levels < 2 || surface.levels > most_levels)
+    throw FairingError(ErrorCode::bad_option,
+                       "levels is " + std::to_string(surface.levels) +
+                           "; patches are fitted to lattices of levels 2 to 12.");
+  n_ = 1 << surface.levels;
+  const std::size_t cells = std::size_t(n_) * std::size_t(n_);
+  if (surface.vertices.size() % 3 || surface.triangles.size() % (3 * cells) ||
+      surface.quads.size() % (4 * cells) || surface.crease_edges.size() % 2)
+    throw FairingError(ErrorCode::bad_shape, "The refined faces are no whole control faces.");
+  triangle_faces_ = Index(surface.triangles.size() / (3 * cells));
+  quad_faces_ = Index(surface.quads.size() / (4 * cells));
+  require_ids(surface.triangles, points());
+  require_ids(surface.quads, points());
+  size_ = extent(surface.vertices);
+}
+
+Index Lattice::point(Index f, GridPoint p) const {
+  const auto n = std::size_t(n_);
+  if (quad(f)) {
+    const int i = std::min(p.i, n_ - 1), j = std::min(p.j, n_ - 1);
+    constexpr std::size_t corner_of[2][2] = {{0, 1}, {3, 2}};
+    const std::size_t cell =
+        std::size_t(f - triangle_faces_) * n * n + std::size_t(j) * n + std::size_t(i);
+    return surface_.quads[4 * cell + corner_of[p.j - j][p.i - i]];
+  }
+  GridPoint cell = p;
+  std::size_t corner = 0;
+  if (p.i + p.j == n_) {  // on the side without cells of its own
+    corner = p.i > 0 ? 1 : 2;
+    (p.i > 0 ? cell.i : cell.j) -= 1;
+  }
+  const std::size_t left = n - std::size_t(cell.j);
+  const std::size_t at = std::size_t(f) * n * n + n * n - left * left + 2 * std::size_t(cell.i);
+  return surface_.triangles[3 * at + corner];
+}
+
+Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess) {
+  double reach = 0;
+  for (const Vec3& p : nearby) reach = std::max(reach, (p - centre).norm());
+  Vec3 normal = guess;
+  if (!(reach > 0)) return normal;
+  for (int round = 0; round < 2; ++round) {
+    const Eigen::Matrix<double, 3, 2> frame = tangents_of(normal);
+    Eigen::MatrixXd rows(Eigen::Index(nearby.size()), 9);
+    Eigen::VectorXd heights(Eigen::Index(nearby.size()));
+    for (std::size_t k = 0; k < nearby.size(); ++k) {
+      const Vec3 arm = (nearby[k] - centre) / reach;
+      const double x = arm.dot(frame.col(0)), y = arm.dot(frame.col(1));
+      rows.row(Eigen::Index(k)) << x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y,
+          y * y * y;
+      heights[Eigen::Index(k)] = arm.dot(normal);
+    }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(1e-7);
+    qr.compute(rows);
+    const Eigen::VectorXd fit = qr.solve(heights);
+    const Vec3 next = normal - frame * fit.head<2>();
+    if (!next.allFinite()) return normal;
+    normal = next.normalized();
+  }
+  return normal;
+}
+
+Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p) {
+  const int n = lattice.n();
+  const bool quad = lattice.quad(f);
+  const auto inside = [&](int i, int j) {
+    return i >= 0 && j >= 0 && (quad ? i <= n && j <= n : i + j <= n);
+  };
+  const auto slope = [&](int di, int dj) {
+    const bool on = inside(p.i + di, p.j + dj), back = inside(p.i - di, p.j - dj);
+    const Vec3 ahead = lattice.position(f, on ? GridPoint{p.i + di, p.j + dj} : p);
+    const Vec3 behind = lattice.position(f, back ? GridPoint{p.i - di, p.j - dj} : p);
+    return Vec3(ahead - behind);
+  };
+  // A triangle's far corners have neighbours in one of these directions only.
+  const Vec3 u = slope(1, 0), v = slope(0, 1), w = slope(-1, 1);
+  Vec3 normal = u.cross(v);
+  if (!quad) normal += u.cross(w) + w.cross(-v);
+  return normal.normalized();
+}
+
+}  // namespace fairing

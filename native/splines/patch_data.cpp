@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/patch_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fairing {
+namespace {
+
+constexpr int samples_a_span = 6;
+
+SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
+  SplineCurve out =
+      side.part == Part::whole ? curve : half_of(curve, side.part == Part::second_half);
+  return side.reversed ? reversed(std::move(out)) : out;
+}
+
+// Normals of a smooth curve that belong to the side.
+std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& side) {
+  std::vector<SideNormal> out;
+  for (std::size_t k = 0; k < curve.normals.size(); ++k) {
+    const double t = on_side(side, curve.parameters[k]);
+    if (t >= 0 && t <= 1) out.push_back({t, curve.normals[k]});
+  }
+  return out;
+}
+
+// Where a curve has the points that lie evenly along a side of the lattice: blended from side to
+// side, these are where a patch's samples start.
+class SideMap {
+ public:
+  SideMap(const FittedCurve& curve, const PatchSide& side) : curve_(curve), side_(side) {
+    const bool half = side.part != Part::whole;
+    from_ = half ? on_side(side, curve_at(on_curve(side, 0))) : 0;
+    to_ = half ? on_side(side, curve_at(on_curve(side, 1))) : 1;
+  }
+  double operator()(double t) const {
+    return (on_side(side_, curve_at(on_curve(side_, t))) - from_) / (to_ - from_);
+  }
+
+ private:
+  double curve_at(double even) const {
+    const std::size_t last = curve_.parameters.size() - 1;
+    const double x = even * double(last);
+    const std::size_t k = std::min(std::size_t(x), last - 1);
+    const double share = x - double(k);
+    return (1 - share) * curve_.parameters[k] + share * curve_.parameters[k + 1];
+  }
+
+  const FittedCurve& curve_;
+  const PatchSide& side_;
+  double from_ = 0, to_ = 1;
+};
+
+// The inside of a quad, at even parameters.
+template <class Visit>
+void for_quad_points(int n, Visit&& visit) {
+  for (int j = 1; j < n; ++j)
+    for (int i = 1; i < n; ++i) visit(GridPoint{i, j}, double(i) / n, double(j) / n, i, j);
+}
+
+// The part of a triangle next to a corner, at the parameters of the bilinear map to it.
+template <class Visit>
+void for_third_points(int n, int corner, Visit&& visit) {
+  for (int r = 1; r < n; ++r)
+    for (int k = 1; k < n - r; ++k) {
+      const int own = n - k - r;
+      if (own <= k || own <= r) continue;
+      const double a = double(k) / n, b = double(r) / n, rest = 3 - 2 * (a - b);
+      const double v = (rest - std::sqrt(rest * rest - 24 * b)) / 2, u = v + 2 * (a - b);
+      visit(closed_point(false, n, corner, k, r), u, v, k, r);
+    }
+}
+
+template <class Visit>
+void for_points(const Lattice& lattice, const PatchPlace& place, Visit&& visit) {
+  if (place.corner < 0)
+    for_quad_points(lattice.n(), visit);
+  else
+    for_third_points(lattice.n(), place.corner, visit);
+}
+
+}  // namespace
+
+double on_curve(const PatchSide& side, double t) {
+  const double along = side.reversed ? 1 - t : t;
+  if (side.part == Part::whole) return along;
+  return side.part == Part::first_half ? along / 2 : (1 + along) / 2;
+}
+
+double on_side(const PatchSide& side, double t) {
+  const double along = side.part == Part::whole        ? t
+                       : side.part == Part::first_half ? 2 * t
+                                                       : 2 * t - 1;
+  return side.reversed ? 1 - along : along;
+}
+
+PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
+                     const std::vector<FittedCurve>& curves) {
+  PatchData out;
+  out.size = lattice.size();
+  for (std::size_t s = 0; s < 4; ++s) {
+    const PatchSide& side = place.side[s];
+    const FittedCurve& curve = curves[std::size_t(side.curve)];
+    out.side[s] = part_of(curve.curve, side);
+    out.normals[s] = side_normals(curve, side);
+  }
+  const auto map = [&](std::size_t s) {
+    return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
+  };
+  const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
+  for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
+    out.samples.push_back({lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
+                           (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v),
+                           true});
+  });
+  return out;
+}
+
+void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data) {
+  const int n = place.corner < 0 ? lattice.n() : lattice.n() / 2;
+  const int stride = std::max(1, n / (samples_a_span * spans));
+  std::size_t k = 0;
+  for_points(lattice, place, [&](GridPoint, double, double, int i, int j) {
+    data.samples[k++].fitted = i % stride == 0 && j % stride == 0;
+  });
+}
+
+}  // namespace fairing

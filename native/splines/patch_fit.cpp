@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/patch_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "splines/net_system.h"
+
+namespace fairing {
+namespace {
+
+// What counts beside distances along the lattice's normals: a cross derivative that leaves the
+// tangent plane of a side, and third differences of the net.
+constexpr double tilt = 0.3, rough = 1e-3;
+// What counts that a sample slides along the patch: on poor surfaces the least lets patches fold.
+constexpr double slides[] = {0.01, 0.1, 1.0};
+constexpr double folded = 0.5;  // radians
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// Sides first: v = 0 and v = 1, then the rest of u = 0 and u = 1.
+SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
+  SplinePatch out{spans_u, spans_v, {}};
+  const int nu = control_points(spans_u), nv = control_points(spans_v);
+  out.net.assign(std::size_t(nu) * std::size_t(nv), Vec3::Zero());
+  for (const int s : {0, 2}) {
+    const SplineCurve side = refined(data.side[std::size_t(s)], spans_u);
+    for (int i = 0; i < nu; ++i)
+      out.net[out.index(i, s ? nv - 1 : 0)] = side.points[std::size_t(i)];
+  }
+  for (const int s : {1, 3}) {
+    const SplineCurve side = refined(data.side[std::size_t(s)], spans_v);
+    for (int j = 1; j + 1 < nv; ++j)
+      out.net[out.index(s == 1 ? nu - 1 : 0, j)] = side.points[std::size_t(j)];
+  }
+  return out;
+}
+
+std::array<NetTerm, 16> terms_at(const SplinePatch& patch, double u, double v) {
+  const CubicBasis bu = cubic_basis(patch.spans_u, u), bv = cubic_basis(patch.spans_v, v);
+  std::array<NetTerm, 16> out;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      out[std::size_t(4 * i + j)] = {bu.first + i, bv.first + j,
+                                     bu.value[std::size_t(i)] * bv.value[std::size_t(j)]};
+  return out;
+}
+
+// The derivative across a side: of its own row of control points and the next one.
+std::array<NetTerm, 8> across_side(const SplinePatch& patch, int side, double t) {
+  const bool along_u = side % 2 == 0, far = side == 1 || side == 2;
+  const int spans = along_u ? patch.spans_u : patch.spans_v,
+            others = along_u ? patch.spans_v : patch.spans_u;
+  const CubicBasis b = cubic_basis(spans, t);
+  const int low = far ? control_points(others) - 2 : 0;
+  std::array<NetTerm, 8> out;
+  for (int k = 0; k < 8; ++k) {
+    const int along = along_u ? k / 2 : k % 4, step = along_u ? k % 2 : k / 4;
+    const double factor = 3.0 * others * b.value[std::size_t(along)] * (step ? 1 : -1);
+    out[std::size_t(k)] = along_u ? NetTerm{b.first + along, low + step, factor}
+                                  : NetTerm{low + step, b.first + along, factor};
+  }
+  return out;
+}
+
+double squared(double x) { return x * x; }
+
+// One fit. Without `slide` all directions count alike, and derivatives across sides are not known.
+bool fit_once(const PatchData& data, SplinePatch& patch, const double* slide) {
+  NetSystem system(patch);
+  for (const PatchSample& sample : data.samples) {
+    if (!sample.fitted) continue;
+    Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
+    if (slide) {
+      const Vec3 n = patch.at(sample.u, sample.v).normal();
+      weight = squared(*slide) * weight + (1 - squared(*slide)) * n * n.transpose();
+    }
+    system.add(terms_at(patch, sample.u, sample.v), weight, sample.at);
+  }
+  system.add_third_differences(rough);
+  if (slide)
+    for (int s = 0; s < 4; ++s)
+      for (const SideNormal& n : data.normals[std::size_t(s)]) {
+        const SurfacePoint p = on_side(patch, s, n.t);
+        const double across = (s % 2 ? p.along_u : p.along_v).norm();
+        const double scale = tilt * data.size / across;
+        if (std::isfinite(scale))
+          system.add(across_side(patch, s, n.t), squared(scale) * n.normal * n.normal.transpose(),
+                     Vec3::Zero());
+      }
+  SplinePatch solved = patch;
+  if (!system.solve(solved)) return false;
+  patch = std::move(solved);
+  return true;
+}
+
+void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
+  for (int step = 0; step < 6; ++step) {
+    const SurfacePoint p = patch.at(sample.u, sample.v);
+    const Vec3 r = sample.at - p.at;
+    const double uu = p.along_u.squaredNorm(), uv = p.along_u.dot(p.along_v),
+                 vv = p.along_v.squaredNorm(), det = uu * vv - uv * uv;
+    if (!(det > 1e-12 * uu * vv)) return;
+    const double ru = p.along_u.dot(r), rv = p.along_v.dot(r);
+    const double u = std::clamp(sample.u + (vv * ru - uv * rv) / det, 0.0, 1.0),
+                 v = std::clamp(sample.v + (uu * rv - uv * ru) / det, 0.0, 1.0);
+    const double change = std::max(std::abs(u - sample.u), std::abs(v - sample.v));
+    sample.u = u;
+    sample.v = v;
+    if (change < 1e-6) return;
+  }
+}
+
+FittedPatch measured(const PatchData& data, SplinePatch patch) {
+  FittedPatch out;
+  for (PatchSample sample : data.samples) {
+    move_to_foot(patch, sample);
+    const SurfacePoint p = patch.at(sample.u, sample.v);
+    out.residual = std::max(out.residual, (p.at - sample.at).norm());
+    out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
+  }
+  for (int s = 0; s < 4; ++s)
+    for (const SideNormal& n : data.normals[std::size_t(s)]) {
+      double& angle = out.side_angle[std::size_t(s)];
+      angle = std::max(angle, angle_between(on_side(patch, s, n.t).normal(), n.normal));
+      out.turned = std::max(out.turned, angle);
+    }
+  out.patch = std::move(patch);
+  return out;
+}
+
+double misses(const PatchData& data, const FittedPatch& fitted) {
+  double angle = 0;
+  for (const double side : fitted.side_angle) angle = std::max(angle, side);
+  const double miss = std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance);
+  return fitted.turned < folded ? miss : 1e6 * (1 + fitted.turned);
+}
+
+}  // namespace
+
+SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
+  switch (side) {
+    case 0: return patch.at(t, 0);
+    case 1: return patch.at(1, t);
+    case 2: return patch.at(t, 1);
+    default: return patch.at(0, t);
+  }
+}
+
+FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
+  SplinePatch start = with_sides(data, spans_u, spans_v);
+  fit_once(data, start, nullptr);
+  FittedPatch best;
+  for (const double slide : slides) {
+    PatchData moved = data;
+    SplinePatch patch = start;
+    for (int round = 0; round < 2; ++round) {
+      for (PatchSample& sample : moved.samples)
+        if (sample.fitted) move_to_foot(patch, sample);
+      fit_once(moved, patch, &slide);
+    }
+    FittedPatch next = measured(moved, std::move(patch));
+    next.misses = misses(data, next);
+    if (slide == slides[0] || next.misses < best.misses) best = std::move(next);
+    if (best.misses <= 1) break;
+  }
+  return best;
+}
+
+double bends_more_along_u(const SplinePatch& patch) {
+  const int nu = control_points(patch.spans_u), nv = control_points(patch.spans_v);
+  double along_u = 0, along_v = 0;
+  const auto third = [&](int i, int j, int di, int dj) {
+    const auto p = [&](int k) { return patch.net[patch.index(i + k * di, j + k * dj)]; };
+    return (p(3) - 3 * p(2) + 3 * p(1) - p(0)).norm();
+  };
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) {
+      if (i + 3 < nu) along_u = std::max(along_u, third(i, j, 1, 0));
+      if (j + 3 < nv) along_v = std::max(along_v, third(i, j, 0, 1));
+    }
+  return along_v > 0 ? along_u / along_v : 1e9;
+}
+
+}  // namespace fairing

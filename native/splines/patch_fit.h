@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A patch: its sides are given, its inside is fitted.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "splines/spline.h"
+
+namespace fairing {
+
+struct PatchSample {
+  Vec3 at, normal;  // of the lattice
+  double u, v;
+  bool fitted;  // or only measured
+};
+
+struct SideNormal {
+  double t;
+  Vec3 normal;
+};
+
+struct PatchData {
+  std::array<SplineCurve, 4> side;  // v = 0, u = 1, v = 1, u = 0; along growing u or v
+  std::array<std::vector<SideNormal>, 4> normals;
+  std::vector<PatchSample> samples;
+  double size;  // of the model: what an angle weighs against a distance
+  // What is asked for, and ends the search.
+  double tolerance, normal_tolerance;
+};
+
+struct FittedPatch {
+  SplinePatch patch;
+  double residual = 0;  // the farthest that a sample is from the patch
+  // The sharpest angle between the normals of patch and lattice, sides included; radians.
+  double turned = 0;
+  std::array<double, 4> side_angle{};  // the same along the sides
+  double misses = 0;  // how many times a tolerance it is off; huge where the patch folds
+};
+
+// The sides are refined to the patch's spans, exactly.
+FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v);
+
+// The point of a patch at t along a side.
+SurfacePoint on_side(const SplinePatch& patch, int side, double t);
+
+// How much more a patch bends from span to span along u than along v: above one, u needs spans.
+double bends_more_along_u(const SplinePatch& patch);
+
+}  // namespace fairing

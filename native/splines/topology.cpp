@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "splines/topology.h"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+std::uint64_t pair_key(Index a, Index b) {
+  const auto [low, high] = std::minmax(a, b);
+  return std::uint64_t(std::uint32_t(low)) << 32 | std::uint32_t(high);
+}
+
+// Finds who belongs together.
+class Unions {
+ public:
+  explicit Unions(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  std::size_t root(std::size_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t ra = root(a), rb = root(b);
+    parent_[std::max(ra, rb)] = std::min(ra, rb);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// The middle point of a side belongs to its control edge alone, whatever its ends are.
+void find_edges(const Lattice& lattice, Topology& out) {
+  const int n = lattice.n();
+  std::unordered_map<Index, Index> edge_of;
+  out.face_edges.resize(std::size_t(lattice.faces()));
+  for (Index f = 0; f < lattice.faces(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    for (int s = 0; s < lattice.corners(f); ++s) {
+      const Index middle = lattice.point(f, s, n / 2, 0);
+      const auto [found, is_new] = edge_of.try_emplace(middle, Index(out.edges.size()));
+      if (is_new) out.edges.emplace_back();
+      ControlEdge& edge = out.edges[std::size_t(found->second)];
+      bool against = false;
+      if (!is_new) {
+        const SideUse& first = edge.uses.front();
+        against = lattice.point(first.face, first.side, 1, 0) != lattice.point(f, s, 1, 0);
+      }
+      edge.uses.push_back({f, s, against});
+      edge.halved |= !lattice.quad(f);
+      out.face_edges[std::size_t(f)][std::size_t(s)] = found->second;
+    }
+  }
+}
+
+void find_kinds(const Lattice& lattice, Topology& out) {
+  std::unordered_set<std::uint64_t> creases;
+  const auto listed = lattice.surface().crease_edges;
+  for (std::size_t k = 0; k + 1 < listed.size(); k += 2)
+    creases.insert(pair_key(listed[k], listed[k + 1]));
+  for (ControlEdge& edge : out.edges) {
+    if (edge.uses.size() == 1) continue;
+    const SideUse& use = edge.uses.front();
+    const Index a = lattice.point(use.face, use.side, 0, 0),
+                b = lattice.point(use.face, use.side, lattice.n(), 0);
+    const bool plain = edge.uses.size() == 2 && edge.uses[0].reversed != edge.uses[1].reversed;
+    edge.kind = plain && !creases.contains(pair_key(a, b)) ? EdgeKind::smooth : EdgeKind::crease;
+  }
+}
+
+// Corners at one vertex that smooth edges join.
+void find_sectors(const Lattice& lattice, Topology& out) {
+  const auto corner = [](Index f, int c) { return 4 * std::size_t(f) + std::size_t(c); };
+  Unions unions(4 * std::size_t(lattice.faces()));
+  for (const ControlEdge& edge : out.edges) {
+    if (edge.kind != EdgeKind::smooth) continue;
+    const SideUse &a = edge.uses[0], &b = edge.uses[1];
+    const int next_a = (a.side + 1) % lattice.corners(a.face),
+              next_b = (b.side + 1) % lattice.corners(b.face);
+    unions.join(corner(a.face, a.side), corner(b.face, next_b));
+    unions.join(corner(a.face, next_a), corner(b.face, b.side));
+  }
+  out.face_sectors.resize(std::size_t(lattice.faces()));
+  std::vector<Index> sector_of(4 * std::size_t(lattice.faces()), -1);
+  for (Index f = 0; f < lattice.faces(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    for (int c = 0; c < lattice.corners(f); ++c) {
+      Index& sector = sector_of[unions.root(corner(f, c))];
+      if (sector < 0) {
+        sector = Index(out.sectors.size());
+        out.sectors.emplace_back();
+      }
+      out.sectors[std::size_t(sector)].push_back({int(f), c});
+      out.face_sectors[std::size_t(f)][std::size_t(c)] = sector;
+    }
+  }
+}
+
+bool runs_back(const Topology& topology, Index f, int s) {
+  const ControlEdge& edge =
+      topology.edges[std::size_t(topology.face_edges[std::size_t(f)][std::size_t(s)])];
+  for (const SideUse& use : edge.uses)
+    if (use.face == f && use.side == s) return use.reversed;
+  return false;
+}
+
+PatchPlace quad_patch(const Topology& topology, Index f) {
+  PatchPlace out{f, -1, {}};
+  for (int s = 0; s < 4; ++s)  // the last two sides run against u and v
+    out.side[std::size_t(s)] = {topology.face_edges[std::size_t(f)][std::size_t(s)], Part::whole,
+                                runs_back(topology, f, s) != (s >= 2)};
+  return out;
+}
+
+// u runs from corner c along side c, v along the side before it.
+PatchPlace triangle_patch(const Topology& topology, Index f, int c) {
+  const int before = (c + 2) % 3;
+  const auto edge = [&](int s) { return topology.face_edges[std::size_t(f)][std::size_t(s)]; };
+  const auto inner = [&](int s) { return Index(topology.edges.size()) + 3 * f + s; };
+  const bool back = runs_back(topology, f, c), back_before = runs_back(topology, f, before);
+  return {f,
+          c,
+          {{{edge(c), back ? Part::second_half : Part::first_half, back},
+            {inner(c), Part::whole, false},
+            {inner(before), Part::whole, false},
+            {edge(before), back_before ? Part::first_half : Part::second_half, !back_before}}}};
+}
+
+}  // namespace
+
+Topology make_topology(const Lattice& lattice) {
+  Topology out;
+  find_edges(lattice, out);
+  find_kinds(lattice, out);
+  find_sectors(lattice, out);
+  for (Index f = 0; f < lattice.faces(); ++f)
+    if (lattice.quad(f))
+      out.patches.push_back(quad_patch(out, f));
+    else
+      for (int c = 0; c < 3; ++c) out.patches.push_back(triangle_patch(out, f, c));
+  return out;
+}
+
+}  // namespace fairing
