@@ -116,12 +116,11 @@ class _Fairing(ExplainedPoll, ModalRun):
         """For what is not common to both."""
 
 
-class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
-    """Make a new object: the fairest surface through the vertices of this mesh. The mesh itself stays as it is"""
+class FairSurface(_Fairing, FairingSettings):
+    """All of Fair Surface but its name."""
 
-    bl_idname = "object.fair_surface"
+    bl_idname: str
     bl_label = "Fair Surface"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     @staticmethod
     def poll_reason(context: Context) -> str:
@@ -145,6 +144,13 @@ class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
             source = cast(Object, job.source)  # there, as `finish` has seen
             if self.hide_source and context.view_layer.objects.get(source.name) == source:
                 source.hide_set(True)
+
+
+class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
+    """Make a new object: the fairest surface through the vertices of this mesh. The mesh itself stays as it is"""
+
+    bl_idname = "object.fairing_surface"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
 
 def faired_objects(context: Context) -> list[Object]:
@@ -208,6 +214,10 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_fair_surface, OBJECT_OT_fairing_recompute, OBJECT_OT_fairing_show_source)
+CLASSES = (
+    OBJECT_OT_fairing_surface,
+    OBJECT_OT_fairing_recompute,
+    OBJECT_OT_fairing_show_source,
+)
 
 register, unregister = registration(*CLASSES)

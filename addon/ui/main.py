@@ -32,7 +32,7 @@ from .live import draw_live
 from .notice import draw_notice
 
 # where Blender looks for the presets of the operator, which are those of the panel
-PRESET_FOLDER = "operator/object.fair_surface"
+PRESET_FOLDER = "operator/object.fairing_surface"
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
 
@@ -83,7 +83,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
+            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
         draw_live(layout, context)
 
 
