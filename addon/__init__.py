@@ -11,7 +11,7 @@ from . import cli, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
-from .operators import check, fair, faults, fill, inspect, live, old_names, presets
+from .operators import cancel, check, fair, faults, fill, inspect, live, old_names, presets
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
@@ -28,6 +28,7 @@ _MODULES = (
     fair,
     faults,
     fill,
+    cancel,
     live,
     check,
     inspect,

@@ -15,6 +15,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..blender import Context, Scene, current_context
+from ..redraw import Progress, tag_sidebars
 from . import registry
 from .registry import session_key
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 INTERVAL = 0.1  # seconds between two looks at what waits
 
 _rendering = False
+_progress = Progress()
 
 
 def start_timer() -> None:
@@ -43,7 +45,8 @@ def on_timer() -> float | None:
         return INTERVAL
     for session in registry.sessions():
         guarded(session, _advance)
-    _redraw()
+    if _progress.is_due(tuple(session.shown for session in registry.sessions())):
+        tag_sidebars(current_context())
     return INTERVAL if registry.sessions() else None
 
 
@@ -137,16 +140,6 @@ def _end_all(*_: Any) -> None:
     registry.clear()
     if bpy.app.timers.is_registered(on_timer):
         bpy.app.timers.unregister(on_timer)
-
-
-def _redraw() -> None:
-    """The sidebars, which show how long updates take."""
-    for window in current_context().window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
 
 
 _HANDLERS = {

@@ -4,7 +4,7 @@
 Called by `handlers`, on Blender's main thread.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Hashable
 from contextlib import AbstractContextManager
 from time import monotonic
 from typing import Any
@@ -332,6 +332,11 @@ class Session:
         if full.solver is not None:
             self.solver, self._arguments = full.solver, full.arguments
             self._edge_length = job.edge_length
+
+    @property
+    def shown(self) -> tuple[Hashable, ...]:
+        """What the panel shows of it, to see whether that has changed."""
+        return self.key, self.updates, self.level, self.full_text, self.trouble
 
     @property
     def full_text(self) -> str:

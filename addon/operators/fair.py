@@ -96,7 +96,7 @@ class _Fairing(ExplainedPoll, ModalRun):
                 f"{', '.join(gone)} was deleted or undone during the run: nothing has been made.",
             )
             return {"CANCELLED"}
-        if context.mode == "EDIT_MESH":
+        if context.mode != "OBJECT":  # whatever the user has begun meanwhile
             bpy.ops.object.mode_set(mode="OBJECT")
         self._written = [job.write(context) for job in jobs]
         for job in jobs:

@@ -232,7 +232,7 @@ def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str
 
 def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
     layout.progress(factor=queue.fraction, text=status_text(queue))
-    layout.label(text="Cancel", icon="EVENT_ESC")
+    layout.operator("object.fairing_cancel", icon="X")
 
 
 CLASSES = (

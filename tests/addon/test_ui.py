@@ -128,7 +128,7 @@ def test_menus_have_every_operator():
     log = draw(menus.VIEW3D_MT_fairing)
     own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fairing_")}
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
-    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill"}
+    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill", "cancel"}
     assert own - {f"object.fairing_{name}" for name in others} == {
         entry for entry in log if entry.startswith("object.")
     }
