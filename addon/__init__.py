@@ -7,7 +7,7 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window.
 """
 
-from . import cli, memory, preferences, queue, settings
+from . import cli, freshness, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
@@ -15,7 +15,7 @@ from .operators import cancel, check, fair, faults, fill, inspect, live, old_nam
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
-from .ui import menus
+from .ui import menus, outliner
 
 _MODULES = (
     settings,
@@ -23,6 +23,7 @@ _MODULES = (
     preferences,
     inspection_settings,
     mesh_changes,
+    freshness,
     switch,
     handlers,
     fair,
@@ -38,6 +39,7 @@ _MODULES = (
     check_panel,
     inspect_panel,
     menus,
+    outliner,
     cli,
 )
 

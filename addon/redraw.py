@@ -19,6 +19,14 @@ def tag_sidebars(context: Context) -> None:
                         region.tag_redraw()
 
 
+def tag_outliners(context: Context) -> None:
+    """Their headers, where surfaces that are out of date are counted."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "OUTLINER":
+                area.tag_redraw()
+
+
 class Progress:
     """When to draw what changes all the time: not too often."""
 

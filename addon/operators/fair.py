@@ -11,6 +11,7 @@ import bpy
 
 from .. import core, prediction
 from ..blender import Answer, Context, Object, registration
+from ..freshness import stale_surfaces
 from ..errors import JobCancelled, JobError
 from ..job import Job
 from ..live.pace import Deadline
@@ -214,6 +215,25 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
         ]
 
 
+class OBJECT_OT_fairing_recompute_stale(_Fairing, bpy.types.Operator):
+    """Compute all surfaces again whose source or settings have changed since they were made"""
+
+    bl_idname = "object.fairing_recompute_stale"
+    bl_label = "Recompute All Out of Date"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        stale = next(stale_surfaces(), None)
+        return poll_reason(context) or ("" if stale else "No surface is out of date")
+
+    def make_jobs(self, context: Context) -> list[Job]:
+        return [
+            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
+            for target in stale_surfaces()
+        ]
+
+
 class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
     """Show the source of this surface and select it, to work on its vertices"""
 
@@ -244,6 +264,7 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
 CLASSES = (
     OBJECT_OT_fairing_surface,
     OBJECT_OT_fairing_recompute,
+    OBJECT_OT_fairing_recompute_stale,
     OBJECT_OT_fairing_show_source,
 )
 

@@ -28,7 +28,7 @@ from .layout import (
     draw_shape,
     draw_source,
 )
-from .live import draw_live
+from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 
 # where Blender looks for the presets of the operator, which are those of the panel
@@ -79,11 +79,13 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         if queue is not None and not queue.gives_way:
             _draw_progress(layout, queue)
         elif memory is not None:
+            draw_stale(layout, cast(Object, context.active_object))
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+            draw_stale_surfaces(layout, context.active_object)
         draw_live(layout, context)
 
 

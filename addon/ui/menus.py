@@ -17,6 +17,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
+        layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
         layout.operator("object.fairing_show_source")
         layout.separator()

@@ -44,7 +44,7 @@ ROOMS = (
     {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
     {"memory"},
     {"mesh"},
-    {"check", "inspection"},
+    {"check", "freshness", "inspection"},
     {"job"},
     {"live"},
     {"cli", "ui"},
