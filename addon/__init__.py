@@ -9,7 +9,7 @@ window.
 
 from . import cli, freshness, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
-from .live import handlers, switch
+from .live import handlers, kept, switch
 from .mesh import mesh_changes
 from .operators import cancel, check, fair, faults, fill, inspect, live, old_names, presets
 from .ui import check as check_panel
@@ -26,6 +26,7 @@ _MODULES = (
     freshness,
     switch,
     handlers,
+    kept,
     fair,
     faults,
     fill,

@@ -8,7 +8,7 @@ runs, so there is none.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, cast
 
 import bpy
@@ -45,9 +45,14 @@ def on_timer() -> float | None:
         return INTERVAL
     for session in registry.sessions():
         guarded(session, _advance)
-    if _progress.is_due(tuple(session.shown for session in registry.sessions())):
+    if _progress.is_due(tuple(map(_shown, registry.sessions()))):
         tag_sidebars(current_context())
     return INTERVAL if registry.sessions() else None
+
+
+def _shown(session: Session) -> tuple[Hashable, ...]:
+    """What the panel shows of it, to see whether that has changed."""
+    return session.key, session.updates, session.level, session.full_text, session.trouble
 
 
 def look_at(session: Session) -> None:
@@ -90,7 +95,7 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
 
 @persistent
 def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if not registry.sessions() or registry.is_quiet() or _rendering:
+    if not registry.sessions() or registry.is_quiet():
         return
     reshaped = {
         session_key(cast(Any, change.id).original)
@@ -103,7 +108,26 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
             session.follow(depsgraph)
 
     for session in registry.sessions():
-        guarded(session, step)
+        if _is_awake(session):
+            guarded(session, step)
+
+
+@persistent
+def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Shape keys, armatures and drivers of another frame: Blender does not name all that they
+    change.
+    """
+    if registry.is_quiet():
+        return
+    for session in registry.sessions():
+        if _is_awake(session):
+            guarded(session, lambda it: it.follow(depsgraph))
+
+
+def _is_awake(session: Session) -> bool:
+    """During a render only those are that the user wants there."""
+    target = session.objects()[1]
+    return not _rendering or (target is not None and target.discrete_fairing_live.in_renders)
 
 
 @persistent
@@ -144,6 +168,7 @@ def _end_all(*_: Any) -> None:
 
 _HANDLERS = {
     "depsgraph_update_post": _follow,
+    "frame_change_post": _follow_frame,
     "undo_pre": _before_undo,
     "redo_pre": _before_undo,
     "undo_post": _distrust_all,

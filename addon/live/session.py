@@ -4,7 +4,7 @@
 Called by `handlers`, on Blender's main thread.
 """
 
-from collections.abc import Collection, Hashable
+from collections.abc import Collection
 from contextlib import AbstractContextManager
 from time import monotonic
 from typing import Any
@@ -59,9 +59,7 @@ class Session:
         self.trouble = ""
         self.level = 0  # of the surface shown last
         self.triangles = 0
-        self.parts: dict[
-            str, float
-        ] = {}  # milliseconds of the last update: read, build, solve, write
+        self.parts: dict[str, float] = {}  # ms of the last update: read, build, solve, write
         self.updates = 0
         self._stale = True  # the mesh may not be what was written
         self._mesh: int | str | None = None  # key of the mesh that was built
@@ -79,9 +77,8 @@ class Session:
         self._shape = WorldShape(None)
         self._region: np.ndarray | None = None
         self._shares: np.ndarray | None = None
-        self._edge_length = (
-            0.0  # of the mesh that the solver was made for: a drag does not change it
-        )
+        # of the mesh that the solver was made for: a drag does not change it
+        self._edge_length = 0.0
         self._chosen = 0
         self._pace = Pace()
 
@@ -332,11 +329,6 @@ class Session:
         if full.solver is not None:
             self.solver, self._arguments = full.solver, full.arguments
             self._edge_length = job.edge_length
-
-    @property
-    def shown(self) -> tuple[Hashable, ...]:
-        """What the panel shows of it, to see whether that has changed."""
-        return self.key, self.updates, self.level, self.full_text, self.trouble
 
     @property
     def full_text(self) -> str:

@@ -11,8 +11,8 @@ import bpy
 
 from .. import core, prediction
 from ..blender import Answer, Context, Object, registration
-from ..freshness import stale_surfaces
 from ..errors import JobCancelled, JobError
+from ..freshness import stale_surfaces
 from ..job import Job
 from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of

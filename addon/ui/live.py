@@ -45,7 +45,12 @@ def draw_stale_surfaces(layout: bpy.types.UILayout, source: Object | None) -> No
 
 
 def _draw_target(layout: bpy.types.UILayout, target: Object) -> None:
-    layout.prop(target.discrete_fairing_live, "levels")
+    live = target.discrete_fairing_live
+    layout.prop(live, "levels")
+    if live.on:
+        switches = layout.column(align=True, heading="Options")
+        for name in ("cage_as_wire", "keep_on", "in_renders"):
+            switches.prop(live, name)
     column = layout.column(align=True)
     for line in switch.lines(target):
         column.label(text=line)

@@ -13,12 +13,12 @@ from ..live import switch
 def draw_count(header: Any, _context: Context) -> None:
     count = sum(not switch.is_on(target) for target in stale_surfaces())
     if count:
-        text = f"{count} out of date"
-        header.layout.operator("object.fairing_recompute_stale", text=text, icon="ERROR")
+        # first and short: the header is narrow
+        header.layout.operator("object.fairing_recompute_stale", text=str(count), icon="ERROR")
 
 
 def register() -> None:
-    bpy.types.OUTLINER_HT_header.append(draw_count)
+    bpy.types.OUTLINER_HT_header.prepend(draw_count)
 
 
 def unregister() -> None:
