@@ -7,15 +7,15 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window.
 """
 
-from . import cli, memory, preferences, queue, settings
+from . import cli, freshness, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
-from .live import handlers, switch
+from .live import handlers, kept, switch
 from .mesh import mesh_changes
-from .operators import check, fair, faults, fill, inspect, live, presets
+from .operators import cancel, check, fair, faults, fill, inspect, live, old_names, presets
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
-from .ui import menus
+from .ui import menus, outliner
 
 _MODULES = (
     settings,
@@ -23,19 +23,24 @@ _MODULES = (
     preferences,
     inspection_settings,
     mesh_changes,
+    freshness,
     switch,
     handlers,
+    kept,
     fair,
     faults,
     fill,
+    cancel,
     live,
     check,
     inspect,
     presets,
+    old_names,
     main_panel,
     check_panel,
     inspect_panel,
     menus,
+    outliner,
     cli,
 )
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from . import core, errors, memory, prediction, size
+from . import core, errors, freshness, memory, prediction, size
 from .blender import Context, Object
 from .check.faults import find_faults
 from .choices import energy_name
@@ -65,6 +65,7 @@ class Job:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
+        self._made = freshness.made_of(context, source, self.settings)
         self.shape = world_shape(source)
         world = self.shape.of_arrays(self.arrays)
         self.edge_length = core.mean_edge_length(world)
@@ -196,6 +197,7 @@ class Job:
         self.faults.write(target.data)
         report = {**result.report, "faults": self.faults.counts}
         memory.remember(target, source, settings, report)
+        freshness.note(target, self._made)
         display.refresh(target, context.scene.discrete_fairing_inspection)
         work = self._work(settings.levels)
         prediction.note(settings.energy, work, self._taken, self._source.key)

@@ -58,6 +58,11 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         description="What came from the source, by name, as JSON",
         options={"HIDDEN"},
     )
+    made: StringProperty(
+        name="Made of",
+        description="Settings and source as they were when the surface was made, as JSON",
+        options={"HIDDEN"},
+    )
     defects: StringProperty(
         name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
     )
@@ -94,7 +99,7 @@ def remember(
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
-    """Keeps a dict with the object `target`. `name`: report, readout, carried or defects."""
+    """Keeps a dict with the object `target`. `name`: report, readout, carried, made or defects."""
     setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
 
 

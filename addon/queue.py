@@ -2,9 +2,11 @@
 """Jobs one after another on a thread of their own, watched from the main thread. No Blender."""
 
 import atexit
+import os
 import sys
 from collections.abc import Callable, Sequence
-from threading import Thread
+from contextlib import suppress
+from threading import Thread, get_native_id
 from typing import Any, TextIO
 from weakref import WeakSet
 
@@ -20,6 +22,7 @@ _PHASES = {
     "output": "Building the mesh",
     "done": "Done",
 }
+_NICENESS = 5  # of the threads that compute, above that of the window's
 _running = None  # the queue in progress
 _started: "WeakSet[Queue]" = WeakSet()
 
@@ -91,6 +94,7 @@ class Queue:
         return min(self._index, len(self.jobs) - 1)
 
     def _run(self) -> None:
+        _let_the_window_go_first()
         try:
             for job, monitor in zip(self.jobs, self._monitors):
                 job.compute(monitor=monitor)
@@ -101,6 +105,14 @@ class Queue:
             self.error = str(error)
         except Exception as error:  # an error on a thread would be lost without a word
             self.error = f"{self.job_name}: an unexpected error, please report it: {error!r}"
+
+
+def _let_the_window_go_first() -> None:
+    """Of this thread and those that it starts: on Linux each has a priority of its own."""
+    if sys.platform == "linux":
+        with suppress(OSError):
+            now = os.getpriority(os.PRIO_PROCESS, get_native_id())
+            os.setpriority(os.PRIO_PROCESS, get_native_id(), now + _NICENESS)
 
 
 @atexit.register

@@ -74,7 +74,7 @@ def show(exhibit, tiles):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     control = make(exhibit.name)
     start = time.perf_counter()
-    bpy.ops.object.fair_surface(shade_smooth=True, **exhibit.settings)
+    bpy.ops.object.fairing_surface(shade_smooth=True, **exhibit.settings)
     seconds = time.perf_counter() - start
     result = bpy.context.active_object
     with quiet():

@@ -239,7 +239,7 @@ def draw_variant(figure, variant, tile):
     surfaces = [control]
     wired = variant.as_it_is and variant.wires or figure.view.wires
     if not variant.as_it_is:
-        bpy.ops.object.fair_surface(**figure.common | variant.settings)
+        bpy.ops.object.fairing_surface(**figure.common | variant.settings)
         surfaces = [bpy.context.active_object]
         if surfaces[0].data.shape_keys:
             surfaces[0].data.shape_keys.key_blocks[1].value = variant.key

@@ -91,11 +91,16 @@ class FullLevel:
             self._queue.join()
 
 
+def is_dragging(context: Context) -> bool:
+    """Whether a mouse drags something that is being edited."""
+    return any(
+        operator.bl_idname.startswith(_EDITING)
+        for window in context.window_manager.windows
+        for operator in window.modal_operators
+    )
+
+
 def is_editing(context: Context) -> bool:
     """Whether an edit is still going on: a mouse that drags, an animation that plays."""
-    for window in context.window_manager.windows:
-        if window.screen.is_animation_playing:
-            return True
-        if any(operator.bl_idname.startswith(_EDITING) for operator in window.modal_operators):
-            return True
-    return False
+    windows = context.window_manager.windows
+    return is_dragging(context) or any(w.screen.is_animation_playing for w in windows)

@@ -8,13 +8,14 @@ runs, so there is none.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, cast
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..blender import Context, Scene, current_context
+from ..redraw import Progress, tag_sidebars
 from . import registry
 from .registry import session_key
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 INTERVAL = 0.1  # seconds between two looks at what waits
 
 _rendering = False
+_progress = Progress()
 
 
 def start_timer() -> None:
@@ -43,8 +45,14 @@ def on_timer() -> float | None:
         return INTERVAL
     for session in registry.sessions():
         guarded(session, _advance)
-    _redraw()
+    if _progress.is_due(tuple(map(_shown, registry.sessions()))):
+        tag_sidebars(current_context())
     return INTERVAL if registry.sessions() else None
+
+
+def _shown(session: Session) -> tuple[Hashable, ...]:
+    """What the panel shows of it, to see whether that has changed."""
+    return session.key, session.updates, session.level, session.full_text, session.trouble
 
 
 def look_at(session: Session) -> None:
@@ -87,7 +95,7 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
 
 @persistent
 def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if not registry.sessions() or registry.is_quiet() or _rendering:
+    if not registry.sessions() or registry.is_quiet():
         return
     reshaped = {
         session_key(cast(Any, change.id).original)
@@ -100,7 +108,26 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
             session.follow(depsgraph)
 
     for session in registry.sessions():
-        guarded(session, step)
+        if _is_awake(session):
+            guarded(session, step)
+
+
+@persistent
+def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Shape keys, armatures and drivers of another frame: Blender does not name all that they
+    change.
+    """
+    if registry.is_quiet():
+        return
+    for session in registry.sessions():
+        if _is_awake(session):
+            guarded(session, lambda it: it.follow(depsgraph))
+
+
+def _is_awake(session: Session) -> bool:
+    """During a render only those are that the user wants there."""
+    target = session.objects()[1]
+    return not _rendering or (target is not None and target.discrete_fairing_live.in_renders)
 
 
 @persistent
@@ -139,18 +166,9 @@ def _end_all(*_: Any) -> None:
         bpy.app.timers.unregister(on_timer)
 
 
-def _redraw() -> None:
-    """The sidebars, which show how long updates take."""
-    for window in current_context().window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
-
-
 _HANDLERS = {
     "depsgraph_update_post": _follow,
+    "frame_change_post": _follow_frame,
     "undo_pre": _before_undo,
     "redo_pre": _before_undo,
     "undo_post": _distrust_all,

@@ -52,10 +52,11 @@ class Pace:
 
 
 class Deadline:
-    """The core's `progress`: breaks a solve off that takes too long."""
+    """The core's `progress`: breaks off what takes too long."""
 
-    def __init__(self) -> None:
-        self._end = monotonic() + LIMIT
+    def __init__(self, seconds: float | None = None) -> None:
+        """`seconds`: None for the LIMIT of an update."""
+        self._end = monotonic() + (LIMIT if seconds is None else seconds)
         self.is_over = False
 
     def __call__(self, _fraction: float, _phase: str) -> bool:

@@ -12,6 +12,7 @@ import bpy
 from ..blender import Object
 from ..memory import source_problem
 from ..mesh.object import session_key
+from . import cage
 
 if TYPE_CHECKING:
     from .session import Session
@@ -50,12 +51,19 @@ def session_of(target: Object) -> Session | None:
 def add(session: Session) -> None:
     _sessions[session.key] = session
     _endings.pop(session.key, None)
+    target = session.objects()[1]
+    if target is not None:
+        cage.show(target)
 
 
 def remove(session: Session, reason: str = "") -> None:
     """Ends a session; `reason` if it was not switched off."""
     session.cancel_full(wait=True)
     _sessions.pop(session.key, None)
+    target = session.objects()[1]
+    if target is not None:
+        others = [other.objects()[1] for other in sessions()]
+        cage.restore(target, [other for other in others if other is not None])
     if reason:
         _endings[session.key] = reason
 

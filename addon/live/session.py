@@ -59,9 +59,7 @@ class Session:
         self.trouble = ""
         self.level = 0  # of the surface shown last
         self.triangles = 0
-        self.parts: dict[
-            str, float
-        ] = {}  # milliseconds of the last update: read, build, solve, write
+        self.parts: dict[str, float] = {}  # ms of the last update: read, build, solve, write
         self.updates = 0
         self._stale = True  # the mesh may not be what was written
         self._mesh: int | str | None = None  # key of the mesh that was built
@@ -80,9 +78,8 @@ class Session:
         self._region: np.ndarray | None = None
         self._shares: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
-        self._edge_length = (
-            0.0  # of the mesh that the solver was made for: a drag does not change it
-        )
+        # of the mesh that the solver was made for: a drag does not change it
+        self._edge_length = 0.0
         self._chosen = 0
         self._pace = Pace()
 

@@ -11,7 +11,7 @@ from ..blender import Context, Object, all_objects, attach, current_context, det
 from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..size import count_text
-from . import handlers, registry
+from . import cage, handlers, registry
 from .registry import is_in_a_scene
 from .session import Session
 
@@ -129,17 +129,27 @@ def _status(group: Any) -> str:
     return "\n".join([*lines(group.id_data), *([said] if said else [])])
 
 
+def _cage_changed(group: Any, _context: Context) -> None:
+    target = group.id_data
+    if not is_on(target):
+        return
+    if group.cage_as_wire:
+        cage.show(target)
+    else:
+        cage.restore(target)
+
+
 def _milliseconds(group: Any) -> float:
     session = registry.session_of(group.id_data)
     return sum(session.parts.values()) if session is not None else 0.0
 
 
 class FAIRING_PG_live(bpy.types.PropertyGroup):
-    """How a faired object follows its source. Only `levels` is kept in files."""
+    """How a faired object follows its source. Files keep all but `on`."""
 
     on: BoolProperty(
         name="Live",
-        description="The surface follows while its source is edited. Off again after loading a file",
+        description="The surface follows while its source is edited. Off again after loading a file, unless it is to stay on",
         get=_is_on,
         set=_switch,
     )
@@ -151,6 +161,31 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
         min=1,
         max=10,
         soft_max=5,
+    )
+    keep_on: BoolProperty(
+        name="Keep On in File",
+        description="If the file is saved while Live is on, it is on again when the file is opened",
+        default=False,
+    )
+    in_renders: BoolProperty(
+        name="Live in Renders",
+        description="The surface follows frame by frame in renders too, at its Live Levels. "
+        "Off: renders show it as it is when they begin",
+        default=False,
+    )
+    cage_as_wire: BoolProperty(
+        name="Cage as Wire",
+        description="While Live is on, the source is shown as wire, so that the surface is seen through it",
+        default=True,
+        update=_cage_changed,
+    )
+    was_on: BoolProperty(
+        name="Was On", description="Live was on when the file was saved", options={"HIDDEN"}
+    )
+    cage_display: StringProperty(
+        name="Cage Display",
+        description="How the source was shown before Live was switched on",
+        options={"HIDDEN"},
     )
     status: StringProperty(
         name="Status", description="What Live is doing, or why it has ended", get=_status

@@ -4,14 +4,17 @@
 All work is reachable from `execute`, which scripts and background runs call.
 """
 
+from collections.abc import Sequence
 from typing import cast
 
 import bpy
 
 from .. import core, prediction
 from ..blender import Answer, Context, Object, registration
-from ..errors import JobError
+from ..errors import JobCancelled, JobError
+from ..freshness import stale_surfaces
 from ..job import Job
+from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
@@ -44,25 +47,47 @@ class _Fairing(ExplainedPoll, ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
-            return self.start(context, jobs)
-        return self._block(context, jobs)
+        return self._in_time(context, jobs) or self._start_anew(context)
 
     def execute(self, context: Context) -> Answer:
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if self.is_redone() and fill.predicted_seconds(jobs) > prediction.PATIENCE:
-            return self._begin_small(context, jobs)
-        return self._block(context, jobs)
+        if not self.is_redone():
+            return self._block(context, jobs)
+        return self._in_time(context, jobs) or self._begin_small(context)
 
     def is_redone(self) -> bool:
         """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
         return self.options.is_repeat and not bpy.app.background
 
-    def _begin_small(self, context: Context, jobs: list[Job]) -> Answer:
-        """Makes small surfaces at once, and lets the whole ones follow in the background."""
-        answer = self._block(context, fill.small_jobs(context, jobs))
+    def _in_time(self, context: Context, jobs: list[Job]) -> Answer | None:
+        """Makes the surfaces at once; None where nobody would wait so long, by what was predicted
+        or by what it took.
+        """
+        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
+            return None
+        try:
+            return self._block(context, jobs, Deadline(prediction.PATIENCE))
+        except JobCancelled:
+            return None
+
+    def _start_anew(self, context: Context) -> Answer:
+        """In the background, with the bar."""
+        jobs = self._prepare(context)
+        return {"CANCELLED"} if jobs is None else self.start(context, jobs)
+
+    def _begin_small(self, context: Context) -> Answer:
+        """Makes small surfaces, or what stands in for them, at once, and lets the whole ones follow
+        in the background.
+        """
+        jobs = self._prepare(context)
+        if jobs is None:
+            return {"CANCELLED"}
+        try:
+            answer = self._block(context, fill.small_jobs(context, jobs), Deadline(fill.BUDGET))
+        except JobCancelled:
+            answer = self.finish(context, [fill.StandIn(job) for job in jobs])
         if answer == {"FINISHED"}:
             fill.fill_soon(context, self._written, jobs)
         return answer
@@ -76,18 +101,21 @@ class _Fairing(ExplainedPoll, ModalRun):
             self.report({"ERROR"}, str(error))
             return None
 
-    def _block(self, context: Context, jobs: list[Job]) -> Answer:
+    def _block(self, context: Context, jobs: list[Job], deadline: Deadline | None = None) -> Answer:
+        """All of it before anything else happens; raises JobCancelled if the deadline passes."""
         try:
             for job in jobs:
-                job.compute(
-                    **({"progress": ConsoleProgress(job.name)} if bpy.app.background else {})
-                )
+                console = ConsoleProgress(job.name) if bpy.app.background else None
+                progress = deadline or console
+                job.compute(**({"progress": progress} if progress else {}))
+        except JobCancelled:
+            raise
         except JobError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return self.finish(context, jobs)
 
-    def finish(self, context: Context, jobs: list[Job]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> Answer:
         """Writes what finished jobs have computed, in Object Mode."""
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
@@ -96,7 +124,7 @@ class _Fairing(ExplainedPoll, ModalRun):
                 f"{', '.join(gone)} was deleted or undone during the run: nothing has been made.",
             )
             return {"CANCELLED"}
-        if context.mode == "EDIT_MESH":
+        if context.mode != "OBJECT":  # whatever the user has begun meanwhile
             bpy.ops.object.mode_set(mode="OBJECT")
         self._written = [job.write(context) for job in jobs]
         for job in jobs:
@@ -112,16 +140,15 @@ class _Fairing(ExplainedPoll, ModalRun):
         """What is to be computed; raises JobError."""
         raise NotImplementedError
 
-    def after(self, context: Context, jobs: list[Job]) -> None:
+    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
         """For what is not common to both."""
 
 
-class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
-    """Make a new object: the fairest surface through the vertices of this mesh. The mesh itself stays as it is"""
+class FairSurface(_Fairing, FairingSettings):
+    """All of Fair Surface but its name."""
 
-    bl_idname = "object.fair_surface"
+    bl_idname: str
     bl_label = "Fair Surface"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     @staticmethod
     def poll_reason(context: Context) -> str:
@@ -140,11 +167,18 @@ class OBJECT_OT_fair_surface(_Fairing, FairingSettings, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[Job]:
         return [Job(context, source, self) for source in source_objects(context)]
 
-    def after(self, context: Context, jobs: list[Job]) -> None:
+    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
         for job in jobs:
             source = cast(Object, job.source)  # there, as `finish` has seen
             if self.hide_source and context.view_layer.objects.get(source.name) == source:
                 source.hide_set(True)
+
+
+class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
+    """Make a new object: the fairest surface through the vertices of this mesh. The mesh itself stays as it is"""
+
+    bl_idname = "object.fairing_surface"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
 
 def faired_objects(context: Context) -> list[Object]:
@@ -181,6 +215,25 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
         ]
 
 
+class OBJECT_OT_fairing_recompute_stale(_Fairing, bpy.types.Operator):
+    """Compute all surfaces again whose source or settings have changed since they were made"""
+
+    bl_idname = "object.fairing_recompute_stale"
+    bl_label = "Recompute All Out of Date"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        stale = next(stale_surfaces(), None)
+        return poll_reason(context) or ("" if stale else "No surface is out of date")
+
+    def make_jobs(self, context: Context) -> list[Job]:
+        return [
+            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
+            for target in stale_surfaces()
+        ]
+
+
 class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
     """Show the source of this surface and select it, to work on its vertices"""
 
@@ -208,6 +261,11 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (OBJECT_OT_fair_surface, OBJECT_OT_fairing_recompute, OBJECT_OT_fairing_show_source)
+CLASSES = (
+    OBJECT_OT_fairing_surface,
+    OBJECT_OT_fairing_recompute,
+    OBJECT_OT_fairing_recompute_stale,
+    OBJECT_OT_fairing_show_source,
+)
 
 register, unregister = registration(*CLASSES)

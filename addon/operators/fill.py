@@ -10,16 +10,19 @@ from typing import Any, cast
 
 import bpy
 
-from .. import prediction
+from .. import memory, prediction
 from ..blender import Answer, Context, Object, current_context, registration
 from ..errors import JobError
 from ..job import Job
 from ..memory import source_of
-from ..mesh.object import Reference
+from ..mesh.modifiers import copy_modifiers
+from ..mesh.object import Reference, new_object
+from ..mesh.own import carried_names
 from ..queue import running
-from ..settings import copy_settings
+from ..settings import copy_settings, wants_modifiers
 from .modal import ModalRun
 
+BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
 _WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
 _due: list[Reference] = []  # the surfaces that are still to be made whole
 
@@ -30,7 +33,7 @@ def predicted_seconds(jobs: Sequence[Job]) -> float:
 
 def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
     """Jobs in the place of `jobs` that take no longer than anyone would wait; raises JobError."""
-    budget = prediction.PATIENCE / len(jobs)
+    budget = BUDGET / len(jobs)
     return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
 
 
@@ -41,6 +44,41 @@ def _small(job: Job, budget: float) -> SimpleNamespace:
             if job.predict(energy, levels) <= budget:
                 return SimpleNamespace(**{**vars(job.settings), "levels": levels, "energy": energy})
     return SimpleNamespace(**{**vars(job.settings), "levels": 1, "energy": _WITHOUT})
+
+
+class StandIn:
+    """In the place of a job whose surface takes too long even when it is small: a new object has
+    the control mesh, an old one stays as it is.
+    """
+
+    def __init__(self, job: Job) -> None:
+        self._job = job
+        self.name = job.name
+        self.notes: list[str] = []
+
+    @property
+    def source(self) -> Object | None:
+        return self._job.source
+
+    def is_writable(self) -> bool:
+        return self._job.is_writable()
+
+    def write(self, context: Context) -> Object:
+        """The object that is to be filled."""
+        job = self._job
+        source, target = cast(Object, job.source), job.target
+        if target is None:
+            mesh = source.data.copy()
+            mesh.name = f"{job.name} Fair"
+            target = new_object(context, source, mesh)
+            memory.remember(target, source, job.settings, {})
+            memory.keep(target, "carried", carried_names(job.data, job.keys))
+            if wants_modifiers(job.settings):
+                self.notes += copy_modifiers(context, source, target)
+        return target
+
+    def warnings(self) -> list[str]:
+        return []
 
 
 def fill_soon(context: Context, targets: Sequence[Object], jobs: Sequence[Job]) -> None:

@@ -6,19 +6,10 @@ import bpy
 from .. import core
 from ..blender import Answer, Context, OperatorBase
 from ..job import Job
+from ..live.full_level import is_dragging
 from ..queue import Queue, running, set_running, status_text
+from ..redraw import Progress, tag_sidebars
 
-# what may still be done to the view meanwhile
-_NAVIGATION = {
-    "MIDDLEMOUSE",
-    "WHEELUPMOUSE",
-    "WHEELDOWNMOUSE",
-    "WHEELINMOUSE",
-    "WHEELOUTMOUSE",
-    "TRACKPADPAN",
-    "TRACKPADZOOM",
-    "NDOF_MOTION",
-}
 _INTERVAL = 0.05  # seconds between two looks at the thread
 
 
@@ -27,7 +18,7 @@ class ModalRun(OperatorBase):
     all are done.
     """
 
-    # whether others may end the run, and the window goes on meanwhile as if there were none
+    # whether others may end the run
     gives_way = False
 
     def finish(self, context: Context, jobs: list[Job]) -> Answer:
@@ -38,6 +29,7 @@ class ModalRun(OperatorBase):
         """Begins; the operator returns what this returns."""
         self._queue = Queue(jobs, core.module().Monitor, self.gives_way)
         set_running(self._queue)
+        self._progress = Progress()
         manager = context.window_manager
         self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
         manager.modal_handler_add(self)
@@ -45,15 +37,16 @@ class ModalRun(OperatorBase):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: bpy.types.Event) -> Answer:
+        """Takes nothing from the window but ESC."""
         if event.type == "ESC" and event.value == "PRESS":
             self._queue.cancel()
             return {"RUNNING_MODAL"}
         if event.type == "TIMER":
-            if self._queue.finished:
+            # whoever drags something holds on to what `finish` might take away
+            if self._queue.finished and not is_dragging(context):
                 return self._end(context)
-            self._show(context, status_text(self._queue) + "     ESC: Cancel")
-        passes = self.gives_way or event.type in _NAVIGATION
-        return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
+            self._show_progress(context)
+        return {"PASS_THROUGH"}
 
     def cancel(self, context: Context) -> None:
         """Called by Blender when it ends the operator itself, as on quitting."""
@@ -78,11 +71,15 @@ class ModalRun(OperatorBase):
         context.window_manager.event_timer_remove(self._timer)
         self._show(context, None)
 
+    def _show_progress(self, context: Context) -> None:
+        text = status_text(self._queue) + "     ESC: Cancel"
+        if self._progress.is_due(text):
+            self._show(context, text)
+
     @staticmethod
     def _show(context: Context, text: str | None) -> None:
-        """Status bar and panels; None puts back what Blender shows there itself."""
+        """Status bar and sidebars, but not the viewports, which may take long to draw; None puts
+        back what Blender shows in the status bar itself.
+        """
         context.workspace.status_text_set(text)
-        for window in context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+        tag_sidebars(context)

@@ -4,6 +4,7 @@
 import bpy
 
 from ..blender import Context, Object
+from ..freshness import stale_surfaces, why_stale
 from ..live import switch
 from .notice import draw_notice
 
@@ -23,8 +24,33 @@ def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
         _draw_target(layout, target)
 
 
+def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
+    """The badge of a surface that is not that of its source and settings any more."""
+    reason = "" if switch.is_on(target) else why_stale(target)
+    if reason:
+        row = layout.row()
+        row.alert = True
+        row.label(text=f"Out of date: {reason[0].lower()}{reason[1:]}", icon="ERROR")
+
+
+def draw_stale_surfaces(layout: bpy.types.UILayout, source: Object | None) -> None:
+    """The same beside their source."""
+    stale = [] if source is None else [t for t in stale_surfaces(source) if not switch.is_on(t)]
+    for target in stale:
+        row = layout.row()
+        row.alert = True
+        row.label(text=f"{target.name} is out of date", icon="ERROR")
+    if stale:
+        layout.operator("object.fairing_recompute_stale", icon="FILE_REFRESH")
+
+
 def _draw_target(layout: bpy.types.UILayout, target: Object) -> None:
-    layout.prop(target.discrete_fairing_live, "levels")
+    live = target.discrete_fairing_live
+    layout.prop(live, "levels")
+    if live.on:
+        switches = layout.column(align=True, heading="Options")
+        for name in ("cage_as_wire", "keep_on", "in_renders"):
+            switches.prop(live, name)
     column = layout.column(align=True)
     for line in switch.lines(target):
         column.label(text=line)

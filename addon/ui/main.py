@@ -28,11 +28,11 @@ from .layout import (
     draw_shape,
     draw_source,
 )
-from .live import draw_live
+from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 
 # where Blender looks for the presets of the operator, which are those of the panel
-PRESET_FOLDER = "operator/object.fair_surface"
+PRESET_FOLDER = "operator/object.fairing_surface"
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
 
@@ -79,11 +79,13 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         if queue is not None and not queue.gives_way:
             _draw_progress(layout, queue)
         elif memory is not None:
+            draw_stale(layout, cast(Object, context.active_object))
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
+            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+            draw_stale_surfaces(layout, context.active_object)
         draw_live(layout, context)
 
 
@@ -236,7 +238,7 @@ def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str
 
 def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
     layout.progress(factor=queue.fraction, text=status_text(queue))
-    layout.label(text="Cancel", icon="EVENT_ESC")
+    layout.operator("object.fairing_cancel", icon="X")
 
 
 CLASSES = (

@@ -15,8 +15,9 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
     def draw(self, _context: Context) -> None:
         layout: Any = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
-        layout.operator("object.fair_surface", icon="SURFACE_DATA")
+        layout.operator("object.fairing_surface", icon="SURFACE_DATA")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
+        layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
         layout.operator("object.fairing_show_source")
         layout.separator()
@@ -30,15 +31,15 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
             button.mode = mode
 
 
-def _draw_all(menu: Any, _context: Context) -> None:
-    menu.layout.separator()
-    menu.layout.menu(VIEW3D_MT_fairing.__name__)
-
-
 def _draw_one(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
-    menu.layout.operator("object.fair_surface", icon="SURFACE_DATA")
+    menu.layout.operator("object.fairing_surface", icon="SURFACE_DATA")
+
+
+def _draw_all(menu: Any, context: Context) -> None:
+    _draw_one(menu, context)
+    menu.layout.menu(VIEW3D_MT_fairing.__name__)
 
 
 def _draw_faces(menu: Any, _context: Context) -> None:
@@ -46,7 +47,7 @@ def _draw_faces(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
     button = menu.layout.operator(
-        "object.fair_surface", text="Fair Selected Faces", icon="SURFACE_DATA"
+        "object.fairing_surface", text="Fair Selected Faces", icon="SURFACE_DATA"
     )
     button.use_selection = True
 

@@ -36,7 +36,7 @@ def activate(target):
 
 def fair(**settings):
     """Runs the operator and returns the new active object."""
-    assert bpy.ops.object.fair_surface(**settings) == {"FINISHED"}
+    assert bpy.ops.object.fairing_surface(**settings) == {"FINISHED"}
     return bpy.context.active_object
 
 

@@ -34,7 +34,7 @@ def add_with_key():
 
 
 def test_one_default_everywhere():
-    properties = bpy.ops.object.fair_surface.get_rna_type().properties
+    properties = bpy.ops.object.fairing_surface.get_rna_type().properties
     assert properties["energy"].default == DEFAULT_ENERGY
     assert bpy.context.scene.discrete_fairing.energy == DEFAULT_ENERGY
     assert bpy.data.objects.new("New", None).discrete_fairing.energy == DEFAULT_ENERGY

@@ -11,7 +11,7 @@ from addon import errors, size
 def expect_refusal(match, **settings):
     before = len(bpy.data.objects), len(bpy.data.meshes)
     with pytest.raises(RuntimeError, match=match):
-        bpy.ops.object.fair_surface(**settings)
+        bpy.ops.object.fairing_surface(**settings)
     assert (len(bpy.data.objects), len(bpy.data.meshes)) == before
 
 

@@ -17,7 +17,8 @@ MAY_USE_FILES = {
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
     "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
     "addon/cli/replacing.py",  # puts an output in its place when it is complete
-    "addon/operators/presets.py",  # the name of the folder that the shipped presets lie in
+    "addon/queue.py",  # `os`, for the priority of threads
+    "addon/operators/presets.py",  # the folder of the shipped presets; those of the old operator move
 }
 
 # All their numbers can be tested, and used, without Blender.
@@ -39,11 +40,11 @@ PURE_FILES = (
 # The rooms from the lowest to the highest: each imports from those before it, never from those
 # behind.
 ROOMS = (
-    {"blender", "choices", "core", "poll", "size"},
+    {"blender", "choices", "core", "poll", "redraw", "size"},
     {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
     {"memory"},
     {"mesh"},
-    {"check", "inspection"},
+    {"check", "freshness", "inspection"},
     {"job"},
     {"live"},
     {"cli", "ui"},

@@ -74,7 +74,7 @@ def test_one_bad_mesh_leaves_the_scene_as_it_was():
     good.select_set(True)
     before = set(bpy.data.objects), set(bpy.data.meshes)
     with pytest.raises(RuntimeError, match="Bad"):
-        bpy.ops.object.fair_surface(levels=1)
+        bpy.ops.object.fairing_surface(levels=1)
     assert (set(bpy.data.objects), set(bpy.data.meshes)) == before
     assert not good.hide_get() and bad.select_get() and good.select_get()
 
@@ -128,4 +128,4 @@ def test_no_selected_face_is_an_error():
     source = grid()
     select_faces(source, lambda p: False)
     with pytest.raises(RuntimeError, match="no face is selected"):
-        bpy.ops.object.fair_surface(levels=1, use_selection=True)
+        bpy.ops.object.fairing_surface(levels=1, use_selection=True)

@@ -8,6 +8,7 @@ from fake_layout import draw
 from scenes import CUBE, activate, add, fair, positions
 
 from addon import prediction
+from addon.errors import JobCancelled
 from addon.job import Job
 from addon.operators import fair as fairing
 from addon.operators import fill
@@ -69,12 +70,65 @@ def redo(monkeypatch):
     monkeypatch.setattr(fairing._Fairing, "is_redone", lambda self: True)
 
 
+def test_a_run_that_takes_longer_than_predicted_is_broken_off(redo, monkeypatch):
+    monkeypatch.setattr(fill, "predicted_seconds", lambda jobs: 0.0)
+    monkeypatch.setattr(prediction, "PATIENCE", 0.02)
+    add("Box", *CUBE)
+    target = fair(levels=7)
+    assert len(target.data.polygons) < 6 * 4**7 and target.discrete_fairing.levels == 7
+    assert [job.settings.levels for job in fill.due_jobs(bpy.context)] == [7]
+
+
+def out_of_time(monkeypatch):
+    """Whatever has a deadline misses it."""
+
+    def compute(self, progress):
+        raise JobCancelled(self.name)
+
+    monkeypatch.setattr(Job, "compute", compute)
+
+
+def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
+    out_of_time(monkeypatch)
+    source = add("Box", *CUBE)
+    source.vertex_groups.new(name="Theirs").add([0], 0.5, "REPLACE")
+    source.shape_key_add(name="Basis")
+    target = fair(levels=4)
+    assert np.array_equal(positions(target.data), positions(source.data)), "the control mesh"
+    assert source.hide_get() and target.discrete_fairing.levels == 4
+    monkeypatch.undo()
+    (job,) = jobs = fill.due_jobs(bpy.context)
+    job.compute()
+    fill.write_jobs(bpy.context, jobs)
+    assert len(target.data.polygons) == 6 * 4**4
+    assert [group.name for group in target.vertex_groups] == ["Theirs"]
+    activate_shown(source)
+    assert np.array_equal(positions(target.data), positions(fair(levels=4).data))
+
+
+def test_an_old_surface_stays_until_the_new_one_is_there(redo, monkeypatch):
+    add("Box", *CUBE)
+    target = fair(levels=2)
+    before = positions(target.data)
+    target.discrete_fairing.levels = 3
+    out_of_time(monkeypatch)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.array_equal(positions(target.data), before)
+    assert [job.target for job in fill.due_jobs(bpy.context)] == [target]
+
+
+def activate_shown(source):
+    source.hide_set(False)
+    activate(source)
+
+
 def test_redo_shows_a_small_surface_and_the_whole_one_follows(redo):
     source = add("Box", *CUBE)
     key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
     prediction.note("THIN_PLATE", 12 * 4**4, 1.0, key)  # a second at level 4
     target = fair(levels=5)
-    assert len(target.data.polygons) == 6 * 4**3 and target.discrete_fairing.levels == 5
+    assert len(target.data.polygons) == 6 * 4**3, "a quarter of a second"
+    assert target.discrete_fairing.levels == 5
     (job,) = jobs = fill.due_jobs(bpy.context)
     job.compute()
     fill.write_jobs(bpy.context, jobs)

@@ -10,6 +10,7 @@ from bl_operators.presets import AddPresetOperator
 from scenes import CUBE, add, fair
 
 import addon
+from addon.operators import presets
 from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES
 from addon.ui.main import PRESET_FOLDER
@@ -29,7 +30,7 @@ def values(name):
 
 
 def test_blender_finds_them_for_the_operator():
-    folder = AddPresetOperator.operator_path("OBJECT_OT_fair_surface")
+    folder = AddPresetOperator.operator_path("OBJECT_OT_fairing_surface")
     paths = [Path(path) for path in bpy.utils.preset_paths(folder)]
     found = {file.stem for path in paths for file in path.glob("*.py")}
     assert set(SHIPPED) <= found
@@ -74,6 +75,20 @@ def test_a_preset_from_before_still_opens(tmp_path):
     assert settings.shade_smooth, "to its last line"
     assert (settings.tolerance, settings.tolerance_unit) == (pytest.approx(0.005), "SCENE")
     assert settings.get("vertex_release") is None
+
+
+def test_presets_of_the_old_operator_move(tmp_path, monkeypatch):
+    old, new = tmp_path / "operator/object.fair_surface", tmp_path / PRESET_FOLDER
+    for folder in (old, new):
+        folder.mkdir(parents=True)
+    (old / "Mine.py").write_text(OLD)
+    (old / "Both.py").write_text("old")
+    (new / "Both.py").write_text("new")
+    monkeypatch.setattr(bpy.utils, "preset_paths", lambda subdir: [str(tmp_path / subdir)])
+    presets.take_over_old_presets()
+    assert (new / "Mine.py").read_text() == OLD and not (old / "Mine.py").exists()
+    assert (new / "Both.py").read_text() == "new" and (old / "Both.py").read_text() == "old"
+    presets.take_over_old_presets()
 
 
 def test_own_preset(tmp_path, monkeypatch):

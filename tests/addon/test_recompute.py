@@ -110,7 +110,7 @@ def test_without_its_source_it_is_a_mesh_like_any_other():
     bpy.data.objects.remove(source)
     assert result.discrete_fairing.source is None
     assert not bpy.ops.object.fairing_recompute.poll()
-    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
     assert not bpy.ops.object.fairing_show_source.poll()
 
 
@@ -120,12 +120,12 @@ def test_panel_shows_what_is_remembered():
     assert "relative_tolerance" in draw(main.VIEW3D_PT_fairing)
     fair(levels=1)
     log = draw(main.VIEW3D_PT_fairing)
-    assert "object.fairing_recompute" in log and "object.fair_surface" not in log
+    assert "object.fairing_recompute" in log and "object.fairing_surface" not in log
     assert "source" in log and "relative_tolerance" not in log, "its own settings, not the scene's"
     assert "48 triangles" in log, "counted from its source"
     assert bpy.ops.object.fairing_show_source() == {"FINISHED"}
     assert bpy.context.active_object == source and source.visible_get()
-    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
 
 
 def test_survives_saving(tmp_path):

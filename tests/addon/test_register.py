@@ -5,7 +5,7 @@ import addon
 from addon import core
 
 CLASSES = (
-    "OBJECT_OT_fair_surface",
+    "OBJECT_OT_fairing_surface",
     "OBJECT_OT_fairing_recompute",
     "OBJECT_OT_fairing_preset_add",
     "VIEW3D_PT_fairing",
@@ -32,7 +32,7 @@ def test_register_and_unregister_twice():
 
 
 def test_operator_can_be_undone_and_redone():
-    assert bpy.types.OBJECT_OT_fair_surface.bl_options == {"REGISTER", "UNDO", "PRESET"}
+    assert bpy.types.OBJECT_OT_fairing_surface.bl_options == {"REGISTER", "UNDO", "PRESET"}
     assert bpy.types.OBJECT_OT_fairing_recompute.bl_options == {"REGISTER", "UNDO"}
 
 
@@ -43,6 +43,6 @@ def test_panel_stands_in_its_tab():
 def test_without_the_native_module_the_button_is_grey_and_nothing_breaks(monkeypatch):
     monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
     bpy.ops.mesh.primitive_cube_add()
-    assert not bpy.ops.object.fair_surface.poll()
+    assert not bpy.ops.object.fairing_surface.poll()
     addon.unregister()
     addon.register()

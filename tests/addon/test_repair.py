@@ -119,7 +119,7 @@ def test_uvs_and_attributes_follow():
 def test_refuse_says_why():
     source = add_defective()
     with pytest.raises(RuntimeError, match="same vertices as another face"):
-        bpy.ops.object.fair_surface(levels=1, repair="REFUSE")
+        bpy.ops.object.fairing_surface(levels=1, repair="REFUSE")
     assert list(bpy.data.objects) == [source]
 
 

@@ -71,7 +71,7 @@ def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
     target = live(source)
     activate(source)
     scene, log = bpy.context.scene.discrete_fairing, draw(main.VIEW3D_PT_fairing)
-    assert f"Live: {target.name}" in log and "object.fair_surface" not in log
+    assert f"Live: {target.name}" in log and "object.fairing_surface" not in log
     settings = main.settings_at_hand(bpy.context)
     assert settings == target.discrete_fairing != scene
     before = positions(target.data)
@@ -79,7 +79,7 @@ def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
     handlers.on_timer()
     assert not np.array_equal(positions(target.data), before)
     bpy.ops.object.fairing_live(state="OFF")
-    assert "object.fair_surface" in draw(main.VIEW3D_PT_fairing)
+    assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
     assert main.settings_at_hand(bpy.context) == scene
 
 

@@ -126,9 +126,9 @@ def test_menus_have_every_operator():
     """Blender's search finds what stands in a menu."""
     add("Box", *CUBE)
     log = draw(menus.VIEW3D_MT_fairing)
-    own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fair")}
+    own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fairing_")}
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
-    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill"}
+    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill", "cancel"}
     assert own - {f"object.fairing_{name}" for name in others} == {
         entry for entry in log if entry.startswith("object.")
     }
@@ -156,7 +156,7 @@ def test_missing_core_is_said_in_the_panel(monkeypatch):
 @pytest.mark.parametrize("levels", [1, 3])
 def test_count_is_what_comes(levels):
     source = add_suzanne()
-    bpy.ops.object.fair_surface(levels=levels, energy="THIN_PLATE")
+    bpy.ops.object.fairing_surface(levels=levels, energy="THIN_PLATE")
     fine = face_values(bpy.context.object.data, "loop_total", "i")
     assert size.triangle_count(size.face_sizes(source.data), levels) == int((fine - 2).sum())
 
@@ -184,7 +184,7 @@ def test_copy_settings():
 
 def test_layout_draws_operator_properties_too():
     log = Layout()
-    properties = bpy.context.window_manager.operator_properties_last("object.fair_surface")
+    properties = bpy.context.window_manager.operator_properties_last("object.fairing_surface")
     settings_layout.draw_shape(log, properties)
     settings_layout.draw_creases(log, properties)
     settings_layout.draw_advanced(log, properties)

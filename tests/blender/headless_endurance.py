@@ -36,7 +36,7 @@ def once(source, **settings):
     """Fairs `source`, checks the mesh, and removes the result again."""
     bpy.context.view_layer.objects.active = source
     source.select_set(True)
-    assert bpy.ops.object.fair_surface(levels=2, hide_source=False, **settings) == {"FINISHED"}
+    assert bpy.ops.object.fairing_surface(levels=2, hide_source=False, **settings) == {"FINISHED"}
     result = bpy.context.active_object
     assert result != source and not result.data.validate(verbose=True), (
         "validate() had to mend the mesh"
@@ -61,7 +61,7 @@ def test_two_hundred_runs():
 
 def test_two_hundred_recomputations():
     bpy.ops.mesh.primitive_monkey_add()
-    bpy.ops.object.fair_surface(levels=2)
+    bpy.ops.object.fairing_surface(levels=2)
     result = bpy.context.active_object
     memory = []
     for _ in range(RUNS):

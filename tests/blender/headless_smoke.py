@@ -48,7 +48,7 @@ def sides(mesh):
 
 def fair(source, **settings):
     """Runs the operator on one object and returns the new one."""
-    assert bpy.ops.object.fair_surface(levels=LEVELS, **settings) == {"FINISHED"}
+    assert bpy.ops.object.fairing_surface(levels=LEVELS, **settings) == {"FINISHED"}
     return bpy.data.objects[f"{source.name} Fair"]
 
 
@@ -118,7 +118,7 @@ def test_bad_mesh_is_refused_and_nothing_changes():
     source.select_set(True)
     before = set(bpy.data.objects.keys())
     try:
-        bpy.ops.object.fair_surface(levels=LEVELS, repair="REFUSE")
+        bpy.ops.object.fairing_surface(levels=LEVELS, repair="REFUSE")
     except RuntimeError as error:
         assert "the other way" in str(error), error
     else:
@@ -128,9 +128,9 @@ def test_bad_mesh_is_refused_and_nothing_changes():
 
 def test_disable_and_enable_again():
     bpy.ops.preferences.addon_disable(module=EXTENSION)
-    assert not hasattr(bpy.types, "OBJECT_OT_fair_surface")
+    assert not hasattr(bpy.types, "OBJECT_OT_fairing_surface")
     bpy.ops.preferences.addon_enable(module=EXTENSION)
-    assert hasattr(bpy.types, "OBJECT_OT_fair_surface")
+    assert hasattr(bpy.types, "OBJECT_OT_fairing_surface")
 
 
 harness.run(globals())

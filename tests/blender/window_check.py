@@ -73,7 +73,7 @@ def test_zebra_and_curvature_are_seen():
     with bpy.context.temp_override(
         **harness.view(), active_object=source, selected_objects=[source]
     ):
-        assert bpy.ops.object.fair_surface(levels=3) == {"FINISHED"}
+        assert bpy.ops.object.fairing_surface(levels=3) == {"FINISHED"}
     result = bpy.data.objects["Suzanne Fair"]
     view = harness.view()
     with bpy.context.temp_override(

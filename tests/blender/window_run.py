@@ -182,7 +182,7 @@ def test_several_objects_queue():
     for source in (first, second):
         source.select_set(True)
     with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fair_surface("INVOKE_DEFAULT", levels=4) == {"RUNNING_MODAL"}
+        assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=4) == {"RUNNING_MODAL"}
     assert running().position == (1, 2)
     yield from wait_for_the_end()
     assert {o.name for o in bpy.context.view_layer.objects.selected} == {
@@ -196,7 +196,7 @@ def test_edit_mode_and_a_region():
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
-        assert bpy.ops.object.fair_surface(
+        assert bpy.ops.object.fairing_surface(
             "INVOKE_DEFAULT", levels=TOO_LONG, use_selection=True
         ) == {"RUNNING_MODAL"}
     yield 0.5
@@ -220,7 +220,9 @@ def start_long_run():
     """A run that would take minutes, begun."""
     harness.add_suzanne()
     with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fair_surface("INVOKE_DEFAULT", levels=TOO_LONG) == {"RUNNING_MODAL"}
+        assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=TOO_LONG) == {
+            "RUNNING_MODAL"
+        }
     assert running()
 
 

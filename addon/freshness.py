@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a surface is still that of its source and settings: what it was made of is kept with it.
+
+Panels only look it up. After a change a timer reads the source again; without a window that is
+done when somebody asks. What is only carried, such as UV maps, does not count.
+"""
+
+import zlib
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import astuple
+from typing import Any, cast
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from . import memory
+from .blender import Context, Mesh, Object, Scene, all_objects, current_context
+from .errors import JobError
+from .memory import source_of
+from .mesh.object import Reference, session_key
+from .mesh.read import control_mesh, read_mesh, tolerance_shares
+from .mesh.shape_keys import read_shape_keys
+from .mesh.world_shape import world_shape
+from .redraw import tag_outliners, tag_sidebars
+from .settings import NAMES, Settings, is_evaluated
+
+SOURCE_CHANGED = "The source has changed"
+SETTINGS_CHANGED = "The settings have changed"
+# settings that change nothing about a surface that is there
+_ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
+_SOON = 0.3  # seconds
+
+_surfaces: dict[int | str, Reference] = {}  # those that are known
+_sums: dict[int | str, int] = {}  # surface: of its source, as of the last look
+_unread: set[int | str] = set()  # surfaces whose source may have changed since
+_watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces
+
+
+def made_of(context: Context, source: Object, settings: Settings) -> dict[str, Any]:
+    """What a surface is made of at this moment, to be kept with it by `note`."""
+    return {"settings": _that_count(settings), "source": _checksum(context, source, settings)}
+
+
+def note(target: Object, made: dict[str, Any]) -> None:
+    """Keeps with `target` what it was made of."""
+    memory.keep(target, "made", made)
+    _unread.add(session_key(target))
+    know(target)
+
+
+def know(target: Object) -> None:
+    """From now on changes of its source are heard of."""
+    key, source = session_key(target), source_of(target)
+    _surfaces.setdefault(key, Reference(target))
+    if source is not None:
+        for block in (source, source.data, source.data.shape_keys):
+            if block is not None:
+                _watched.setdefault(session_key(block), set()).add(key)
+
+
+def why_stale(target: Object) -> str:
+    """Why `target` is out of date, in a few words; empty if it is not, or nobody can tell."""
+    made = memory.recall(target, "made")
+    if not made or source_of(target) is None:
+        return ""
+    know(target)
+    if made["settings"] != _that_count(target.discrete_fairing):
+        return SETTINGS_CHANGED
+    key = session_key(target)
+    if key not in _sums or key in _unread:
+        _unread.add(key)
+        if bpy.app.background:
+            _look()
+        elif not bpy.app.timers.is_registered(_look):
+            bpy.app.timers.register(_look, first_interval=_SOON)
+    return SOURCE_CHANGED if _sums.get(key, made["source"]) != made["source"] else ""
+
+
+def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
+    """The known surfaces in the file that are out of date; those made from `source` alone."""
+    for reference in list(_surfaces.values()):
+        target = reference.find()
+        if target is None or target.library is not None or not target.users_scene:
+            continue
+        if (source is None or target.discrete_fairing.source == source) and why_stale(target):
+            yield target
+
+
+def _that_count(settings: Settings) -> dict[str, Any]:
+    return {name: getattr(settings, name) for name in NAMES if name not in _ELSEWHERE}
+
+
+def _look() -> None:
+    """Reads the sources that may have changed."""
+    context = current_context()
+    for key in list(_unread):
+        target = _surfaces[key].find() if key in _surfaces else None
+        source = source_of(target) if target is not None else None
+        if target is not None and source is not None:
+            _sums[key] = _checksum(context, source, target.discrete_fairing)
+    _unread.clear()
+    tag_sidebars(context)
+    tag_outliners(context)
+
+
+def _checksum(context: Context, source: Object, settings: Settings) -> int:
+    """Of all of the source that goes into a surface."""
+    with control_mesh(context, source) as mesh:
+        arrays = read_mesh(mesh)
+        parts = [*astuple(arrays), _selection(mesh) if settings.use_selection else None]
+        with suppress(JobError):
+            parts.append(tolerance_shares(source, mesh, settings))
+    if settings.use_shape_keys:
+        keys = read_shape_keys(source, len(arrays.positions))
+        parts.append(keys.shapes if keys is not None else None)
+    words: list[Any] = [world_shape(source).rows]
+    if is_evaluated(settings):
+        words += [_values(modifier) for modifier in source.modifiers]
+    total = zlib.crc32(repr(words).encode())
+    for part in parts:
+        total = zlib.crc32(b"" if part is None else np.ascontiguousarray(part).tobytes(), total)
+    return total
+
+
+def _selection(mesh: Mesh) -> np.ndarray:
+    flags = np.empty((2, len(mesh.polygons)), bool)
+    for row, name in zip(flags, ("select", "hide"), strict=True):
+        mesh.polygons.foreach_get(name, row)
+    return flags[0] & ~flags[1]
+
+
+def _values(modifier: Any) -> list[Any]:
+    """What the modifier's properties are, as far as they are plain."""
+    plain = (bool, int, float, str)
+    found = [getattr(modifier, p.identifier) for p in modifier.bl_rna.properties]
+    return [value for value in found if isinstance(value, plain)]
+
+
+@persistent
+def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if not _watched:
+        return
+    for update in depsgraph.updates:
+        if update.is_updated_geometry or update.is_updated_transform:
+            _unread.update(_watched.get(session_key(cast(Any, update.id).original), ()))
+
+
+@persistent
+def _distrust(*_: Any) -> None:
+    """After undo anything may have changed."""
+    _unread.update(_surfaces)
+
+
+@persistent
+def _begin(*_: Any) -> None:
+    """With the surfaces of the file that was just opened."""
+    for known in (_surfaces, _sums, _unread, _watched):
+        known.clear()
+    for target in all_objects():
+        if target.type == "MESH" and target.discrete_fairing.source is not None:
+            know(target)
+
+
+_HANDLERS = {
+    "depsgraph_update_post": _note_changes,
+    "undo_post": _distrust,
+    "redo_post": _distrust,
+    "load_post": _begin,
+}
+
+
+def register() -> None:
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister() -> None:
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).remove(handler)
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    for known in (_surfaces, _sums, _unread, _watched):
+        known.clear()

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The control mesh of a live surface: shown as wire, so that the surface is seen through it."""
+
+from collections.abc import Iterable
+from typing import Literal
+
+from ..blender import Object
+from ..memory import source_of
+
+_WIRE: Literal["WIRE"] = "WIRE"
+
+
+def show(target: Object) -> None:
+    """From now on as wire; how it was shown is kept with `target`."""
+    source, live = source_of(target), target.discrete_fairing_live
+    if source is None or not live.cage_as_wire or _is_linked(source, target):
+        return
+    if source.display_type != _WIRE:
+        live.cage_display = source.display_type
+        source.display_type = _WIRE
+
+
+def restore(target: Object, others: Iterable[Object] = ()) -> None:
+    """As it was, unless the user has changed it meanwhile; `others`: surfaces that are still live."""
+    source, live = source_of(target), target.discrete_fairing_live
+    if source is None or not live.cage_display or _is_linked(source, target):
+        return
+    before, live.cage_display = live.cage_display, ""
+    heir = next((o for o in others if o != target and source_of(o) == source), None)
+    if heir is not None and heir.discrete_fairing_live.cage_as_wire:
+        heir.discrete_fairing_live.cage_display = before
+    elif source.display_type == _WIRE:
+        source.display_type = before
+
+
+def _is_linked(*objects: Object) -> bool:
+    return any(each.library is not None for each in objects)

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live that stays on in the file: noted when it is saved, switched on again when it is opened."""
+
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..blender import Object, all_objects
+from . import cage, switch
+
+
+@persistent
+def _note(*_: Any) -> None:
+    """Which surfaces are live, before the file is written."""
+    for target in _surfaces():
+        live, on = target.discrete_fairing_live, switch.is_on(target)
+        if live.was_on != on:
+            live.was_on = on
+
+
+@persistent
+def _restore(*_: Any) -> None:
+    """Of the file that was opened. Objects that cannot be live any more stay as they are, and so
+    does everything where there is no window, but for renders.
+    """
+    for target in _surfaces():
+        live = target.discrete_fairing_live
+        wanted = live.was_on and live.keep_on
+        if wanted and (live.in_renders or not bpy.app.background):
+            switch.switch_on(target)
+        if not switch.is_on(target):
+            cage.restore(target)
+
+
+def _surfaces() -> list[Object]:
+    return [
+        o
+        for o in all_objects()
+        if o.type == "MESH" and o.library is None and o.discrete_fairing.source is not None
+    ]
+
+
+def register() -> None:
+    bpy.app.handlers.save_pre.append(_note)
+    bpy.app.handlers.load_post.append(_restore)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_restore)
+    bpy.app.handlers.save_pre.remove(_note)

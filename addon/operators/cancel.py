@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cancel, as a button."""
+
+import bpy
+
+from ..blender import Answer, Context, registration
+from ..poll import ExplainedPoll
+from ..queue import running
+
+
+class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
+    """End the fairing that goes on at this moment. Nothing changes then. ESC does the same"""
+
+    bl_idname = "object.fairing_cancel"
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}
+
+    @staticmethod
+    def poll_reason(_context: Context) -> str:
+        return "" if running() is not None else "Nothing is being faired"
+
+    def execute(self, _context: Context) -> Answer:
+        queue = running()
+        if queue is not None:
+            queue.cancel()
+        return {"FINISHED"}
+
+
+register, unregister = registration(OBJECT_OT_fairing_cancel)

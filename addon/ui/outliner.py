@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many surfaces are out of date, in the header of the Outliner: its rows are closed to Python."""
+
+from typing import Any
+
+import bpy
+
+from ..blender import Context
+from ..freshness import stale_surfaces
+from ..live import switch
+
+
+def draw_count(header: Any, _context: Context) -> None:
+    count = sum(not switch.is_on(target) for target in stale_surfaces())
+    if count:
+        # first and short: the header is narrow
+        header.layout.operator("object.fairing_recompute_stale", text=str(count), icon="ERROR")
+
+
+def register() -> None:
+    bpy.types.OUTLINER_HT_header.prepend(draw_count)
+
+
+def unregister() -> None:
+    bpy.types.OUTLINER_HT_header.remove(draw_count)

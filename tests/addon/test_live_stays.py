@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live over frames, renders and files, and what becomes of the cage meanwhile."""
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import box, live, session
+from scenes import CUBE, activate, add, positions
+
+from addon.live import handlers, kept, registry
+
+FRAMES = (1, 11)
+
+
+def animate(source):
+    """A shape key that raises a vertex by one from the first frame to the last."""
+    source.shape_key_add(name="Basis")
+    key = source.shape_key_add(name="Up")
+    key.data[0].co.z += 1.0
+    for frame, value in zip(FRAMES, (0.0, 1.0), strict=True):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+
+
+def hang(source):
+    """An armature whose bone is moved by an action."""
+    bpy.ops.object.armature_add()
+    armature = bpy.context.active_object
+    modifier = source.modifiers.new("Armature", "ARMATURE")
+    modifier.object = armature
+    source.vertex_groups.new(name=armature.data.bones[0].name).add(range(8), 1.0, "REPLACE")
+    bone = armature.pose.bones[0]
+    for frame, height in zip(FRAMES, (0.0, 1.0), strict=True):
+        bone.location.y = height
+        bone.keyframe_insert("location", frame=frame)
+
+
+def drive(source):
+    """A driver on a vertex's way: an array whose offset follows the frame."""
+    modifier = source.modifiers.new("Displace", "DISPLACE")
+    modifier.direction, modifier.mid_level = "Z", 0.0
+    driver = modifier.driver_add("strength").driver
+    driver.type, driver.expression = "SCRIPTED", "(frame - 1) / 10"
+
+
+def animated(way):
+    source = add("Box", *CUBE)
+    way(source)
+    activate(source)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    bpy.context.scene.frame_set(FRAMES[0])
+    return live(source)
+
+
+@pytest.mark.parametrize("way", [animate, hang, drive])
+def test_frames_are_followed(way):
+    target = animated(way)
+    before = positions(target.data)[0, 2]
+    for frame in (6, 11, 1):
+        bpy.context.scene.frame_set(frame)
+        height = positions(target.data)[0, 2] - before
+        assert height == pytest.approx((frame - 1) / 10, abs=0.3), "keys ease in and out"
+        assert (height != 0.0) == (frame != 1)
+
+
+def test_renders_are_left_alone_unless_asked():
+    target = animated(animate)
+    before = positions(target.data)
+    handlers._render_begins()
+    bpy.context.scene.frame_set(11)
+    assert np.array_equal(positions(target.data), before)
+    target.discrete_fairing_live.in_renders = True
+    bpy.context.scene.frame_set(10)
+    assert positions(target.data)[0, 2] > before[0, 2]
+    handlers._render_ends()
+
+
+@pytest.mark.parametrize("keep", [False, True])
+@pytest.mark.parametrize("window", [False, True])
+def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
+    source, target = box()
+    target.discrete_fairing_live.keep_on = keep
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    target = bpy.data.objects["Box Fair"]
+    assert not registry.sessions(), "nothing follows where there is no window"
+    target.discrete_fairing.source.display_type = "WIRE"
+    target.discrete_fairing_live.cage_display = "TEXTURED"
+    if window:
+        target.discrete_fairing_live.in_renders = True  # as good as a window
+    kept._restore()
+    on = keep and window
+    assert target.discrete_fairing_live.on == on
+    assert (target.discrete_fairing.source.display_type == "WIRE") == on
+    if on:
+        source = bpy.data.objects["Box"]
+        source.data.vertices[0].co.z += 0.5
+        source.data.update()
+        bpy.context.view_layer.update()
+        assert positions(target.data)[0, 2] == source.data.vertices[0].co.z
+
+
+def test_what_was_off_stays_off(tmp_path):
+    _, target = box()
+    target.discrete_fairing_live.keep_on = target.discrete_fairing_live.in_renders = True
+    target.discrete_fairing_live.on = False
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "off.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "off.blend"))
+    assert not registry.sessions()
+
+
+def test_the_cage_is_wire_while_it_is_live():
+    source, target = box()
+    assert source.display_type == "WIRE"
+    target.discrete_fairing_live.cage_as_wire = False
+    assert source.display_type == "TEXTURED"
+    target.discrete_fairing_live.cage_as_wire = True
+    target.discrete_fairing_live.on = False
+    assert source.display_type == "TEXTURED" and session(target) is None
+
+
+def test_who_has_changed_it_meanwhile_is_right():
+    source, target = box()
+    source.display_type = "BOUNDS"
+    target.discrete_fairing_live.on = False
+    assert source.display_type == "BOUNDS"
+
+
+def test_the_last_of_several_surfaces_gives_the_cage_back():
+    source, first = box()
+    source.hide_set(False)
+    activate(source)
+    bpy.ops.object.fairing_surface(levels=1)
+    second = live(bpy.context.active_object)
+    first.discrete_fairing_live.on = False
+    assert source.display_type == "WIRE"
+    second.discrete_fairing_live.on = False
+    assert source.display_type == "TEXTURED"

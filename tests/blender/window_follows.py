@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stands in for a modifier, in a real window: the badge, Live over frames, Live that stays on in the file."""
+
+import importlib
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+
+PATIENCE = 60.0  # seconds
+
+
+def until(done):
+    """Waits; a generator."""
+    begun = perf_counter()
+    while not done():
+        assert perf_counter() - begun < PATIENCE, "it does not come"
+        yield 0.1
+
+
+def module(name):
+    return importlib.import_module(f"{harness.EXTENSION}.{name}")
+
+
+def surface(levels=2, **settings):
+    """Suzanne and a surface of hers that is active, with the sidebar open; a generator."""
+    source = harness.add_suzanne()
+    yield from harness.open_sidebar("Fairing")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_surface(levels=levels, **settings)
+    yield 0.5
+    return source, bpy.data.objects["Suzanne Fair"]
+
+
+def test_a_badge_and_one_button_for_all():
+    source, target = yield from surface()
+    source.data.vertices[0].co.z += 1.0
+    source.data.update()
+    stale = module("freshness").stale_surfaces
+    yield from until(lambda: list(stale()) == [target])
+    yield 1.0
+    harness.photograph("badge")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_recompute_stale("INVOKE_DEFAULT")
+    yield from until(lambda: module("queue").running() is None and not list(stale()))
+    assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
+
+
+def test_frames_are_followed():
+    source, target = yield from surface(levels=1, mesh_source="EVALUATED")
+    source.shape_key_add(name="Basis")
+    key = source.shape_key_add(name="Up")
+    key.data[0].co.z += 1.0
+    for frame, value in ((1, 0.0), (11, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(1)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_live(state="ON")
+    yield 1.0
+    before = target.data.vertices[0].co.z
+    assert source.display_type == "WIRE"
+    bpy.context.scene.frame_set(11)
+    yield 1.0
+    assert abs(target.data.vertices[0].co.z - before - 1.0) < 1e-5
+    target.discrete_fairing_live.on = False
+    yield from until(lambda: source.display_type != "WIRE")
+
+
+def test_live_stays_on_in_the_file():
+    _, target = yield from surface()
+    target.discrete_fairing_live.keep_on = True
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_live(state="ON")
+    yield 1.0
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "live.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        yield 1.0
+    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
+    assert target.discrete_fairing_live.on
+    source.data.vertices[0].co.z += 1.0
+    source.data.update()
+    yield from until(
+        lambda: (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
+    )
+    yield from harness.open_sidebar("Fairing")
+    yield 1.0
+    harness.photograph("live_kept")
+
+
+harness.run_in_window(globals())
