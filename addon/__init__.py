@@ -8,6 +8,7 @@ window.
 """
 
 from . import cli, memory, preferences, queue, settings
+from .inspection import overlay
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
@@ -22,6 +23,7 @@ _MODULES = (
     memory,
     preferences,
     inspection_settings,
+    overlay,
     mesh_changes,
     switch,
     handlers,

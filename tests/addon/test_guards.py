@@ -32,7 +32,10 @@ PURE_FILES = (
     "cli/places.py",
     "cli/report.py",
     "inspection/curvature.py",
+    "inspection/drawn.py",
     "inspection/measures.py",
+    "inspection/sections.py",
+    "inspection/stripes.py",
     "live/pace.py",
 )
 
