@@ -12,7 +12,7 @@ from .inspection import overlay
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
-from .operators import check, fair, faults, fill, inspect, live, presets
+from .operators import check, fair, faults, fill, in_place, inspect, live, presets
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
@@ -30,6 +30,7 @@ _MODULES = (
     fair,
     faults,
     fill,
+    in_place,
     live,
     check,
     inspect,

@@ -84,6 +84,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             _draw_button(layout, "object.fair_surface", "SURFACE_DATA", text)
+            if context.mode == "EDIT_MESH" and settings.use_selection:
+                layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         draw_live(layout, context)
 
 

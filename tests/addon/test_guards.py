@@ -47,7 +47,7 @@ ROOMS = (
     {"memory"},
     {"mesh"},
     {"check", "inspection"},
-    {"job"},
+    {"in_place", "job"},
     {"live"},
     {"cli", "ui"},
     {"operators"},
