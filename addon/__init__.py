@@ -8,10 +8,22 @@ window.
 """
 
 from . import cli, freshness, memory, preferences, queue, settings
+from .inspection import overlay
 from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch
 from .mesh import mesh_changes
-from .operators import cancel, check, fair, faults, fill, inspect, live, old_names, presets
+from .operators import (
+    cancel,
+    check,
+    fair,
+    faults,
+    fill,
+    in_place,
+    inspect,
+    live,
+    old_names,
+    presets,
+)
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
@@ -22,6 +34,7 @@ _MODULES = (
     memory,
     preferences,
     inspection_settings,
+    overlay,
     mesh_changes,
     freshness,
     switch,
@@ -31,6 +44,7 @@ _MODULES = (
     faults,
     fill,
     cancel,
+    in_place,
     live,
     check,
     inspect,

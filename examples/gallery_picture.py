@@ -92,7 +92,7 @@ def _measure(columns, targets, view):
     """Curvature colours on all surfaces, by one range, which is returned."""
     surfaces = [t for c, t in zip(columns, targets, strict=True) if not c.is_control]
     for target in surfaces:
-        display.write_values(target.data)
+        display.write_values(target, "MEAN", None)
     judge = surfaces[min(1, len(surfaces) - 1)].data
     mean = np.empty(len(judge.vertices), np.float32)
     judge.attributes[display.VALUES["MEAN"]].data.foreach_get("value", mean)

@@ -1,51 +1,79 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switches what an object shows: itself, zebra stripes, or curvature as colours of its mesh."""
+"""Switches what an object shows: itself, stripes, or numbers at its vertices as colours."""
 
 from typing import Any
 
-from ..blender import Mesh, Object, all_objects
-from ..mesh.layers import fill_layer, layer_values, make_layer
-from ..mesh.read import read_mesh
-from . import measures, viewport_material
-from .curvature import curvature
-from .materials import COLOUR, CURVATURE_MODE, ZEBRA_MODE, curvature_material, zebra_material
+import numpy as np
 
-VALUES = {
+from ..blender import Context, Mesh, Object, all_objects, current_context
+from ..memory import source_of
+from ..mesh.layers import fill_layer, layer_values, make_layer
+from ..mesh.read import control_mesh, read_mesh
+from ..settings import is_evaluated
+from . import deviation, measures, viewport_material
+from .curvature import curvature
+from .materials import COLOUR, CURVATURE_MODE, curvature_material, stripes_material
+from .stripes import STRIPES
+
+CURVATURES = {
     "MEAN": "fair_mean_curvature",
     "GAUSS": "fair_gauss_curvature",
     "TOTAL": "fair_total_curvature",
 }
-# false at borders and sharp edges, whose values come from the neighbours
+# what is shown in colours, and the attribute that has the numbers
+VALUES = {**CURVATURES, "DEVIATION": "fair_deviation"}
+# false at borders and sharp edges, whose curvature comes from the neighbours
 INNER = "fair_curvature_measured"
 
-CURVATURES = tuple(VALUES)
 
-
-def write_values(mesh: Mesh) -> None:
-    """Measures `mesh` (bpy.types.Mesh, not in Edit Mode) and stores all three curvatures at its
-    vertices.
+def write_values(target: Object, mode: str, settings: Any) -> None:
+    """Measures `target`, not in Edit Mode, and stores what `mode` shows at the vertices of its
+    mesh: all three curvatures, or the deviation.
     """
+    if mode == "DEVIATION":
+        _write_deviation(current_context(), target, settings.deviation_object)
+        return
+    mesh = target.data
     bent = curvature(read_mesh(mesh))
-    for name, values in zip(VALUES.values(), (bent.mean, bent.gauss, bent.total), strict=True):
+    for name, values in zip(CURVATURES.values(), (bent.mean, bent.gauss, bent.total), strict=True):
         fill_layer(make_layer(mesh, name, "FLOAT", "POINT"), values)
     fill_layer(make_layer(mesh, INNER, "BOOLEAN", "POINT"), bent.inner)
 
 
-def have_values(mesh: Mesh) -> bool:
-    """Whether write_values ran on this mesh."""
-    return all(name in mesh.attributes for name in (*VALUES.values(), INNER))
+def _write_deviation(context: Context, target: Object, other: Object | None) -> None:
+    """From `other`; None: from the control vertices, of which a mesh without a source has none."""
+    positions = read_mesh(target.data).positions
+    source = source_of(target)
+    if other is not None:
+        values = deviation.from_object(context, target, positions, other)
+    elif source is not None:
+        with control_mesh(context, source, is_evaluated(target.discrete_fairing)) as mesh:
+            control = read_mesh(mesh).positions
+        values = deviation.from_vertices(target, positions, control)
+    else:
+        values = np.zeros(len(positions))
+    fill_layer(make_layer(target.data, VALUES["DEVIATION"], "FLOAT", "POINT"), values)
+
+
+def have_values(mesh: Mesh, mode: str) -> bool:
+    """Whether write_values ran on this mesh, for `mode`."""
+    names = (VALUES[mode],) if mode == "DEVIATION" else (*CURVATURES.values(), INNER)
+    return all(name in mesh.attributes for name in names)
 
 
 def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
-    """Colours of one of the stored curvatures.
+    """Colours of stored numbers.
 
     `settings`: range_low, range_high, use_fixed_range, fixed_range.
     """
     values = layer_values(mesh.attributes[VALUES[mode]])
-    inner = layer_values(mesh.attributes[INNER])
+    inner = np.ones(len(values), bool)
+    if mode in CURVATURES:
+        inner = layer_values(mesh.attributes[INNER])
     signed = mode != "TOTAL"
     if settings.use_fixed_range:
-        limits = (-settings.fixed_range if signed else 0.0, settings.fixed_range)
+        limit = settings.fixed_deviation if mode == "DEVIATION" else settings.fixed_range
+        limits = (-limit if signed else 0.0, limit)
     else:
         limits = measures.value_range(
             values, inner, signed, settings.range_low, settings.range_high
@@ -84,20 +112,20 @@ def _remember_active(mesh: Mesh) -> None:
 
 
 def show(target: Object, mode: str, settings: Any) -> None:
-    """Makes `target` (a mesh object) show `mode`: NONE, ZEBRA, MEAN, GAUSS or TOTAL. Its own
+    """Makes `target` (a mesh object) show `mode`: NONE, one of STRIPES or of VALUES. Its own
     materials are not touched.
 
-    In Edit Mode no curvature is measured: call `refresh` afterwards.
+    In Edit Mode nothing is measured: call `refresh` afterwards.
     """
-    if mode not in CURVATURES:
+    if mode not in VALUES:
         _clear_attributes(target)
     if mode == "NONE":
         viewport_material.take_off(target)
-    elif mode == "ZEBRA":
-        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings)
+    elif mode in STRIPES:
+        viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
     else:
         if target.mode != "EDIT":
-            write_values(target.data)
+            write_values(target, mode, settings)
             write_colours(target.data, mode, settings)
         viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
 
@@ -113,22 +141,22 @@ def refresh(target: Object, settings: Any) -> None:
 
 
 def remeasure(target: Object, settings: Any) -> None:
-    """Measures anew the curvature that `target` shows; for after its points have moved.
+    """Measures anew what `target` shows in colours; for after its points have moved.
 
     Nothing to do if it shows none.
     """
     mode = target.discrete_fairing_inspection.mode
-    if mode in CURVATURES:
-        write_values(target.data)
+    if mode in VALUES:
+        write_values(target, mode, settings)
         write_colours(target.data, mode, settings)
 
 
 def recolour(target: Object, settings: Any) -> None:
     """Colours by other limits what was measured before."""
     mode = target.discrete_fairing_inspection.mode
-    if mode in CURVATURES and target.mode != "EDIT":
-        if not have_values(target.data):
-            write_values(target.data)
+    if mode in VALUES and target.mode != "EDIT":
+        if not have_values(target.data, mode):
+            write_values(target, mode, settings)
         write_colours(target.data, mode, settings)
 
 
@@ -137,9 +165,9 @@ def redraw(target: Object, settings: Any) -> None:
     smooth or not. Nothing is measured.
     """
     mode = target.discrete_fairing_inspection.mode
-    if mode == "ZEBRA":
-        viewport_material.put_on(target, ZEBRA_MODE, zebra_material(settings), settings)
-    elif mode in CURVATURES:
+    if mode in STRIPES:
+        viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
+    elif mode in VALUES:
         viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
 
 
@@ -149,9 +177,9 @@ def _clear_attributes(target: Object) -> None:
 
 
 def _shared_with_others(target: Object) -> bool:
-    """Whether another object shows the curvature of the same mesh."""
+    """Whether another object shows numbers of the same mesh."""
     return target.data.users > 1 and any(
-        other.discrete_fairing_inspection.mode in CURVATURES
+        other.discrete_fairing_inspection.mode in VALUES
         for other in all_objects()
         if other.data == target.data and other != target
     )

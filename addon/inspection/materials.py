@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Zebra stripes and curvature colours as node materials."""
+"""Stripes and colours of numbers as node materials."""
 
-from math import cos, sin
 from typing import Any
 
 import bpy
 
 from ..blender import all_scenes
 from ..mesh.modifiers import INSPECTION_TAG
+from .stripes import DARK, LIGHT, stripes_of
 
 # which scene's, as zebra and smooth are settings of scenes; none: of the first, and of older files
 SCENE_TAG = "fairing_inspection_scene"
@@ -15,8 +15,11 @@ SCENE_TAG = "fairing_inspection_scene"
 # the colour attribute that the curvature material shows
 COLOUR = "Fairing Curvature"
 
-ZEBRA_NAME, ZEBRA_MODE = "Fairing Zebra", "ZEBRA"
-LIGHT, DARK = (0.88, 0.88, 0.865, 1.0), (0.012, 0.013, 0.016, 1.0)
+STRIPES_NAMES = {
+    "ZEBRA": "Fairing Zebra",
+    "LINES": "Fairing Reflection Lines",
+    "ISOPHOTES": "Fairing Isophotes",
+}
 CURVATURE_NAME, CURVATURE_MODE = "Fairing Curvature", "CURVATURE"
 
 
@@ -103,24 +106,16 @@ def lay_out(tree: Any) -> None:
         filled[column] = filled.get(column, 0) + 1
 
 
-def zebra_material(settings: Any) -> bpy.types.Material:
-    """The zebra material of the scene whose `settings` these are, made if need be: stripes,
-    direction, sharpness, fixed_to.
-    """
+def stripes_material(mode: str, settings: Any) -> bpy.types.Material:
+    """The material of the scene whose `settings` these are, for one of STRIPES; made if need be."""
     key = scene_key(settings)
-    material: Any = tagged(bpy.data.materials, ZEBRA_MODE, key) or _build_zebra(key)
-    nodes = material.node_tree.nodes
-    by_view = settings.fixed_to == "VIEW"
-    # upright is y for the view and z for the object
-    a = settings.direction
-    nodes["Direction"].inputs[1].default_value = (
-        (sin(a), cos(a), 0.0) if by_view else (sin(a), 0.0, cos(a))
-    )
-    nodes["Room"].convert_to = "CAMERA" if by_view else "OBJECT"
-    nodes["Stripes"].inputs[1].default_value = 2.0 * settings.stripes
-    width = 0.02 + (1.0 - settings.sharpness) * 0.98
-    nodes["Edge"].inputs["From Min"].default_value = -width
-    nodes["Edge"].inputs["From Max"].default_value = width
+    material: Any = tagged(bpy.data.materials, mode, key) or _build_stripes(mode, key)
+    nodes, stripes = material.node_tree.nodes, stripes_of(mode, settings)
+    nodes["Direction"].inputs[1].default_value = stripes.axis
+    nodes["Room"].convert_to = "CAMERA" if stripes.by_view else "OBJECT"
+    nodes["Stripes"].inputs[1].default_value = stripes.waves
+    nodes["Edge"].inputs["From Min"].default_value = stripes.level - stripes.width
+    nodes["Edge"].inputs["From Max"].default_value = stripes.level + stripes.width
     return material
 
 
@@ -145,10 +140,11 @@ def _finish(graph: Graph, emission: bpy.types.Node) -> None:
     lay_out(graph.tree)
 
 
-def _build_zebra(key: int) -> bpy.types.Material:
-    material, graph = _begin(ZEBRA_NAME, ZEBRA_MODE, key)
-
+def _seen_direction(graph: Graph, mode: str) -> bpy.types.NodeSocket:
+    """That of the mirrored ray, or for isophotes of the normal."""
     geometry = graph.node("ShaderNodeNewGeometry")
+    if mode == "ISOPHOTES":
+        return geometry.outputs["Normal"]
     to_surface = graph.node(
         "ShaderNodeVectorMath",
         inputs={0: geometry.outputs["Incoming"], "Scale": -1.0},
@@ -159,10 +155,15 @@ def _build_zebra(key: int) -> bpy.types.Material:
         inputs={0: to_surface.outputs[0], 1: geometry.outputs["Normal"]},
         operation="REFLECT",
     )
+    return mirrored.outputs[0]
+
+
+def _build_stripes(mode: str, key: int) -> bpy.types.Material:
+    material, graph = _begin(STRIPES_NAMES[mode], mode, key)
     room = graph.node(
         "ShaderNodeVectorTransform",
         "Room",
-        {0: mirrored.outputs[0]},
+        {0: _seen_direction(graph, mode)},
         vector_type="VECTOR",
         convert_from="WORLD",
     )
@@ -188,7 +189,7 @@ def _build_zebra(key: int) -> bpy.types.Material:
 def _set_colours(graph: Graph, mix: Any, factor: bpy.types.NodeSocket) -> None:
     """The Mix node has sockets of the same name for every type: find those for colours."""
     colours = [socket for socket in mix.inputs if socket.type == "RGBA"]
-    colours[0].default_value, colours[1].default_value = DARK, LIGHT
+    colours[0].default_value, colours[1].default_value = (*DARK, 1.0), (*LIGHT, 1.0)
     graph.tree.links.new(factor, mix.inputs[0])
 
 

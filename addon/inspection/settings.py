@@ -5,10 +5,10 @@ from math import radians
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..blender import Context, Mesh, attach, detach
-from . import display
+from . import display, overlay
 
 MODES = (
     ("NONE", "Off", "The object in its own materials", "SHADING_SOLID", 0),
@@ -41,6 +41,30 @@ MODES = (
         "COLOR",
         4,
     ),
+    (
+        "LINES",
+        "Lines",
+        "Reflection lines: thin dark tubes in a light room. Finer than zebra: they show small faults "
+        "between stripes",
+        "ALIGN_FLUSH",
+        5,
+    ),
+    (
+        "ISOPHOTES",
+        "Isophotes",
+        "Lines of equal brightness: they follow the direction of the surface alone, wherever you "
+        "look from",
+        "LIGHT_SUN",
+        6,
+    ),
+    (
+        "DEVIATION",
+        "Deviation",
+        "How far the surface is from its control vertices or from another object: outside (red), "
+        "inside (blue)",
+        "DRIVER_DISTANCE",
+        7,
+    ),
 )
 
 
@@ -48,6 +72,21 @@ def _mode_changed(group: Any, context: Context) -> None:
     target = group.id_data
     if isinstance(target.data, Mesh):
         display.show(target, group.mode, context.scene.discrete_fairing_inspection)
+    overlay.shown_changed()
+
+
+def _sections_changed(_group: Any, _context: Context) -> None:
+    overlay.shown_changed()
+
+
+def _deviation_changed(group: Any, context: Context) -> None:
+    for target in context.scene.objects:
+        if target.type == "MESH" and target.discrete_fairing_inspection.mode == "DEVIATION":
+            display.refresh(target, group)
+
+
+def _is_mesh(_group: Any, target: Any) -> bool:
+    return target.type == "MESH"
 
 
 def _range_changed(group: Any, context: Context) -> None:
@@ -61,6 +100,11 @@ def _drawing_changed(group: Any, _context: Context) -> None:
     for target in group.id_data.objects:
         if target.type == "MESH":
             display.redraw(target, group)
+    overlay.redraw()
+
+
+def _lines_changed(_group: Any, _context: Context) -> None:
+    overlay.redraw()
 
 
 class FAIRING_PG_display(bpy.types.PropertyGroup):
@@ -71,6 +115,12 @@ class FAIRING_PG_display(bpy.types.PropertyGroup):
         description="What the object shows instead of its materials",
         items=MODES,
         update=_mode_changed,
+        options=set(),
+    )
+    sections: BoolProperty(
+        name="Sections",
+        description="Draws the curves in which even planes cut the object, in any shading",
+        update=_sections_changed,
         options=set(),
     )
 
@@ -172,6 +222,60 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         soft_max=100.0,
         precision=3,
         update=_range_changed,
+    )
+    fixed_deviation: FloatProperty(
+        name="Limit",
+        description="The distance that gets the last colour",
+        default=0.01,
+        min=1e-9,
+        soft_max=1.0,
+        precision=4,
+        unit="LENGTH",
+        update=_range_changed,
+    )
+    deviation_object: PointerProperty(
+        name="Measured from",
+        description="The mesh object that distances are measured from, as it is seen. "
+        "None: the control vertices",
+        type=bpy.types.Object,
+        poll=_is_mesh,
+        update=_deviation_changed,
+    )
+    section_axes: EnumProperty(
+        name="Planes across",
+        description="The axes of the object that the planes stand across. Shift-click for several",
+        items=(
+            ("X", "X", "Planes across the object's x axis"),
+            ("Y", "Y", "Planes across the object's y axis"),
+            ("Z", "Z", "Planes across the object's z axis"),
+        ),
+        default={"X"},
+        options={"ENUM_FLAG"},
+        update=_lines_changed,
+    )
+    section_count: IntProperty(
+        name="Planes",
+        description="How many planes cut the object across each axis",
+        default=10,
+        min=1,
+        max=200,
+        soft_max=50,
+        update=_lines_changed,
+    )
+    show_combs: BoolProperty(
+        name="Combs",
+        description="Draws the curvature of each section as teeth on the side that bulges: an even "
+        "comb is a fair curve, a notch is a flat spot, a spike a bend",
+        default=True,
+        update=_lines_changed,
+    )
+    comb_scale: FloatProperty(
+        name="Comb Length",
+        description="How long the teeth are",
+        default=1.0,
+        min=0.0,
+        soft_max=5.0,
+        update=_lines_changed,
     )
 
 

@@ -6,7 +6,8 @@ What it was before is kept while Blender runs.
 
 from typing import Any
 
-from .display import CURVATURES
+from . import overlay
+from .display import VALUES
 
 _before: dict[int, tuple[str, str]] = {}  # viewport: its shading and colours
 
@@ -16,7 +17,9 @@ def shows(space: Any, mode: str) -> bool:
     shading = getattr(space, "shading", None)
     if mode == "NONE" or shading is None or shading.type in {"MATERIAL", "RENDERED"}:
         return True
-    return mode in CURVATURES and shading.type == "SOLID" and shading.color_type == "VERTEX"
+    if mode not in VALUES:
+        return overlay.is_on()
+    return shading.type == "SOLID" and shading.color_type == "VERTEX"
 
 
 def show(space: Any, mode: str) -> None:
@@ -26,7 +29,7 @@ def show(space: Any, mode: str) -> None:
     elif not shows(space, mode):
         # from one mode to the next, what was before the first one counts
         _before.setdefault(space.as_pointer(), (space.shading.type, space.shading.color_type))
-        switch(space, "ATTRIBUTE" if mode in CURVATURES else "MATERIAL")
+        switch(space, "ATTRIBUTE" if mode in VALUES else "MATERIAL")
 
 
 def switch(space: Any, shading: str) -> None:

@@ -50,7 +50,7 @@ class WorldShape:
 
 def world_shape(source: Object) -> WorldShape:
     """The WorldShape of a mesh object as it is now, whether Blender has looked at it since or not."""
-    linear = np.array(_world_matrix(source))[:3, :3].astype(np.float64)
+    linear = np.array(world_matrix(source))[:3, :3].astype(np.float64)
     # of its polar decomposition: the rotation is dropped
     squares, axes = np.linalg.eigh(linear.T @ linear)
     stretch = (axes * np.sqrt(np.maximum(squares, 0.0))) @ axes.T
@@ -62,14 +62,14 @@ def world_shape(source: Object) -> WorldShape:
     return WorldShape(None if rows == ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) else rows)
 
 
-def _world_matrix(source: Object) -> Any:
+def world_matrix(source: Object) -> Any:
     """By its own properties where these say it: Blender does not look at hidden objects."""
     if source.constraints or (source.parent is not None and source.parent_type != "OBJECT"):
         return source.matrix_world
     if source.parent is None:
         return source.matrix_basis
     above: Any = source.parent
-    return _world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
+    return world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
 
 
 def _times(positions: np.ndarray, matrix: np.ndarray) -> np.ndarray:

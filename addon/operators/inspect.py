@@ -8,7 +8,7 @@ from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, Object, registration
 from ..inspection import display, readout, viewport_shading
-from ..inspection.display import CURVATURES
+from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
 from ..poll import ExplainedPoll, mesh_poll_reason
@@ -62,13 +62,21 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         for target in meshes(context):
             target.discrete_fairing_inspection.mode = self.mode
-        if self.mode in CURVATURES and context.mode == "EDIT_MESH":
-            self.report({"INFO"}, "Curvature is measured in Object Mode: press Tab, then Refresh")
+        if self.mode in VALUES and context.mode == "EDIT_MESH":
+            self.report({"INFO"}, "Colours are measured in Object Mode: press Tab, then Refresh")
+        elif self.mode == "DEVIATION" and not _has_reference(context):
+            self.report({"WARNING"}, "No control vertices: choose an object under Measured from")
         return {"FINISHED"}
 
 
+def _has_reference(context: Context) -> bool:
+    """Whether there is something that all objects' deviation can be measured from."""
+    other = context.scene.discrete_fairing_inspection.deviation_object
+    return other is not None or all(map(source_of, meshes(context)))
+
+
 class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
-    """Measure the curvature anew, after the mesh was changed"""
+    """Measure what the colours show anew, after the mesh was changed"""
 
     bl_idname = "object.fairing_refresh"
     bl_label = "Refresh Colours"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Inspect": zebra stripes, curvature colours, and the numbers before and after."""
+"""The panel "Inspect": stripes, colours, sections, and the numbers before and after."""
 
 from typing import Any
 
@@ -7,8 +7,9 @@ import bpy
 
 from ..blender import Context, Object, registration
 from ..inspection import display, readout, viewport_shading
-from ..inspection.display import CURVATURES
+from ..inspection.display import VALUES
 from ..inspection.settings import MODES
+from ..inspection.stripes import STRIPES
 from ..memory import recall
 from .layout import Folded
 from .notice import draw_notice
@@ -29,36 +30,55 @@ class VIEW3D_PT_fairing_inspect(Folded, bpy.types.Panel):
         if mode != "NONE":
             _draw_viewport(layout, context, mode)
             settings = context.scene.discrete_fairing_inspection
-            (draw_range if mode in CURVATURES else draw_zebra)(layout, settings)
+            if mode in VALUES:
+                draw_range(layout, settings, mode)
+            else:
+                draw_stripes(layout, settings)
             layout.prop(settings, "smooth")
-        if target is not None and mode in CURVATURES:
+        if target is not None and mode in VALUES:
             _draw_legend(layout, target, mode)
+        if target is not None:
+            draw_sections(layout, target, context.scene.discrete_fairing_inspection)
         layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
         record = recall(target, "readout") if target is not None else None
         if target is not None and record is not None:
             _draw_readout(layout, target, record)
 
 
-def draw_zebra(layout: bpy.types.UILayout, settings: Any) -> None:
+def draw_stripes(layout: bpy.types.UILayout, settings: Any) -> None:
     for name in ("stripes", "direction", "sharpness", "fixed_to"):
         layout.prop(settings, name)
 
 
-def draw_range(layout: bpy.types.UILayout, settings: Any) -> None:
+def draw_range(layout: bpy.types.UILayout, settings: Any, mode: str) -> None:
+    if mode == "DEVIATION":
+        layout.prop(settings, "deviation_object")
     layout.prop(settings, "use_fixed_range")
     if settings.use_fixed_range:
-        layout.prop(settings, "fixed_range")
+        layout.prop(settings, "fixed_deviation" if mode == "DEVIATION" else "fixed_range")
     else:
         column = layout.column(align=True)
         column.prop(settings, "range_low")
         column.prop(settings, "range_high")
 
 
+def draw_sections(layout: bpy.types.UILayout, target: Object, settings: Any) -> None:
+    layout.prop(target.discrete_fairing_inspection, "sections")
+    if target.discrete_fairing_inspection.sections:
+        layout.row(align=True).prop(settings, "section_axes", expand=True)
+        layout.prop(settings, "section_count")
+        layout.prop(settings, "show_combs")
+        if settings.show_combs:
+            layout.prop(settings, "comb_scale")
+
+
 def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
+    labels = {mode: label for mode, label, *_ in MODES}
     column = layout.column(align=True)
-    for part in (MODES[:2], MODES[2:]):
+    for part in (("NONE", *STRIPES), tuple(VALUES)):
         row = column.row(align=True)
-        for mode, label, *_ in part:
+        for mode in part:
+            label = labels[mode]
             button = row.operator("object.fairing_inspect", text=label, depress=mode == current)
             button.mode = mode
 
@@ -70,7 +90,7 @@ def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> N
     draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
     row = layout.row(align=True)
     row.operator("object.fairing_viewport", text="Material Preview").shading = "MATERIAL"
-    if mode in CURVATURES:
+    if mode in VALUES:
         row.operator("object.fairing_viewport", text="Solid").shading = "ATTRIBUTE"
 
 
@@ -78,6 +98,7 @@ _ENDS = {
     "MEAN": ("hollow", "bulging"),
     "GAUSS": ("saddle", "dome or bowl"),
     "TOTAL": ("calm", "bent"),
+    "DEVIATION": ("inside", "outside"),
 }
 
 

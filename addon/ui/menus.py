@@ -16,6 +16,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout: Any = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
+        layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
@@ -50,6 +51,7 @@ def _draw_faces(menu: Any, _context: Context) -> None:
         "object.fairing_surface", text="Fair Selected Faces", icon="SURFACE_DATA"
     )
     button.use_selection = True
+    menu.layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
 
 
 _ENTRIES = {

@@ -33,7 +33,10 @@ PURE_FILES = (
     "cli/places.py",
     "cli/report.py",
     "inspection/curvature.py",
+    "inspection/drawn.py",
     "inspection/measures.py",
+    "inspection/sections.py",
+    "inspection/stripes.py",
     "live/pace.py",
 )
 
@@ -45,7 +48,7 @@ ROOMS = (
     {"memory"},
     {"mesh"},
     {"check", "freshness", "inspection"},
-    {"job"},
+    {"in_place", "job"},
     {"live"},
     {"cli", "ui"},
     {"operators"},

@@ -10,7 +10,7 @@ import pytest
 from scenes import CUBE, activate, add, add_suzanne, snapshot
 
 from addon.inspection import display, measures, readout
-from addon.inspection.materials import COLOUR
+from addon.inspection.materials import COLOUR, STRIPES_NAMES
 from addon.inspection.settings import MODES
 from addon.memory import keep, recall, source_of
 from addon.mesh.modifiers import without_inspection
@@ -55,7 +55,7 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     two_materials(box)
     before, slots_before = snapshot(box), slots(box)
     show(box, mode)
-    assert shown_materials(box) == {"Fairing Zebra" if mode == "ZEBRA" else "Fairing Curvature"}
+    assert shown_materials(box) == {STRIPES_NAMES.get(mode, "Fairing Curvature")}
     assert slots(box) == slots_before
     show(box, "NONE")
     assert (snapshot(box), slots(box)) == (before, slots_before)
@@ -165,8 +165,8 @@ def test_settings_reach_the_zebra_at_once():
     assert nodes["Edge"].inputs["From Max"].default_value == pytest.approx(1.0)
 
 
-def test_all_nodes_of_both_materials_lead_to_the_output():
-    for mode in ("ZEBRA", "MEAN"):
+def test_all_nodes_of_all_materials_lead_to_the_output():
+    for mode in ("ZEBRA", "LINES", "ISOPHOTES", "MEAN"):
         show(add(mode, *CUBE), mode)
     for material in bpy.data.materials:
         for node in material.node_tree.nodes:

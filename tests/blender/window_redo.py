@@ -123,22 +123,4 @@ def test_another_change_ends_what_was_being_completed():
     assert module("queue").running() is None
 
 
-def test_zebra_on_a_click_is_seen():
-    source = harness.add_suzanne()
-    view = harness.view()
-    shading = view["area"].spaces.active.shading
-    assert shading.type == "SOLID"
-    with bpy.context.temp_override(**view, active_object=source, selected_objects=[source]):
-        bpy.ops.object.fairing_inspect("INVOKE_DEFAULT", mode="ZEBRA")
-        assert shading.type == "MATERIAL"
-        yield 2.0
-        bpy.ops.object.mode_set(mode="EDIT")
-        yield 2.0
-        harness.photograph("zebra_edit_mode")
-        bpy.ops.object.mode_set(mode="OBJECT")
-    with bpy.context.temp_override(**view, active_object=source, selected_objects=[source]):
-        bpy.ops.object.fairing_inspect("INVOKE_DEFAULT", mode="NONE")
-    assert shading.type == "SOLID"
-
-
 harness.run_in_window(globals())

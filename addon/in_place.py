@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Selected faces faired in their own mesh: its vertices moved, or the faces refined as well.
+
+Only what is near takes part: the selection and the faces around it.
+"""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, cast
+
+import bmesh
+import numpy as np
+from mathutils import kdtree
+
+from . import core, errors
+from .blender import Context, Object
+from .errors import JobError
+from .mesh.read import control_mesh, read_mesh, selected_faces
+from .mesh.world_shape import world_shape
+from .preferences import preferences
+from .settings import Settings, snapshot
+from .transfer.carrier import Carrier
+from .transfer.cut_out import CutOut, cut_out, grown, inside
+
+# levels that stand in for the surface of which only the control vertices are wanted
+_UNSEEN_LEVELS = 2
+# rings of faces whose vertices say how the surface goes on, where it is not refined
+_RINGS = {"POSITION": 0, "TANGENT": 1, "CURVATURE": 2}
+# where it is, the faces around count as they are: those that touch the rim, and their neighbours
+_RINGS_REFINED = 2
+
+
+@dataclass(frozen=True)
+class Wish:
+    levels: int  # 0: vertices move, the faces stay
+    joint: str  # POSITION, TANGENT, CURVATURE
+    energy: str
+    tension: float
+    release: bool  # whether the vertices of the selection move; always, where no others come
+
+
+@dataclass(frozen=True)
+class Faired:
+    """What `apply` needs."""
+
+    part: CutOut
+    points: np.ndarray  # (N, 3) in the object's coordinates, the vertices of `part` first
+    # by selected face that was split: the points that all its triangles have, a centre or a diagonal
+    splits: dict[int, list[int]]
+    labels: np.ndarray  # (N, 3) float32, no two alike; linear between those of the vertices
+    levels: int
+
+
+def compute(context: Context, source: Object, settings: Settings, wish: Wish) -> Faired:
+    """The selected faces of `source`, which is in Edit Mode; JobError says why not. `settings`: what
+    counts as a crease, and the rest that `wish` does not say.
+    """
+    with control_mesh(context, source) as mesh:
+        arrays = read_mesh(mesh)
+        chosen = np.zeros(len(arrays.face_sizes), bool)
+        chosen[selected_faces(mesh, source.name)] = True
+    shape = world_shape(source)
+    refined = wish.levels > 0
+    near = grown(arrays, chosen, _RINGS_REFINED if refined else _RINGS[wish.joint])
+    free = inside(arrays, chosen)
+    _refuse(source.name, arrays, chosen, free, wish)
+    part = cut_out(arrays, near)
+    region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
+    arguments = core.fair_arguments(
+        shape.of_arrays(part.arrays), _settings(settings, wish), preferences(), region
+    )
+    if wish.release or not refined:
+        arguments["interpolation"] = "approximate"
+        arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
+    with errors.explained(source.name):
+        result = core.module().fair(**arguments)
+    points = shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
+    carrier = Carrier(result, part.arrays, arguments["levels"])
+    labels = np.random.default_rng(0).random((len(part.vertices), 3))
+    splits = _split_faces(carrier, part) if refined else {}
+    if any(not common for index, common in splits.items() if chosen[index]):
+        raise JobError(
+            f"{source.name}: a face of many corners is too bent to be refined in place. "
+            "Triangulate it (Ctrl T)."
+        )
+    return Faired(part, points, splits, carrier.point(labels), wish.levels)
+
+
+def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
+    """The core splits polygons of five corners and more, and quads that are warped too much."""
+    found: dict[int, list[int]] = {}
+    for patch in carrier.patches:
+        if patch.faces.size == 3:
+            pairs = zip(patch.faces.polygon.tolist(), patch.faces.vertices.tolist(), strict=True)
+            for polygon, corners in pairs:
+                if part.arrays.face_sizes[polygon] > 3:
+                    common = found.setdefault(polygon, corners)
+                    found[polygon] = [v for v in common if v in corners]
+    return {int(part.faces[polygon]): common for polygon, common in found.items()}
+
+
+def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: Wish) -> None:
+    if not wish.levels and not free.any():
+        raise JobError(
+            f"{name}: no vertex lies inside of the selection, so none can move. "
+            "Select more faces, or raise Levels."
+        )
+    if (wish.release or not wish.levels) and _floats(arrays, free):
+        raise JobError(
+            f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
+        )
+
+
+def _floats(arrays: Any, free: np.ndarray) -> bool:
+    """Whether some connected part of the mesh has free vertices only."""
+    held = ~free
+    edges = arrays.edges[free[arrays.edges].any(axis=1)]
+    while True:
+        reached = held.copy()
+        reached[edges[held[edges[:, 0]], 1]] = True
+        reached[edges[held[edges[:, 1]], 0]] = True
+        if np.array_equal(reached, held):
+            return not held.all()
+        held = reached
+
+
+def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
+    asked = vars(snapshot(settings)) | {
+        "levels": wish.levels or _UNSEEN_LEVELS,
+        "joint": wish.joint,
+        "energy": wish.energy,
+        "tension": wish.tension,
+        "interpolation": "EXACT",
+        "repair": "REFUSE",
+    }
+    return SimpleNamespace(**asked)
+
+
+def apply(source: Object, faired: Faired, factor: float) -> None:
+    """Moves, and with levels refines, the selected faces in Edit Mode; `factor`: how far the old
+    vertices go.
+    """
+    edited = bmesh.from_edit_mesh(source.data)
+    if faired.levels:
+        _refine(edited, faired, factor)
+    else:
+        edited.verts.ensure_lookup_table()
+        for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
+            _move(edited.verts[index], point, factor)
+    edited.normal_update()
+    bmesh.update_edit_mesh(source.data)
+
+
+def _move(vertex: bmesh.types.BMVert, point: list[float], factor: float) -> None:
+    """To the bit where it is, if it is to stay."""
+    here: Any = vertex.co
+    vertex.co = [a + factor * (b - a) for a, b in zip(here, point)]
+
+
+def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
+    """The faces that are to be refined, as the core has split them."""
+    edited.faces.ensure_lookup_table()
+    faces = [(edited.faces[index], common) for index, common in faired.splits.items()]
+    known = [edited.verts[index] for index in faired.part.vertices.tolist()]
+    for face, common in faces:
+        if not face[chosen]:
+            continue
+        if len(common) == 1:
+            made: Any = bmesh.ops.poke(edited, faces=[face])
+            made["verts"][0][label] = faired.labels[common[0]].tolist()
+        else:
+            bmesh.utils.face_split(face, *(known[row] for row in common))
+
+
+def _refine(edited: bmesh.types.BMesh, faired: Faired, factor: float) -> None:
+    """Blender's own subdivision makes the faces, with all that lies on them, and mixes the labels of
+    the vertices; these say which point each new vertex is.
+    """
+    of_vertices: Any = edited.verts.layers.float_vector
+    of_faces: Any = edited.faces.layers.int
+    label, chosen = of_vertices.new("fairing_label"), of_faces.new("fairing_chosen")
+    edited.verts.ensure_lookup_table()
+    count = len(edited.verts)
+    for row, index in enumerate(faired.part.vertices.tolist()):
+        edited.verts[index][label] = faired.labels[row].tolist()
+    for face in [face for face in edited.faces if face.select]:
+        face[chosen] = 1
+    _split(edited, faired, label, chosen)
+    faces = [face for face in edited.faces if face[chosen]]
+    edges = list({edge for face in faces for edge in face.edges})
+    cast(Any, bmesh.ops).subdivide_edges(
+        edited, edges=edges, cuts=2**faired.levels - 1, use_grid_fill=True
+    )
+    tree: Any = kdtree.KDTree(len(faired.labels))
+    for row, place in enumerate(faired.labels.tolist()):
+        tree.insert(place, row)
+    tree.balance()
+    edited.verts.ensure_lookup_table()
+    edited.verts.index_update()
+    for vertex in {v for face in edited.faces if face[chosen] for v in face.verts}:
+        row = tree.find(vertex[label])[1]
+        _move(vertex, faired.points[row].tolist(), factor if vertex.index < count else 1.0)
+    for face in edited.faces:
+        face.select_set(face.select or bool(face[chosen]))
+    of_vertices.remove(label)
+    of_faces.remove(chosen)

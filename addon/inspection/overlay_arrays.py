@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the overlay gives to the graphics card, as arrays: testable without one."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..blender import Object
+from .drawn import Drawn, drawn
+from .sections import combs, sections, segments, teeth
+from .stripes import DARK, LIGHT, stripes_of
+
+CURVE, COMB, TOOTH = (0.02, 0.02, 0.02, 1.0), (0.85, 0.3, 0.05, 1.0), (0.85, 0.3, 0.05, 0.5)
+
+_PULL = 1e-3  # towards the eye, a share of the distance: else surface and stripes would mix
+
+
+def surface_of(target: Object, depsgraph: bpy.types.Depsgraph, smooth: bool = False) -> Drawn:
+    """The mesh object `target` as it is seen, modifiers, edits and all; `smooth`: a mesh with flat
+    faces as if it had none, and no sharp edges.
+    """
+    evaluated = target.evaluated_get(depsgraph)
+    mesh: Any = evaluated.to_mesh()
+    try:
+        mesh.calc_loop_triangles()
+        positions = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.vertices.foreach_get("co", positions)
+        corners = np.empty(len(mesh.loops), np.int32)
+        mesh.loops.foreach_get("vertex_index", corners)
+        normals = _corner_normals(mesh, corners, smooth)
+        triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+        mesh.loop_triangles.foreach_get("loops", triangles)
+    finally:
+        evaluated.to_mesh_clear()
+    return drawn(positions.reshape(-1, 3), corners, normals, triangles.reshape(-1, 3))
+
+
+def _corner_normals(mesh: Any, corners: np.ndarray, smooth: bool) -> np.ndarray:
+    """(c, 3) float32."""
+    rounded = np.empty(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("use_smooth", rounded)
+    by_vertex = smooth and not rounded.all()
+    normals = np.empty(3 * len(mesh.vertices if by_vertex else mesh.loops), np.float32)
+    (mesh.vertex_normals if by_vertex else mesh.corner_normals).foreach_get("vector", normals)
+    normals = normals.reshape(-1, 3)
+    return normals[corners] if by_vertex else normals
+
+
+def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[float, ...]]]:
+    """Points (s, 3) float32, two a line, and their colour: section curves and their combs."""
+    low, high = (getattr(surface.points, end)(axis=0, initial=0.0) for end in ("min", "max"))
+    diagonal = float(np.linalg.norm(high - low))
+    found = [
+        section
+        for axis, name in enumerate("XYZ")
+        if name in settings.section_axes
+        for section in sections(surface, axis, settings.section_count)
+    ]
+    lines = [(segments([section.curve for section in found]), CURVE)]
+    if settings.show_combs:
+        ends = combs(found, diagonal, settings.comb_scale)
+        lines += [(teeth(found, ends), TOOTH), (segments(ends), COMB)]
+    return [line for line in lines if len(line[0])]
+
+
+def uniforms(
+    mode: str, settings: Any, world: np.ndarray, view: np.ndarray, projection: np.ndarray
+) -> np.ndarray:
+    """(80,) float32: the shader's `Look`, matrices by columns, but for the opacity."""
+    stripes = stripes_of(mode, settings)
+    model_view = view @ world
+    normals, room = np.eye(4), np.eye(4)
+    normals[:3, :3] = np.linalg.pinv(model_view[:3, :3]).T
+    if not stripes.by_view:
+        room[:3, :3] = np.linalg.pinv(model_view[:3, :3])
+    perspective = float(projection[3, 3] == 0.0)
+    rows = (
+        (*stripes.axis, float(stripes.mirrored)),
+        (stripes.waves, stripes.level, stripes.width, perspective),
+        (*DARK, 1.0),
+        (*LIGHT, 1.0),
+    )
+    matrices = (model_view, projection, normals, room)
+    parts = [matrix.T.ravel() for matrix in matrices] + [np.array(row) for row in rows]
+    return np.concatenate(parts).astype(np.float32)
+
+
+def pulled(projection: np.ndarray, distance: float) -> np.ndarray:
+    """The projection that moves what it draws a little towards the eye, in depth alone; `distance`
+    of the eye from what it looks at.
+    """
+    pull = np.eye(4)
+    if projection[3, 3] == 0.0:  # perspective: along the ray
+        pull[:3, :3] *= 1.0 - _PULL
+    else:
+        pull[2, 3] = _PULL * distance
+    return projection @ pull

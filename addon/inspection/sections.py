@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Planar sections of a surface, and how they bend: plain arrays, no Blender.
+
+On a smooth surface a section's normal is the surface's, projected to the plane. So its curvature is
+how fast that turns along the section: a first difference of normals, where the polyline itself would
+need a second one, of points that lie on chords.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .drawn import Drawn
+
+_TOOTH = 0.12  # of the surface's diagonal: a tooth of the comb that few exceed
+
+
+@dataclass(frozen=True)
+class Section:
+    """One curve, and k points on it, evenly spaced; the last is the first again if it is closed."""
+
+    curve: np.ndarray  # (l, 3) where the edges of the mesh cross the plane
+    points: np.ndarray  # (k, 3)
+    normals: np.ndarray  # (k, 3) unit, in the plane
+    curvature: np.ndarray  # (k,) positive where the side of the normals bulges
+    closed: bool
+
+
+def heights(points: np.ndarray, axis: int, count: int) -> np.ndarray:
+    """(count,) where planes across `axis` (0 to 2) cut (n, 3) points: in the middles of even parts."""
+    low, high = points[:, axis].min(), points[:, axis].max()
+    return low + (high - low) * (np.arange(count) + 0.5) / count
+
+
+def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
+    """The curves in which `count` even planes across `axis` cut the surface; broken at sharp edges."""
+    if not len(surface.triangles) or not count:
+        return []
+    spacing = _mean_edge(surface)
+    found = []
+    for height in heights(surface.points, axis, count):
+        found += _sections_at(surface, axis, float(height), spacing)
+    return found
+
+
+def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.ndarray]:
+    """(k, 3) the ends of the teeth of each section, on the side that bulges.
+
+    All have one scale: the curvature that 95 % stay under makes a tooth of a share of `diagonal`.
+    """
+    bent = [np.abs(section.curvature) for section in found]
+    usual = float(np.percentile(np.concatenate(bent), 95.0)) if bent else 0.0
+    if usual <= 0.0:
+        return [section.points for section in found]
+    length = scale * _TOOTH * diagonal / usual
+    limit = 4.0 * usual  # what bends more, as over an edge, would fill the view
+    return [
+        s.points + s.normals * (length * np.clip(s.curvature, -limit, limit))[:, None]
+        for s in found
+    ]
+
+
+def segments(lines: list[np.ndarray]) -> np.ndarray:
+    """(s, 3) float32 points, two for each piece of the polylines (k, 3), as lines are drawn."""
+    pieces = [np.stack([line[:-1], line[1:]], axis=1).reshape(-1, 3) for line in lines]
+    return np.concatenate(pieces).astype(np.float32) if pieces else np.empty((0, 3), np.float32)
+
+
+def teeth(found: list[Section], ends: list[np.ndarray]) -> np.ndarray:
+    """(s, 3) float32 points, two a tooth, as lines are drawn."""
+    pieces = [
+        np.stack([s.points, end], axis=1).reshape(-1, 3) for s, end in zip(found, ends, strict=True)
+    ]
+    return np.concatenate(pieces).astype(np.float32) if pieces else np.empty((0, 3), np.float32)
+
+
+def _mean_edge(surface: Drawn) -> float:
+    a, b, c = (surface.points[surface.triangles[:, i]] for i in range(3))
+    return float(np.mean([np.linalg.norm(b - a, axis=1), np.linalg.norm(c - b, axis=1)]))
+
+
+def _sections_at(surface: Drawn, axis: int, height: float, spacing: float) -> list[Section]:
+    above = surface.points[:, axis] >= height
+    crossed = surface.triangles[above[surface.triangles].sum(axis=1) % 3 > 0]
+    if not len(crossed):
+        return []
+    # of the three edges of each, those two with one end above
+    edges = np.stack([crossed, np.roll(crossed, -1, axis=1)], axis=2)
+    cut = above[edges[:, :, 0]] != above[edges[:, :, 1]]
+    ends = np.sort(edges[cut], axis=1)
+    keys = ends[:, 0].astype(np.int64) * len(surface.points) + ends[:, 1]
+    unique, first, node = np.unique(keys, return_index=True, return_inverse=True)
+    points, normals = _crossings(surface, ends[first], axis, height)
+    links = node.reshape(-1, 2)
+    return [
+        section
+        for chain, closed in _chains(links, len(unique))
+        if (section := _resampled(points[chain], normals[chain], axis, closed, spacing)) is not None
+    ]
+
+
+def _crossings(
+    surface: Drawn, ends: np.ndarray, axis: int, height: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points (k, 3) on the edges `ends` (k, 2) at the height, and the normals there in the plane."""
+    a, b = (surface.points[ends[:, i]].astype(np.float64) for i in range(2))
+    share = ((height - a[:, axis]) / (b[:, axis] - a[:, axis]))[:, None]
+    points = a + share * (b - a)
+    points[:, axis] = height
+    normals = (1.0 - share) * surface.normals[ends[:, 0]] + share * surface.normals[ends[:, 1]]
+    normals[:, axis] = 0.0
+    return points, normals
+
+
+def _chains(links: np.ndarray, count: int) -> list[tuple[np.ndarray, bool]]:
+    """Walks along `links` (l, 2) of `count` nodes, each taken once, and whether they are closed."""
+    at = np.concatenate([links[:, 0], links[:, 1]])
+    order = np.argsort(at, kind="stable")
+    begin = np.searchsorted(at[order], np.arange(count + 1)).tolist()
+    link = (order % len(links)).tolist()
+    sides = links.tolist()
+    used = [False] * len(links)
+    found = []
+
+    def walk(node: int) -> list[int]:
+        chain = [node]
+        while True:
+            free = next((i for i in link[begin[node] : begin[node + 1]] if not used[i]), None)
+            if free is None:
+                return chain
+            used[free] = True
+            node = sides[free][0] + sides[free][1] - node
+            chain.append(node)
+
+    degree = np.diff(begin)
+    for node in (*np.flatnonzero(degree % 2).tolist(), *range(count)):  # ends of open ones first
+        chain = walk(node)
+        if len(chain) > 1:
+            found.append((np.array(chain), chain[0] == chain[-1]))
+    return found
+
+
+def _resampled(
+    points: np.ndarray, normals: np.ndarray, axis: int, closed: bool, spacing: float
+) -> Section | None:
+    """A chain as a section with points about `spacing` apart; None if it has no length."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    length = along[-1]
+    if length <= 1e-6 * spacing:
+        return None
+    u, v = (axis + 1) % 3, (axis + 2) % 3
+    turn = np.unwrap(np.arctan2(normals[:, v], normals[:, u]))
+    count = max(int(round(length / spacing)), 8 if closed else 2)
+    even = np.linspace(0.0, length, count + 1)
+    path = np.stack([np.interp(even, along, points[:, i]) for i in range(3)], axis=1)
+    angle = np.interp(even, along, turn)
+    across = np.zeros_like(path)
+    across[:, u], across[:, v] = np.cos(angle), np.sin(angle)
+    return Section(points, path, across, _rate(path, angle, axis, closed), closed)
+
+
+def _rate(path: np.ndarray, angle: np.ndarray, axis: int, closed: bool) -> np.ndarray:
+    """(k,) how far the normal at `angle` (k,) turns for each length of the `path` (k, 3), towards it."""
+    if closed:
+        around = angle[-1] - angle[0]
+        angles = np.concatenate([[angle[-2] - around], angle, [angle[1] + around]])
+        paths = np.concatenate([path[-2:-1], path, path[1:2]])
+        turn, way = angles[2:] - angles[:-2], paths[2:] - paths[:-2]
+    else:
+        turn, way = np.gradient(angle), np.gradient(path, axis=0)
+    u, v = way[:, (axis + 1) % 3], way[:, (axis + 2) % 3]
+    # a unit normal's derivative by its angle is the normal turned by a right angle
+    ahead = np.cos(angle) * v - np.sin(angle) * u
+    return turn * np.sign(ahead) / np.maximum(np.hypot(u, v), np.finfo(float).tiny)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair Selected Faces in Place: the mesh in Edit Mode itself, by request and with undo."""
+
+from typing import cast
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from .. import core, in_place
+from ..blender import Answer, Context, Object, registration
+from ..choices import DEFAULT_ENERGY, ENERGIES, JOINTS
+from ..errors import JobError
+from ..poll import ExplainedPoll
+
+
+def _joints() -> tuple[tuple[str, str, str], ...]:
+    meanings = {
+        "POSITION": "Only the rim of the selection is held: any angle there (G0)",
+        "TANGENT": "The selection goes on in the direction of the faces around it (G1)",
+        "CURVATURE": "The selection goes on in the bend of the faces around it (like G2)",
+    }
+    return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
+
+
+class OBJECT_OT_fairing_in_place(ExplainedPoll, bpy.types.Operator):
+    """Fair the selected faces of this mesh itself: move their vertices, or refine them too. Everything around stays where it is"""
+
+    bl_idname = "object.fairing_in_place"
+    bl_label = "Fair Selected Faces in Place"
+    bl_options = {"REGISTER", "UNDO"}
+
+    levels: IntProperty(
+        name="Levels",
+        description="How often the selected faces are split in four. 0: only their vertices move",
+        default=0,
+        min=0,
+        max=6,
+        soft_max=3,
+    )
+    joint: EnumProperty(
+        name="Joint",
+        description="How the selection meets the faces around it",
+        items=_joints(),
+        default="TANGENT",
+    )
+    factor: FloatProperty(
+        name="Factor",
+        description="How far the vertices go to where the surface is fairest",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    release: BoolProperty(
+        name="Move Vertices",
+        description="The vertices of the selection move too. Off: the surface passes through them, "
+        "and only those between them are new",
+        default=False,
+    )
+    energy: EnumProperty(
+        name="Energy",
+        description="The quantity to minimize: how bending is measured",
+        items=ENERGIES,
+        default=DEFAULT_ENERGY,
+    )
+    tension: FloatProperty(
+        name="Tension",
+        description="Draws the surface taut, so that it does not swell",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if core.why_missing():
+            return core.why_missing()
+        if context.mode != "EDIT_MESH":
+            return "Fairing in place works on the selected faces in Edit Mode: press Tab first"
+        return ""
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.prop(self, "levels")
+        layout.prop(self, "joint")
+        if self.levels:
+            layout.prop(self, "release")
+        if self.release or not self.levels:
+            layout.prop(self, "factor")
+        layout.prop(self, "energy")
+        if self.energy != "MINIMUM_VARIATION":
+            layout.prop(self, "tension")
+
+    def execute(self, context: Context) -> Answer:
+        wish = in_place.Wish(self.levels, self.joint, self.energy, self.tension, self.release)
+        settings = context.scene.discrete_fairing
+        objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
+        try:
+            if not objects:
+                raise JobError("No face is selected. Select the faces to fair.")
+            found = [in_place.compute(context, target, settings, wish) for target in objects]
+        except JobError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for target, faired in zip(objects, found, strict=True):
+            in_place.apply(target, faired, self.factor)
+        return {"FINISHED"}
+
+
+def _has_selection(target: Object) -> bool:
+    target.update_from_editmode()
+    return target.data.total_face_sel > 0
+
+
+register, unregister = registration(OBJECT_OT_fairing_in_place)

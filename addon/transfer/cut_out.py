@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A part of a control mesh as a mesh of its own, so that fairing a few faces does not cost the whole."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core import ControlArrays
+
+
+@dataclass(frozen=True)
+class CutOut:
+    """`arrays` of some faces, and where they come from."""
+
+    arrays: ControlArrays
+    vertices: np.ndarray  # (k,) the ids that its vertices have in the whole
+    faces: np.ndarray  # (f,) those of its faces
+
+
+def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
+    """(m,) bool: the faces `chosen` (m,) bool, and `rings` rings of those that touch them."""
+    face_of = np.repeat(np.arange(len(chosen)), arrays.face_sizes)
+    for _ in range(rings):
+        touched = np.zeros(len(arrays.positions), bool)
+        touched[arrays.corners[chosen[face_of]]] = True
+        chosen = chosen.copy()
+        chosen[face_of[touched[arrays.corners]]] = True
+    return chosen
+
+
+def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
+    """(n,) bool: vertices all of whose faces are `chosen` (m,) bool, and that lie on no border."""
+    in_chosen = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
+    found = np.zeros(len(arrays.positions), bool)
+    found[arrays.corners[in_chosen]] = True
+    found[arrays.corners[~in_chosen]] = False
+    uses = np.bincount(arrays.corner_edges, minlength=len(arrays.edges))
+    found[arrays.edges[uses == 1].ravel()] = False
+    return found
+
+
+def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
+    """The faces `chosen` (m,) bool, in their order, with the vertices and edges that they have."""
+    faces = np.flatnonzero(chosen)
+    kept = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
+    vertices, corners = np.unique(arrays.corners[kept], return_inverse=True)
+    edges, corner_edges = np.unique(arrays.corner_edges[kept], return_inverse=True)
+    renumbered = np.zeros(len(arrays.positions), np.int32)
+    renumbered[vertices] = np.arange(len(vertices), dtype=np.int32)
+    sizes = arrays.face_sizes[faces]
+
+    def of(values: np.ndarray | None, ids: np.ndarray) -> np.ndarray | None:
+        return None if values is None else values[ids]
+
+    part = replace(
+        arrays,
+        positions=arrays.positions[vertices],
+        edges=renumbered[arrays.edges[edges]],
+        corners=corners.astype(np.int32),
+        corner_edges=corner_edges.astype(np.int32),
+        offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
+        edge_crease=of(arrays.edge_crease, edges),
+        vertex_crease=of(arrays.vertex_crease, vertices),
+        sharp_edge=of(arrays.sharp_edge, edges),
+    )
+    return CutOut(part, vertices, faces)

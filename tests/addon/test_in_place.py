@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair Selected Faces in Place: what moves, what stays, how it joins, and that it is the fair one."""
+
+import bpy
+import discrete_fairing as df
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add
+
+RADIUS = 3.0
+SIZE = 12  # faces a side
+
+
+def positions(target):
+    out = np.empty(3 * len(target.data.vertices))
+    target.data.vertices.foreach_get("co", out)
+    return out.reshape(-1, 3)
+
+
+def cap(noise=0.1):
+    """A piece of a sphere with noise in the middle, whose faces are selected; and what is inside."""
+    axis = np.linspace(-1, 1, SIZE + 1)
+    x, y = (grid.ravel() for grid in np.meshgrid(axis, axis, indexing="ij"))
+    points = np.stack([x, y, np.sqrt(RADIUS**2 - x**2 - y**2)], axis=1)
+    middle = (np.abs(x) < 0.4) & (np.abs(y) < 0.4)
+    points[middle] += np.random.default_rng(1).uniform(-noise, noise, (int(middle.sum()), 3))
+    row = SIZE + 1
+    faces = [
+        (i * row + j, (i + 1) * row + j, (i + 1) * row + j + 1, i * row + j + 1)
+        for i in range(SIZE)
+        for j in range(SIZE)
+    ]
+    target = add("Cap", points.tolist(), faces)
+    select(target, lambda ids: middle[ids].any())
+    return target, middle
+
+
+def select(target, wanted):
+    activate(target)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for polygon in target.data.polygons:
+        polygon.select = bool(wanted(list(polygon.vertices)))
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def fair(target, **options):
+    assert bpy.ops.object.fairing_in_place(**options) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return positions(target)
+
+
+def off_sphere(points):
+    return np.abs(np.linalg.norm(points, axis=1) - RADIUS)
+
+
+@pytest.mark.parametrize("joint", ["POSITION", "TANGENT", "CURVATURE"])
+def test_only_what_is_inside_moves_and_the_noise_goes(joint):
+    target, middle = cap()
+    before = positions(target)
+    faces = [tuple(p.vertices) for p in target.data.polygons]
+    after = fair(target, joint=joint)
+    assert np.array_equal(after[~middle], before[~middle]), "to the bit"
+    assert [tuple(p.vertices) for p in target.data.polygons] == faces
+    assert off_sphere(before[middle]).max() > 0.05
+    limit = {"POSITION": 0.05, "TANGENT": 0.012, "CURVATURE": 0.012}[joint]
+    assert off_sphere(after[middle]).max() < limit
+
+
+def test_a_tangent_joint_goes_on_as_the_sphere_does_and_a_touching_one_need_not():
+    found = {}
+    for joint in ("POSITION", "TANGENT"):
+        target, middle = cap()
+        found[joint] = off_sphere(fair(target, joint=joint)[middle]).max()
+    assert found["TANGENT"] < 0.5 * found["POSITION"], found
+
+
+def test_it_is_the_surface_that_the_whole_mesh_has():
+    """What is cut out for speed changes nothing but rounding where the joint is the rim itself."""
+    target, middle = cap()
+    before = positions(target)
+    faces = [tuple(p.vertices) for p in target.data.polygons if p.select]
+    ids, corners = np.unique(faces, return_inverse=True)
+    weights = np.where(middle[ids], 0.0, np.inf)
+    whole = df.fair(
+        before[ids],
+        corners.reshape(-1, 4),
+        levels=2,
+        interpolation="approximate",
+        weights=weights,
+    )
+    after = fair(target, joint="POSITION")
+    assert np.allclose(after[ids], whole.vertices[: len(ids)], atol=1e-5)
+
+
+def test_factor_goes_part_of_the_way():
+    target, middle = cap()
+    before = positions(target)
+    whole = fair(target)
+    target, _ = cap()
+    half = fair(target, factor=0.5)
+    assert np.allclose(half, (before + whole) / 2, atol=1e-6)
+
+
+@pytest.mark.parametrize("release", [False, True])
+def test_refined_in_place_joins_without_a_gap(release):
+    target, middle = cap()
+    before = positions(target)
+    selected = sum(p.select for p in target.data.polygons)
+    after = fair(target, levels=2, release=release, joint="TANGENT")
+    mesh = target.data
+    kept = ~middle if release else np.ones(len(before), bool)
+    assert np.array_equal(after[: len(before)][kept], before[kept])
+    assert 16 * selected <= sum(p.select for p in mesh.polygons) <= 32 * selected
+    uses = np.zeros(len(mesh.edges), int)
+    for polygon in mesh.polygons:
+        for key in polygon.loop_indices:
+            uses[mesh.loops[key].edge_index] += 1
+    assert (uses == 1).sum() == 4 * SIZE, "the old border and no other: no gap, no T-junction"
+    assert not [a for a in mesh.attributes if a.name.startswith("fairing")]
+    inside = (np.abs(after[:, :2]) < 0.45).all(axis=1)
+    if release:
+        assert off_sphere(after[inside]).max() < 0.03
+    assert off_sphere(after[len(before) :][inside[len(before) :]]).max() > 1e-4
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+def test_refined_points_are_those_of_the_core(noise):
+    """With noise quads are warped, so that it splits them."""
+    target, middle = cap(noise)
+    before = positions(target)
+    faces = [tuple(p.vertices) for p in target.data.polygons]
+    region = [i for i, p in enumerate(target.data.polygons) if p.select]
+    whole = df.fair(before, faces, levels=1, region=region, joint="curvature")
+    after = fair(target, levels=1, joint="CURVATURE")
+    assert (len(whole.faces[0]) > 0) == (noise > 0)
+    pieces = zip(whole.faces, (whole.triangle_polygon, whole.quad_polygon), strict=True)
+    inner = np.unique(np.concatenate([f[np.isin(of, region)].ravel() for f, of in pieces]))
+    used = np.unique(np.concatenate([p.vertices for p in target.data.polygons if p.select]))
+    apart = np.abs(after[:, None] - whole.vertices[None, inner]).max(axis=2)
+    assert apart.min(axis=0).max() < 1e-5, "cut out or whole"
+    assert apart[used].min(axis=1).max() < 1e-5
+
+
+def test_layers_of_the_mesh_are_refined_with_it():
+    target, _ = cap()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    target.data.uv_layers.new(name="UV")
+    for corner, loop in enumerate(target.data.loops):
+        target.data.uv_layers["UV"].data[corner].uv = positions(target)[loop.vertex_index, :2]
+    bpy.ops.object.mode_set(mode="EDIT")
+    after = fair(target, levels=1)
+    flat = [
+        (target.data.uv_layers["UV"].data[i].uv[:], after[loop.vertex_index, :2])
+        for i, loop in enumerate(target.data.loops)
+    ]
+    assert max(abs(u[0] - p[0]) + abs(u[1] - p[1]) for u, p in flat) < 0.2
+
+
+def error_of(**options):
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.object.fairing_in_place(**options)
+    return str(caught.value)
+
+
+def test_refusals_say_what_to_do_and_change_nothing():
+    box = add("Box", *CUBE)
+    select(box, lambda _ids: False)
+    assert "Select the faces" in error_of()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert "Leave out some of its faces" in error_of()
+    select(box, lambda ids: 0 in ids and 1 in ids and 2 in ids)
+    assert "Select more faces" in error_of(levels=0)
+    assert np.array_equal(positions(box), np.array(CUBE[0], np.float32))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not bpy.ops.object.fairing_in_place.poll()
+
+
+def test_faces_of_many_corners_are_refined_as_the_core_splits_them():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=8)
+    can = bpy.context.object
+    before, faces = positions(can), [tuple(p.vertices) for p in can.data.polygons]
+    (lid,) = [i for i, face in enumerate(faces) if len(face) == 8 and before[face[0], 2] > 0]
+    select(can, lambda ids: tuple(ids) == faces[lid])
+    whole = df.fair(before, faces, levels=2, region=[lid])
+    after = fair(can, levels=2)
+    inner = np.unique(whole.faces[0][whole.triangle_polygon == lid])
+    apart = np.abs(after[:, None] - whole.vertices[None, inner]).max(axis=2)
+    assert apart.min(axis=0).max() < 1e-5

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is drawn over the viewport, as arrays: stripes, section curves and combs; and deviation."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add
+
+from addon.inspection import overlay_arrays, sections
+from addon.inspection.drawn import drawn
+from addon.inspection.stripes import stripes_of, tones
+
+
+def ball(radius=2.0, subdivisions=5):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions, radius=radius)
+    bpy.ops.object.shade_smooth()
+    return bpy.context.object
+
+
+def surface(target):
+    return overlay_arrays.surface_of(target, bpy.context.evaluated_depsgraph_get())
+
+
+def settings(**changed):
+    known = {"stripes": 4, "direction": 0.0, "sharpness": 1.0, "fixed_to": "VIEW"}
+    return SimpleNamespace(**{**known, **changed})
+
+
+def test_corners_share_points_where_the_surface_is_smooth():
+    smooth = surface(ball())
+    assert len(smooth.points) == len(bpy.context.object.data.vertices)
+    assert np.allclose(np.linalg.norm(smooth.normals, axis=1), 1.0, atol=1e-5)
+    assert np.allclose(smooth.normals, smooth.points / 2.0, atol=0.01)
+    box = add("Box", *CUBE)
+    rounded = overlay_arrays.surface_of(box, bpy.context.evaluated_depsgraph_get(), smooth=True)
+    assert len(np.unique(rounded.triangles)) == 8, "as if it had no flat faces"
+    flat = surface(box)
+    used = np.unique(flat.triangles)
+    assert len(used) == 24 and len(flat.triangles) == 12, "three normals a vertex of a cube"
+    a, b, c = (flat.points[flat.triangles[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    for corner in range(3):
+        assert np.allclose(flat.normals[flat.triangles[:, corner]], normals, atol=1e-5)
+
+
+def test_loose_vertices_and_no_faces_draw_nothing():
+    found = drawn(
+        np.zeros((3, 3)), np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3), np.int32)
+    )
+    assert len(found.triangles) == 0 and not found.normals.any()
+    assert sections.sections(found, 0, 5) == []
+
+
+def test_the_edits_of_edit_mode_are_drawn():
+    box = add("Box", *CUBE)
+    activate(box)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(3, 1, 1))
+    assert np.abs(surface(box).points[:, 0]).max() == pytest.approx(
+        3 * np.abs(np.array(CUBE[0])[:, 0]).max()
+    )
+
+
+def test_isophotes_follow_the_normal_alone_and_zebra_the_mirrored_ray():
+    angles = np.radians(np.linspace(-80, 80, 1601))
+    normals = np.stack([np.zeros_like(angles), np.sin(angles), np.cos(angles)], axis=1)
+    rays = np.tile([0.0, 0.0, -1.0], (len(angles), 1))
+    isophotes = tones(stripes_of("ISOPHOTES", settings()), normals, rays)
+    assert np.array_equal(isophotes > 0.5, np.sin(8 * angles) > 0), "4 pairs over half a turn"
+    # seen from where else, or from behind, an isophote stays
+    aside = np.tile([0.0, 0.6, -0.8], (len(angles), 1))
+    facing = np.einsum("ij,ij->i", aside, normals) < 0
+    moved = tones(stripes_of("ISOPHOTES", settings()), normals, aside)
+    assert np.array_equal(moved[facing], isophotes[facing])
+    assert np.array_equal(tones(stripes_of("ISOPHOTES", settings()), -normals, rays), isophotes)
+    # a mirror turns a ray twice as far as itself
+    near = np.abs(angles) < np.pi / 4 - 0.01
+    zebra = tones(stripes_of("ZEBRA", settings()), normals, rays)
+    assert np.array_equal(zebra[near] > 0.5, (np.sin(16 * angles) > 0)[near])
+    lines = tones(stripes_of("LINES", settings()), normals, rays)
+    assert 0.05 < np.mean(lines[near] < 0.5) < 0.25, "thin dark lines"
+    assert np.all(zebra[lines < 0.5] < 0.5), "in the middle of zebra's dark stripes"
+
+
+def test_the_shader_gets_what_the_formula_says():
+    view = np.eye(4)
+    view[:3, 3] = 1.0, 2.0, -9.0
+    world = np.diag([2.0, 3.0, 4.0, 1.0])
+    flat = np.diag([1.0, 1.0, -0.1, 1.0])
+    values = overlay_arrays.uniforms("LINES", settings(fixed_to="OBJECT"), world, view, flat)
+    assert values.shape == (80,) and values.dtype == np.float32
+    matrices = values[:64].reshape(4, 4, 4).transpose(0, 2, 1)
+    assert np.allclose(matrices[0], view @ world) and np.allclose(matrices[1], flat)
+    assert np.allclose(matrices[2][:3, :3], np.diag([1 / 2, 1 / 3, 1 / 4]))
+    assert np.allclose(matrices[3][:3, :3] @ (view @ world)[:3, :3], np.eye(3), atol=1e-6)
+    assert values[67] == 1.0 and values[71] == 0.0, "mirrored, orthographic"
+    assert values[68] == 8.0 and values[69] == pytest.approx(-np.cos(0.15 * np.pi))
+
+
+@pytest.mark.parametrize("perspective", [True, False])
+def test_stripes_are_pulled_to_the_eye_in_depth_alone(perspective):
+    projection = np.diag([1.5, 1.5, -0.02, 1.0])
+    if perspective:
+        projection = np.diag([1.5, 1.5, -1.01, 0.0])
+        projection[2, 3], projection[3, 2] = -0.1, -1.0
+
+    def seen(matrix, point):
+        x = matrix @ [*point, 1.0]
+        return x[:3] / x[3]
+
+    for point in ((0.0, 0.0, -10.0), (3.0, 2.0, -14.0)):
+        there = seen(projection, point)
+        pulled = seen(overlay_arrays.pulled(projection, 10.0), point)
+        assert np.allclose(pulled[:2], there[:2]) and pulled[2] < there[2]
+
+
+def test_sections_of_a_sphere_are_circles_of_the_right_size_and_bend():
+    target = surface(ball(radius=2.0))
+    for axis in range(3):
+        found = sections.sections(target, axis, 4)
+        assert len(found) == 4 and all(section.closed for section in found)
+        for section, height in zip(found, (-1.5, -0.5, 0.5, 1.5), strict=True):
+            assert np.allclose(section.points[:, axis], height, atol=1e-6)
+            assert np.array_equal(section.points[0], section.points[-1])
+            size = np.sqrt(4.0 - height**2)
+            across = np.delete(section.points, axis, axis=1)
+            assert np.allclose(np.linalg.norm(across, axis=1), size, rtol=5e-3)
+            assert np.allclose(section.curvature, 1.0 / size, rtol=0.03)
+            ends = sections.combs([section], 4.0)[0]
+            outward = np.linalg.norm(np.delete(ends, axis, axis=1), axis=1)
+            assert np.all(outward > size), "teeth stand on the side that bulges"
+
+
+def test_a_hollow_bends_the_other_way():
+    target = ball(radius=2.0)
+    target.data.flip_normals()
+    for section in sections.sections(surface(target), 2, 3):
+        assert section.curvature.max() < 0.0
+        ends = sections.combs([section], 4.0)[0]
+        assert np.all(
+            np.linalg.norm(ends[:, :2], axis=1) > np.linalg.norm(section.points[:, :2], axis=1)
+        ), "against normals that look inwards"
+
+
+def test_sections_end_at_borders_and_break_at_sharp_edges():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8, size=2)
+    (line,) = sections.sections(surface(bpy.context.object), 0, 1)
+    assert not line.closed and np.abs(line.curvature).max() < 1e-6
+    assert np.ptp(line.points[:, 1]) == pytest.approx(2.0)
+    found = sections.sections(surface(add("Box", *CUBE)), 2, 1)
+    assert len(found) == 4 and not any(section.closed for section in found)
+    assert max(np.abs(section.curvature).max() for section in found) < 1e-6
+
+
+def test_lines_come_in_pairs_for_what_is_asked():
+    target = surface(ball())
+    asked = SimpleNamespace(
+        section_axes={"X", "Z"}, section_count=3, show_combs=True, comb_scale=1.0
+    )
+    curves, tooth_lines, outline = (points for points, _ in overlay_arrays.lines_of(target, asked))
+    assert all(len(points) % 2 == 0 for points in (curves, tooth_lines, outline))
+    assert np.abs(np.linalg.norm(curves, axis=1) - 2.0).max() < 0.01
+    assert np.linalg.norm(outline, axis=1).min() > 2.1
+    asked.show_combs = False
+    assert len(overlay_arrays.lines_of(target, asked)) == 1
+
+
+def deviation(target):
+    values = np.empty(len(target.data.vertices), np.float32)
+    target.data.attributes["fair_deviation"].data.foreach_get("value", values)
+    return values
+
+
+def show_deviation(target):
+    activate(target)
+    assert bpy.ops.object.fairing_inspect(mode="DEVIATION") == {"FINISHED"}
+    return deviation(target)
+
+
+def test_deviation_from_another_object_has_signs_and_follows_the_choice():
+    small, large = ball(radius=2.0), ball(radius=2.1)
+    large.location.x = 0.0
+    scene = bpy.context.scene.discrete_fairing_inspection
+    scene.deviation_object = small
+    assert np.abs(show_deviation(small)).max() < 1e-6, "of itself"
+    assert show_deviation(large) == pytest.approx(0.1, abs=5e-3)
+    scene.deviation_object = large
+    assert deviation(small) == pytest.approx(-0.1, abs=5e-3)
+    small.scale = (1.05,) * 3
+    bpy.context.view_layer.update()
+    bpy.ops.object.fairing_refresh()
+    assert np.abs(show_deviation(small)).max() < 1e-2, "as they are in the world"
+
+
+def test_deviation_from_control_vertices():
+    source = add("Box", *CUBE)
+    assert np.array_equal(show_deviation(source), np.zeros(8)), "no control vertices"
+    bpy.ops.object.fair_surface(levels=2, interpolation="EXACT")
+    through = bpy.context.object
+    assert np.abs(show_deviation(through)).max() < 1e-5
+    activate(source)
+    bpy.ops.object.fair_surface(levels=2, interpolation="APPROXIMATE", tolerance=0.1)
+    near = bpy.context.object
+    missed = show_deviation(near)
+    assert 1e-3 < np.abs(missed).max() <= 0.1 + 1e-6 and missed.max() <= 0.0, "inside of them"
+    near.location.x = 9.0
+    bpy.context.view_layer.update()
+    bpy.ops.object.fairing_refresh()
+    assert np.array_equal(deviation(near), missed), "wherever the surface has been put"
+    bpy.ops.object.fairing_inspect(mode="NONE")
+    assert "fair_deviation" not in near.data.attributes

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stripes, section curves and combs over the viewport: in Solid, in Wireframe and in Edit Mode."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+import numpy as np
+
+
+def pixels(name):
+    """(h, w, 3) uint8 of the middle of the viewport, as X shows it."""
+    path = harness.photograph(name)
+    region = harness.view()["region"]
+    bottom = harness.view()["window"].height - region.y
+    side = min(region.width, region.height) // 2
+    left, top = region.x + (region.width - side) // 2, bottom - (region.height + side) // 2
+    crop = ["-crop", f"{side}x{side}+{left}+{top}", "-depth", "8", "rgb:-"]
+    done = subprocess.run(["convert", path, *crop], check=True, capture_output=True, timeout=60)
+    return np.frombuffer(done.stdout, np.uint8).reshape(side, side, 3)
+
+
+def changes(picture):
+    """How often a line from top to bottom goes from dark to light, at most."""
+    grey = picture.astype(float).mean(axis=2)
+    light = np.where(grey > 160, 1, np.where(grey < 70, 0, -1))
+    counts = []
+    for column in light.T[:: max(1, len(light) // 40)]:
+        known = column[column >= 0]
+        counts.append(int(np.count_nonzero(np.diff(known) > 0)))
+    return max(counts)
+
+
+def orange(picture):
+    """How many pixels have the colour of combs."""
+    r, g, b = (picture[:, :, i].astype(int) for i in range(3))
+    return int(np.count_nonzero((r > 150) & (r - g > 60) & (g - b > 20) & (b < 90)))
+
+
+def inspect(target, mode):
+    with bpy.context.temp_override(
+        **harness.view(), active_object=target, selected_objects=[target]
+    ):
+        bpy.ops.object.fairing_inspect("INVOKE_DEFAULT", mode=mode)
+
+
+def change_mode(mode):
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode=mode)
+
+
+def ball():
+    target = harness.add_suzanne()
+    bpy.data.objects.remove(target)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=2, segments=32, ring_count=16)
+        bpy.ops.view3d.view_selected()
+        bpy.context.object.select_set(False)  # its outline and highlight are no stripes
+        bpy.ops.ed.undo_push(message="A ball is there")
+    return bpy.context.object
+
+
+def shading():
+    return harness.view()["area"].spaces.active.shading
+
+
+def test_stripes_in_solid_and_back():
+    target = ball()
+    yield 1.0
+    assert shading().type == "SOLID"
+    plain = changes(pixels("overlay_plain"))
+    for mode in ("ZEBRA", "LINES", "ISOPHOTES"):
+        inspect(target, mode)
+        assert shading().type == "SOLID", "nobody has switched it"
+        yield 1.0
+        found = changes(pixels(f"overlay_{mode.lower()}"))
+        assert found >= 5 > plain, (mode, found, plain)
+    inspect(target, "NONE")
+    yield 1.0
+    assert changes(pixels("overlay_off")) == plain
+
+
+def test_stripes_in_wireframe():
+    target = ball()
+    inspect(target, "ZEBRA")
+    shading().type = "WIREFRAME"
+    yield 1.0
+    assert changes(pixels("overlay_wireframe")) >= 5
+    shading().type = "SOLID"
+
+
+def test_stripes_in_edit_mode_follow_the_edit():
+    target = harness.add_suzanne()
+    inspect(target, "ZEBRA")
+    change_mode("EDIT")
+    yield 1.5
+    before = pixels("overlay_edit_mode")
+    assert changes(before) >= 3
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=5)
+        bpy.ops.mesh.select_all(action="DESELECT")
+    yield 1.5
+    after = pixels("overlay_edited")
+    assert changes(after) >= 3
+    assert np.count_nonzero(np.abs(after.astype(int) - before).max(axis=2) > 60) > 500
+    change_mode("OBJECT")
+
+
+def test_undo_deletion_and_files_leave_nothing_behind():
+    target = ball()
+    yield 1.0
+    name, plain = target.name, changes(pixels("overlay_before"))
+    with bpy.context.temp_override(**harness.view()):
+        inspect(target, "ZEBRA")
+        bpy.ops.ed.undo_push(message="Zebra")
+    yield 1.0
+    assert changes(pixels("overlay_before_undo")) >= 5
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 1.0
+    assert changes(pixels("overlay_undone")) == plain
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.redo()
+    yield 1.0
+    assert changes(pixels("overlay_redone")) >= 5
+    bpy.data.objects.remove(bpy.data.objects[name])
+    yield 1.0
+    assert changes(pixels("overlay_deleted")) < 5
+    harness.fresh_scene(empty=False)
+    yield 1.0
+    target = ball()
+    inspect(target, "ISOPHOTES")
+    yield 1.0
+    assert changes(pixels("overlay_next_file")) >= 5
+
+
+def test_sections_and_combs():
+    target = ball()
+    yield 0.5
+    settings = bpy.context.scene.discrete_fairing_inspection
+    before = orange(pixels("sections_before"))
+    target.discrete_fairing_inspection.sections = True
+    settings.section_axes = {"Y", "Z"}
+    yield 1.0
+    shown = orange(pixels("sections"))
+    assert shown > before + 500, (before, shown)
+    settings.show_combs = False
+    yield 1.0
+    assert orange(pixels("sections_alone")) < shown / 4
+    target.discrete_fairing_inspection.sections = False
+
+
+harness.run_in_window(globals())
