@@ -22,7 +22,7 @@ from wheel_version import manifest_version
 ENDS = {"cp311": "5.1.0"}
 
 # first Blender that installs of several wheels the one for its own Python
-CHOOSES_WHEELS = "4.3.0"
+CHOOSES_WHEELS = "4.2.13"
 
 LICENCES = ["LICENSE", "THIRD_PARTY_LICENSES.txt"]
 
