@@ -21,9 +21,6 @@ from wheel_version import manifest_version
 # first Blender whose Python is another one; Debian's own builds have 3.13 in any version
 ENDS = {"cp311": "5.1.0"}
 
-# first Blender that installs of several wheels the one for its own Python
-CHOOSES_WHEELS = "4.3.0"
-
 LICENCES = ["LICENSE", "THIRD_PARTY_LICENSES.txt"]
 
 # Blender's names of the platforms, by what a wheel calls them
@@ -95,8 +92,6 @@ def added_lines(wheels: list[Path]) -> dict[str, str]:
     ends = [ENDS.get(tag) for tag in python_tags(wheels)]
     if None not in ends:
         lines["blender_version_max"] = f'"{max(ends)}"'
-    if len(wheels) > 1:
-        lines["blender_version_min"] = f'"{CHOOSES_WHEELS}"'
     return lines
 
 
@@ -141,8 +136,6 @@ def faults(path: Path) -> list[str]:
         ),
         "a wheel is for another platform": {platform(Path(w)) for w in wheels}
         == set(manifest["platforms"]),
-        "several Pythons for a Blender that does not choose": len(wheels) == 1
-        or manifest["blender_version_min"] == CHOOSES_WHEELS,
         "not the one permission that the command line needs": list(manifest.get("permissions", {}))
         == ["files"],
         "the tagline is too long or ends in a period": len(tagline) <= 64

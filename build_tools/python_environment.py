@@ -14,7 +14,7 @@ REQUIREMENTS = ROOT / "build_tools" / "requirements.txt"
 STAMP = VENV / "stamps" / "requirements"
 RIVALS = ROOT / "build_tools" / "requirements_bench.txt"
 RIVALS_STAMP = VENV / "stamps" / "requirements_bench"
-BPY_VERSION = (3, 11)  # Blender 4.2 to 5.0, hence of the bpy wheel
+BPY_VERSION = (3, 11)  # Blender 4.1 to 5.0, hence of the bpy wheel
 
 
 def has_bpy() -> bool:

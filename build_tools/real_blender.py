@@ -13,7 +13,7 @@ from debian_root import INSIDE, ROOTS, DebianRoot
 from layout import BUILD, VENV_PYTHON
 from shell import DevError, as_root, output, run, say
 
-OLDEST = (4, 2)
+OLDEST = (4, 3)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
 TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs

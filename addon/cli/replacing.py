@@ -94,7 +94,7 @@ def _name_materials(part: Path, old: str, new: str) -> None:
     with part.open("rb") as source, own.open("wb") as out:
         for line in source:
             if line.startswith(b"mtllib"):
-                out.write(line.replace(old.encode(), new.encode()))
+                out.write(line.replace(os.fsencode(old), os.fsencode(new)))
                 break
             out.write(line)
         shutil.copyfileobj(source, out, _BLOCK)

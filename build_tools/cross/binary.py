@@ -23,6 +23,9 @@ class Binary:
     least_system: tuple[int, ...] = ()  # glibc's or macOS's version
     exports: list[str] | None = None  # None: not read
     signed: bool = False
+    for_debuggers: bool = (
+        False  # has data for them; not read on Windows, where they are a file apart
+    )
 
 
 def read(path: Path) -> Binary:
@@ -47,7 +50,8 @@ def listing(*command: str | Path) -> str:
 
 def read_elf(path: Path) -> Binary:
     """A module for Linux, as readelf sees it."""
-    text = listing("readelf", "--wide", "--file-header", "--dynamic", "--version-info", path)
+    parts = ["--file-header", "--section-headers", "--dynamic", "--version-info"]
+    text = listing("readelf", "--wide", *parts, path)
     machine = "arm64" if "AArch64" in text else "x86_64" if "X86-64" in text else "unknown"
     versions = [
         tuple(map(int, found.split(".")))
@@ -62,6 +66,7 @@ def read_elf(path: Path) -> Binary:
         re.findall(r"\(NEEDED\).*\[(.+?)\]", text),
         max(versions, default=()),
         exports,
+        for_debuggers=".debug_info" in text,
     )
 
 

@@ -63,6 +63,7 @@ def faults_of(module: Binary, tag: str, python: str) -> list[str]:
         or "PyInit__native" in module.exports,
         "it has no signature, without which macOS on ARM loads nothing": module.signed
         or not (tag.startswith("macosx") and tag.endswith("arm64")),
+        "it holds data for debuggers": not module.for_debuggers,
     }
     return [fault for fault, fine in checks.items() if not fine]
 

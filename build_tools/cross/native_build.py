@@ -4,6 +4,7 @@
 import os
 from pathlib import Path
 
+import system_packages
 from layout import BUILD, ROOT, VENV_PYTHON
 from native_wheel import local_version
 from shell import DevError, output, run
@@ -77,7 +78,20 @@ def module(target: Target, python: str) -> Path:
         {**settings(target), "DF_BUILD_PYTHON": "ON", **python_settings(target, python)},
     )
     build(target, "_native")
-    return build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
+    made = build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
+    return stripped(made) if target.is_linux else made
+
+
+def stripped(made: Path) -> Path:
+    """A module for Linux without the data for debuggers that zig's own libraries bring: two thirds of it.
+
+    The linker could leave them out, but then zig builds its libraries once more.
+    """
+    system_packages.install(["llvm"])
+    folder = made.parent / "stripped"
+    folder.mkdir(exist_ok=True)
+    run("llvm-strip", "--strip-all", "-o", folder / made.name, made)
+    return folder / made.name
 
 
 def tests(target: Target) -> Path:

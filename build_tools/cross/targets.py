@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-# of Blender 4.2 to 5.0, and of 5.1 and newer
+# of Blender 4.3 to 5.0, and of 5.1 and newer
 PYTHONS = ("cp311", "cp313")
 
 
@@ -19,6 +19,10 @@ class Target:
     @property
     def is_windows(self) -> bool:
         return self.name.startswith("windows")
+
+    @property
+    def is_linux(self) -> bool:
+        return self.name.startswith("linux")
 
     @property
     def is_macos(self) -> bool:

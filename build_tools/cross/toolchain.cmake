@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# zig's clang, with the libraries of the platform that DF_ZIG_TARGET names. cross/build.py calls this and says where
-# zig is.
+# zig's clang, with the libraries of the platform that DF_ZIG_TARGET names. cross/native_build.py calls this and says
+# where zig is.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES DF_ZIG DF_ZIG_TARGET)
 
 if(DF_ZIG_TARGET MATCHES "-windows-")

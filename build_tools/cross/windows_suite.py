@@ -1,22 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The native suite and the Python suite as programs for Windows, under Wine."""
 
-import re
 import shutil
 from pathlib import Path
 
-import native_wheel
 from debian_root import INSIDE
-from layout import ROOT, VENV_PYTHON
-from shell import output, run
+from layout import ROOT
+from shell import run
 from suites import read_junit
 from tally import Tally, with_exit_code
 
-from cross import native_build, wheels, wine
+from cross import native_build, same_bits, wheels, wine
 from cross.targets import target_named
 
 TARGET = target_named("windows-x64")
-SURFACES = "tests/python/surface_hashes.py"
 
 
 def fresh(name: str) -> tuple[Path, str]:
@@ -33,7 +30,8 @@ def native() -> Tally:
     report, seen = fresh("native.xml")
     inside = wine.windows_path(INSIDE / Path(program).name)
     words = wine.command(inside, "--gtest_brief=1", f"--gtest_output=xml:{seen}")
-    return with_exit_code(read_junit(report), code=run(*words, check=False))
+    code = run(*words, check=False)
+    return with_exit_code(read_junit(report), code)
 
 
 def python_suite(python: str) -> Tally:
@@ -47,22 +45,12 @@ def python_suite(python: str) -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
-def same_bits(python: str) -> Tally:
-    """Sixty surfaces, made here and by Windows' Python, compared bit by bit."""
-    native_wheel.install()
-    hashes = wine.WINE.outside / "hashes.json"
-    run(VENV_PYTHON, ROOT / SURFACES, "write", hashes, "--arrays")
-    words = [
-        wine.windows_path(Path("/project", SURFACES)),
-        "compare",
-        wine.windows_path(INSIDE / hashes.name),
-    ]
-    _, text = output(*wine.python_command(python, *words, "--arrays"))
-    print(text, flush=True)
-    found = re.search(r"^(\d+) of (\d+) have the same bits", text, re.MULTILINE)
-    if found is None:
-        return Tally(failed=1, note="the surfaces were not compared")
-    return Tally(passed=int(found[1]), failed=int(found[2]) - int(found[1]))
+def surfaces(python: str) -> Tally:
+    """The surfaces of Windows' Python and those of .venv."""
+    hashes = same_bits.make_here(wine.WINE.outside)
+    script = Path("/project", same_bits.SCRIPT.relative_to(ROOT))
+    words = [wine.windows_path(script), "compare", wine.windows_path(INSIDE / hashes.name)]
+    return same_bits.compare(wine.python_command(python, *words, "--arrays"))
 
 
 def run_suite() -> dict[str, Tally]:
@@ -70,5 +58,5 @@ def run_suite() -> dict[str, Tally]:
     found = {"native": native()}
     for python in wine.REQUIREMENTS:
         found[python] = python_suite(python)
-        found[f"{python} bits"] = same_bits(python)
+        found[f"{python} bits"] = surfaces(python)
     return found

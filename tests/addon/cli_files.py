@@ -81,5 +81,5 @@ def write_stl(name):
 
 def read_obj(name):
     """Its vertices, (n, 3)."""
-    lines = [line.split() for line in Path(name).read_text().splitlines() if line.startswith("v ")]
-    return np.array([line[1:4] for line in lines], float)
+    lines = [line.split() for line in Path(name).read_bytes().splitlines()]
+    return np.array([line[1:4] for line in lines if line[:1] == [b"v"]], float)

@@ -2,11 +2,18 @@
 """The command in this process, and what it has written."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 
+from addon import core
 from addon.cli import main as command
+
+ROOT = Path(__file__).resolve().parents[2]
+CORE = Path(core.module().__file__).parents[1]  # of this process, for others
 
 
 def run(*words):
@@ -33,3 +40,25 @@ def imported(path):
 def contains(positions, wanted, tolerance):
     distance = np.linalg.norm(positions[:, None] - np.asarray(wanted)[None], axis=2)
     return (distance.min(axis=0) <= tolerance).all()
+
+
+_PROCESS = """
+import os, sys
+import addon
+from addon.cli import _command
+addon.register()
+code = _command(sys.argv[1:])
+sys.stdout.flush()
+os._exit(code)  # as Blender does: bpy as a module is slow to end
+"""
+
+
+def process(*words, **extra):
+    """A process of its own with these variables: exit code, standard output, standard error."""
+    done = subprocess.run(
+        [sys.executable, "-c", _PROCESS, *map(str, words)],
+        env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": "", **extra},
+        capture_output=True,
+        timeout=120,
+    )
+    return done.returncode, done.stdout.decode(), done.stderr.decode()

@@ -2,23 +2,17 @@
 """The command on real files: what goes in comes out finer, with exit codes and a report."""
 
 import json
-import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
 from cli_files import BOX_QUADS, read_obj, write_obj, write_ply, write_stl
-from cli_runs import contains, entries, imported, run
+from cli_runs import contains, entries, imported, process, run
 
 from addon import core
 from addon.cli import main as command
-
-ROOT = Path(__file__).resolve().parents[2]
-CORE = Path(core.module().__file__).parents[1]  # of this process, for others
 
 
 @pytest.fixture(autouse=True)
@@ -296,28 +290,6 @@ def test_blender_is_told_of_the_command(monkeypatch):
     assert told[-1] == "handle" and not registration._handles
     registration.register()
     assert registration._command(["--version"]) == 0
-
-
-_PROCESS = """
-import os, sys
-import addon
-from addon.cli import _command
-addon.register()
-code = _command(sys.argv[1:])
-sys.stdout.flush()
-os._exit(code)  # as Blender does: bpy as a module is slow to end
-"""
-
-
-def process(*words):
-    """A process of its own: exit code, standard output, standard error."""
-    done = subprocess.run(
-        [sys.executable, "-c", _PROCESS, *map(str, words)],
-        env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": ""},
-        capture_output=True,
-        timeout=120,
-    )
-    return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 
 def test_standard_output_has_the_report_and_nothing_else():

@@ -40,6 +40,7 @@ def test_a_good_module_has_no_faults(tag):
         ("win_amd64", {"processor": "arm64"}, "is for arm64"),
         ("manylinux_2_28_aarch64", {"least_system": (2, 34)}, "needs the system"),
         ("manylinux_2_28_aarch64", {"libraries": ["libOpenMeshCore.so.9"]}, "needs libOpenMesh"),
+        ("manylinux_2_28_aarch64", {"for_debuggers": True}, "for debuggers"),
         ("macosx_11_0_arm64", {"libraries": ["/usr/lib/libc++.1.dylib"]}, "needs /usr"),
         ("macosx_11_0_arm64", {"least_system": (12, 3)}, "needs the system"),
         ("macosx_11_0_arm64", {"signed": False}, "no signature"),

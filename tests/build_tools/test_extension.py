@@ -7,6 +7,8 @@ from pathlib import Path
 
 import extension
 import pytest
+from layout import MANIFEST
+from real_blender import OLDEST
 from shell import DevError
 from wheel_version import manifest_version
 
@@ -66,8 +68,13 @@ def test_staged_manifest(tag, end):
     assert manifest["version"] == VERSION
     assert manifest["platforms"] == ["windows-x64"]
     assert manifest["wheels"] == [f"./wheels/discrete_fairing-{VERSION}-{tag}-{tag}-win_amd64.whl"]
-    assert manifest["blender_version_min"] == "4.2.0"
+    assert manifest["blender_version_min"] == "4.3.0"
     assert manifest.get("blender_version_max") == end
+
+
+def test_real_blenders_are_as_new_as_the_manifest_asks():
+    oldest = tomllib.loads(MANIFEST.read_text())["blender_version_min"]
+    assert oldest == ".".join(map(str, (*OLDEST, 0)))
 
 
 def test_one_zip_for_several_pythons():
@@ -76,7 +83,8 @@ def test_one_zip_for_several_pythons():
     assert extension.name(wheels) == f"discrete_fairing-{VERSION}-windows_x64"
     assert manifest["wheels"] == [f"./wheels/{path.name}" for path in wheels]
     assert manifest["platforms"] == ["windows-x64"]
-    assert manifest["blender_version_min"] == "4.3.0", "4.2 may install the wrong one"
+    # Blender 4.2.0 would install the wrong one
+    assert manifest["blender_version_min"] == "4.3.0"
     assert "blender_version_max" not in manifest
 
 

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line on files whose names are not plain English, and on consoles that know nothing else."""
+
+import os
+from pathlib import Path
+
+import pytest
+from cli_files import read_obj, write_obj
+from cli_runs import contains, entries, process, run
+
+NAMES = ["two words", "Körper", "Ko\u0308rper", "部品", "☃ 🙂", "in.dots.name", "100%"]
+NOT_UTF_8 = os.fsdecode(b"not \xff utf-8")  # as old archives bring them along
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def materials_of(path):
+    """The file of materials that an OBJ names."""
+    lines = path.read_bytes().splitlines()
+    (name,) = (line[7:] for line in lines if line.startswith(b"mtllib "))
+    return path.parent / os.fsdecode(name)
+
+
+@pytest.mark.parametrize("name", [*NAMES, NOT_UTF_8], ids=ascii)
+def test_a_name_goes_in_and_out(name):
+    points = write_obj(f"{name}.obj", materials=("red",))
+    code, (entry,) = entries(f"{name}.obj", "new folder/ü/", "--levels", 1)
+    assert code == 0, entry["error"]
+    made = Path("new folder", "ü", f"{name}.obj")
+    assert (entry["input"], entry["output"]) == (f"{name}.obj", str(made))
+    assert contains(read_obj(made), points, 1e-6)
+    assert materials_of(made).is_file()
+
+
+@pytest.mark.parametrize("kind", ["ply", "stl"])
+@pytest.mark.parametrize("name", ["Körper 部品", NOT_UTF_8], ids=ascii)
+def test_the_other_formats_take_any_name_too(name, kind):
+    write_obj("in.obj")
+    assert run("in.obj", f"{name}.{kind}", "--levels", 1) == 0
+    assert run(f"{name}.{kind}", "again.obj", "--levels", 1) == 0
+
+
+def test_a_pattern_finds_any_name():
+    for name in ("Körper.obj", f"{NOT_UTF_8}.obj"):
+        write_obj(name)
+    code, found = entries("*.obj", "out/", "--levels", 1)
+    assert code == 0 and len(found) == 2
+
+
+def test_a_console_that_knows_ascii_only_gets_signs_in_their_place():
+    write_obj("Körper.obj")
+    code, _, error = process("Körper.obj", "out.obj", PYTHONIOENCODING="ascii")
+    assert (code, Path("out.obj").exists()) == (0, True), error
+    assert "K\\xf6rper.obj" in error

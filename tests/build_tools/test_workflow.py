@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What builds wheels on machines of their own kind, which has never run here: GitHub's workflow and cibuildwheel."""
+
+import re
+import subprocess
+import sys
+import tomllib
+
+import pytest
+import yaml
+from cross.targets import TARGETS
+from layout import ROOT
+
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+WHEELS = ROOT / ".github" / "workflows" / "wheels.yml"
+# GitHub's names of machines, by what Blender calls the platform
+MACHINES = {
+    r"ubuntu-\d+\.\d+": "linux-x64",
+    r"ubuntu-\d+\.\d+-arm": "linux-arm64",
+    r"macos-\d+": "macos-arm64",
+    r"macos-\d+-intel": "macos-x64",
+    r"windows-\d+": "windows-x64",
+}
+
+
+def checked(path):
+    """Exit code and words of a check against GitHub's own schema, which the tool carries."""
+    words = ["--builtin-schema", "vendor.github-workflows", path]
+    done = subprocess.run(
+        [sys.executable, "-m", "check_jsonschema", *words], capture_output=True, text=True
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_a_workflow_is_as_github_wants_it(path):
+    code, text = checked(path)
+    assert code == 0, text
+
+
+def test_a_wrong_workflow_is_found(tmp_path):
+    path = tmp_path / "wrong.yml"
+    path.write_text(WHEELS.read_text().replace("runs-on:", "run-on:"))
+    code, text = checked(path)
+    assert code == 1 and "jobs" in text
+
+
+def test_there_is_a_machine_for_every_platform():
+    machines = yaml.safe_load(WHEELS.read_text())["jobs"]["wheels"]["strategy"]["matrix"]["machine"]
+    found = [
+        name for m in machines for pattern, name in MACHINES.items() if re.fullmatch(pattern, m)
+    ]
+    assert sorted(found) == sorted(target.name for target in TARGETS)
+
+
+def test_the_workflow_runs_the_version_that_the_documents_name():
+    pattern = r"cibuildwheel==([\d.]+)"
+    (named,) = re.findall(pattern, (ROOT / "docs" / "packaging.md").read_text())
+    assert re.findall(pattern, WHEELS.read_text()) == [named]
+
+
+def test_cibuildwheel_gives_options_that_exist():
+    known = {
+        name
+        for path in [
+            ROOT / "CMakeLists.txt",
+            *ROOT.glob("cmake/*.cmake"),
+            *ROOT.glob("native/**/CMakeLists.txt"),
+        ]
+        for name in re.findall(r"^(?:option|set)\((DF_\w+)", path.read_text(), re.MULTILINE)
+    }
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["cibuildwheel"]
+    given = {
+        name
+        for system in ("linux", "macos", "windows")
+        for name in re.findall(r"-D(DF_\w+)", settings[system]["environment"]["CMAKE_ARGS"])
+    }
+    assert given and given <= known
