@@ -199,11 +199,11 @@ def test_deviation_from_another_object_has_signs_and_follows_the_choice():
 def test_deviation_from_control_vertices():
     source = add("Box", *CUBE)
     assert np.array_equal(show_deviation(source), np.zeros(8)), "no control vertices"
-    bpy.ops.object.fair_surface(levels=2, interpolation="EXACT")
+    bpy.ops.object.fairing_surface(levels=2, interpolation="EXACT")
     through = bpy.context.object
     assert np.abs(show_deviation(through)).max() < 1e-5
     activate(source)
-    bpy.ops.object.fair_surface(levels=2, interpolation="APPROXIMATE", tolerance=0.1)
+    bpy.ops.object.fairing_surface(levels=2, interpolation="APPROXIMATE", tolerance=0.1)
     near = bpy.context.object
     missed = show_deviation(near)
     assert 1e-3 < np.abs(missed).max() <= 0.1 + 1e-6 and missed.max() <= 0.0, "inside of them"

@@ -77,4 +77,4 @@ def test_live_and_shape_keys_follow():
 def test_other_energies_say_what_to_do():
     strip()
     with pytest.raises(RuntimeError, match="only one side.*Use Thin Plate, or cut it open"):
-        bpy.ops.object.fair_surface(levels=2, energy="TOTAL_CURVATURE")
+        bpy.ops.object.fairing_surface(levels=2, energy="TOTAL_CURVATURE")
