@@ -14,6 +14,7 @@ import charts
 import cholesky
 import clean_meshes
 import curvature_peaks
+import drag
 import exactness
 import live
 import memory
@@ -46,6 +47,7 @@ BENCHMARKS = {
     "pads": pads.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
+    "drag": drag.run,
     "live": live.run,
     "uneven": uneven.run,
 }

@@ -116,6 +116,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
   out.largest_eigenvalue = cycle_.levels[index].largest_eigenvalue;
   out.blocks = cycle_.levels[index].blocks != nullptr;
   out.converged = result.converged;
+  out.enough = result.enough;
   return out;
 }
 

@@ -35,6 +35,7 @@ struct LevelSolve {
   double largest_eigenvalue = 0;          // that the smoother worked with
   int smoother_degree = 0;                // at the end; 0: no smoother was asked
   bool direct = false, converged = false;
+  bool enough = false;            // as PcgLimits::enough says
   bool blocks = false;            // whether the smoother worked on blocks
   std::vector<double> residuals;  // after 0, 1, … iterations
 };

@@ -104,16 +104,22 @@ class Iteration {
     const double error = error_left_.estimate();
     result_.residual = relative(length_);
     result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
-    return length_ <= limits_.noise ||
+    return length_ <= limits_.noise || is_enough(error) ||
            (result_.residual <= limits_.tolerance && result_.energy_error <= limits_.tolerance);
+  }
+
+  bool is_enough(double error) {
+    result_.enough = length_ <= limits_.enough * limits_.residual_scale &&
+                     error <= limits_.enough * limits_.energy_scale;
+    return result_.enough;
   }
 
   // From the error that the preconditioner sees at the start.
   bool is_done_before(double error) {
     if (limits_.from_start) energy_scale_ = error;
     result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
-    result_.converged =
-        result_.residual <= limits_.tolerance && result_.energy_error <= limits_.tolerance;
+    result_.converged = is_enough(error) || (result_.residual <= limits_.tolerance &&
+                                             result_.energy_error <= limits_.tolerance);
     return result_.converged;
   }
 

@@ -18,6 +18,8 @@ struct PcgLimits {
   double noise = 0;           // a residual below this is rounding
   int max_iterations = 200;
   bool from_start = false;  // both scales are what the start has
+  // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
+  double enough = 0;
 };
 
 struct PcgResult {
@@ -25,6 +27,7 @@ struct PcgResult {
   double residual = 0;      // relative to the scale, at the end
   double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
   bool converged = false;
+  bool enough = false;                          // as PcgLimits::enough says
   double residual_scale = 0, energy_scale = 0;  // what both are relative to
   std::vector<double> history;                  // relative residual, the start's first
 };

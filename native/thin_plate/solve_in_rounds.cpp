@@ -110,8 +110,11 @@ struct ThinPlateSolver::Rounds {
 
   void solve() {
     PcgLimits now = limits;
-    now.from_start = !whole && !limits.from_start;
-    if (now.from_start) now.tolerance = std::max(limits.tolerance, gain_wanted());
+    if (!whole && !limits.from_start) {
+      now.from_start = true;
+      now.tolerance = std::max(limits.tolerance, gain_wanted());
+      now.enough = constraint ? 0 : limits.tolerance;
+    }
     const LevelSolve solve = solver.hierarchy_.solve(
         std::size_t(level - solver.base_), now,
         [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
@@ -200,7 +203,7 @@ struct ThinPlateSolver::Rounds {
       solver.residual_on_pads(level, targets, x, residual());
       solve();
       const bool loads = loads_settled();
-      if (whole && (loads || corrections_left() <= 0)) {
+      if ((whole || report.enough) && (loads || corrections_left() <= 0)) {
         report.converged = report.converged && loads;
         break;
       }

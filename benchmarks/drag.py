@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A vertex moves: what a warm solver takes for the next surface, on pads and on point forces.
+
+Three vertices in turn, twelve moves each, by a hundredth of the mesh's size; processor time on one
+thread, default settings.
+"""
+
+from statistics import median
+from time import process_time
+from typing import Any
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import table
+
+MESHES = {
+    "50 faces, L = 5": (meshes.hull(27), 5),
+    "800 faces, L = 3": (meshes.torus(20, 20), 3),
+    "80 quads, L = 4": (meshes.quad_torus(10, 8), 4),
+}
+MOVES = 12
+DIRECTION = np.array([0.3, 0.5, 0.8])
+
+
+def run() -> dict[str, Any]:
+    """Milliseconds and iterations of a move: the first of each vertex, and those that follow."""
+    result = {
+        f"{name}, {size}": _drag(*mesh, levels, size)
+        for name, (mesh, levels) in MESHES.items()
+        for size in (0.0, 1.0)
+    }
+    rows = [[name, *(str(value) for value in entry.values())] for name, entry in result.items()]
+    heads = ["mesh, pad size", "first, ms", "following, ms", "most, ms"]
+    heads += ["iterations of the first", "of those that follow"]
+    table.show("A move in a drag", heads, rows)
+    return result
+
+
+def _drag(vertices: np.ndarray, faces: np.ndarray, levels: int, size: float) -> dict[str, Any]:
+    solver = df.Solver(vertices, faces, levels=levels, pad_size=size, threads=1, measure=False)
+    solver.solve(vertices)
+    step = 0.01 * np.ptp(vertices, axis=0).max() * DIRECTION
+    times, iterations = [], []
+    for vertex in (0, len(vertices) // 3, 2 * len(vertices) // 3):
+        moved = vertices.copy()
+        for _ in range(MOVES):
+            moved[vertex] += step
+            start = process_time()
+            report = solver.solve(moved).report
+            times.append(round(1e3 * (process_time() - start), 1))
+            iterations.append(report["levels"][-1]["iterations"])
+    is_first = [k % MOVES <= 1 for k in range(len(times))]  # the second one shows the direction
+    following = [t for t, first in zip(times, is_first) if not first]
+    return {
+        "first": median(t for t, first in zip(times, is_first) if first),
+        "following": median(following),
+        "most": max(following),
+        "first_iterations": max(i for i, first in zip(iterations, is_first) if first),
+        "iterations": max(i for i, first in zip(iterations, is_first) if not first),
+    }
+
+
+if __name__ == "__main__":
+    run()
