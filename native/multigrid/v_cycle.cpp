@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "parallel/memory_news.h"
 
 namespace fairing {
 
@@ -53,6 +54,7 @@ CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unkn
                            bool always_direct)
     : op_(op), workers_(workers) {
   if (unknowns > direct_limit && !always_direct) return;
+  announce_memory(factor_bytes(unknowns));
   factor_ = std::make_unique<Factor>();
   refactor();
 }

@@ -8,6 +8,7 @@
 
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size, repair_orientation
+from .errors import MemoryWarning
 from .fairing import fair
 from .result import Result
 from .solver import Solver
@@ -15,6 +16,7 @@ from .solver import Solver
 __all__ = [
     "Defect",
     "FairingError",
+    "MemoryWarning",
     "Monitor",
     "Result",
     "Solver",
