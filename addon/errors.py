@@ -24,6 +24,7 @@ _REMEDIES = {
     "TOO_EXTREME": "Move these vertices back to the others, or delete them",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
     "OUT_OF_MEMORY": "Use fewer levels",
+    "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 # code: what is wrong with one, with several

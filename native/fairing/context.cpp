@@ -17,6 +17,7 @@
 #include "mesh/sheets.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
+#include "parallel/memory_news.h"
 #include "thin_plate/back_leg.h"
 #include "thin_plate/release.h"
 
@@ -84,9 +85,11 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   report.sheets = sheets_of(mesh_);
   const RunSize size =
       predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
-                   options_.energy, options_.tension > 0, options_.method == Method::back_leg);
+                   options_.energy, options_.tension > 0, options_.method == Method::back_leg,
+                   options_.interpolation == Interpolation::approximate);
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
+  expect_memory(report);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
   unknowns_ = choose_unknowns(mesh_, options_);
   build(mesh_.positions, watch);
@@ -288,6 +291,23 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   to_world(control, finest(), frame_, *workers_, x, world);
   require_finite(mesh_, control, *workers_, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
+}
+
+void expect_memory(const Report& report) {
+  if (MemoryNews* news = MemoryNews::current()) news->expect(report.predicted_bytes);
+}
+
+void warn_of_memory(const MemoryLedger& ledger, Report& report) {
+  report.peak_bytes = ledger.peak();
+  const MemoryNews* news = MemoryNews::current();
+  if (!news || !news->told()) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "This took %.3g MB where %.3g MB were predicted: some levels proved hard. Very thin "
+      "faces are the usual cause.",
+      1e-6 * double(report.peak_bytes), 1e-6 * double(report.predicted_bytes));
+  report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
 
 void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,

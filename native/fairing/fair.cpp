@@ -4,6 +4,7 @@
 #include "fairing/fair.h"
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <string>
 #include <utility>
@@ -93,7 +94,7 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options, Monito
   context.drop_systems();
   result.faces = make_faces(GridLevel(context.mesh(), options.levels), context.workers());
   result.crease_edges = crease_edges(context.mesh());
-  report.peak_bytes = ledger.peak();
+  warn_of_memory(ledger, report);
   watch.leave();
   monitor.report(Phase::done, 1);
   return result;
@@ -132,13 +133,18 @@ FairingError out_of_memory() {
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
   return with_named_errors([&] {
+    const auto begun = std::chrono::steady_clock::now();
     const Mending mending = mending_of(mesh, options, monitor);
+    const std::chrono::duration<double> mended_in = std::chrono::steady_clock::now() - begun;
     FairResult result =
         mending.in_input_ids([&] { return fair_all(mending.mesh(), mending.options(), monitor); });
     mending.restore_points(result.vertices.data());
     for (Array<double>& shape : result.shapes) mending.restore_points(shape.data());
     mending.restore(result.faces);
     mending.restore(result.report);
+    auto& seconds = result.report.seconds;
+    if (options.repair == Repair::mend)
+      seconds.insert(seconds.begin(), PhaseSeconds{"mend", mended_in.count()});
     if (mending.mended()) result.mended = *mending.mended();
     return result;
   });
@@ -213,6 +219,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     const FairOptions& options = context_.options();
     if (std::exchange(was_far_out_, false)) forget_surfaces();
     Report report = built_;
+    expect_memory(report);
     Stopwatch watch(report, monitor_);
     watch.enter(Phase::hierarchy, 0);
     context_.system();
@@ -225,7 +232,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
       solve_from_nothing(watch, report);
     write(watch, report, out);
     was_far_out_ = lies_far_out(context_.mesh(), control_);
-    report.peak_bytes = ledger_.peak();
+    warn_of_memory(ledger_, report);
     watch.leave();
     monitor_.report(Phase::done, 1);
     return report;

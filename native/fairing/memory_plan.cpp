@@ -79,7 +79,8 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, st
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
 // that proves hard while the run is on its way gets blocks (multigrid/block_jacobi.h), or is factored
 // (v_cycle.h); that comes on top: MemoryLedger::fits() keeps to the limit then.
-std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, bool back_leg) {
+std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, bool back_leg,
+                        bool moves) {
   const std::int64_t n = std::int64_t(1) << levels, faces = c.triangles + c.quads;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;
   // Unknowns of a level that is solved directly, and a third more for the points that are none.
@@ -91,6 +92,7 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, 
   }
   if (levels > 0 && c.points(1) - c.vertices <= std::int64_t(direct_limit))
     factored = std::max(factored, c.points(1));
+  if (moves) factored = std::max(factored, c.points(0));
   const auto factor = std::int64_t(factor_bytes(std::size_t(factored)));
   // The surface, the vectors of conjugate gradients, one of loads on pads, and one more to measure
   // or diagonalize; and what a start needs of the level below.
@@ -115,16 +117,21 @@ std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, 
   // Three or four ids a face, and its polygon.
   const std::int64_t output =
       n * n * (4 * index_bytes * c.welded_triangles() + 5 * index_bytes * c.welded_quads());
+  // While the rows of level 1 are summed up: bytes a point, measured. Of no other level is it the peak.
+  const std::int64_t assembling =
+      levels > 0 && has_rows(2, std::size_t(c.points(1)))
+          ? stencils + membrane + mixed(c, 1800, 1910) * c.points(1) + (moves ? factor : 0)
+          : 0;
   // What does not grow with the mesh.
   constexpr std::int64_t fixed = 1 << 15;
-  return std::max(outer + cycle + spectrum + slots + stencils + membrane + factor +
-                      matrix_bytes(c, levels) + steps + sweeps,
-                  vector_bytes * points + output) +
+  return std::max({outer + cycle + spectrum + slots + stencils + membrane + factor +
+                       matrix_bytes(c, levels) + steps + sweeps,
+                   assembling, vector_bytes * points + output}) +
          fixed;
 }
 
 RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy, bool tense,
-                 bool back_leg = false) {
+                 bool back_leg = false, bool moves = false) {
   RunSize size;
   const std::int64_t n = std::int64_t(1) << levels;
   size.points = c.welded_points(levels);
@@ -136,7 +143,7 @@ RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy,
   size.bytes = most;
   if (double(size.solved) * (most_of_point + double(shapes) * double(vector_bytes)) < double(most))
     // Of a shape only its surface stays; it is solved in the same arrays.
-    size.bytes = peak_bytes(c, levels, energy, tense, back_leg) +
+    size.bytes = peak_bytes(c, levels, energy, tense, back_leg, moves) +
                  std::int64_t(shapes) * vector_bytes * size.solved;
   return size;
 }
@@ -183,7 +190,7 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
 }
 
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, Energy energy,
-                     bool tense, bool back_leg) {
+                     bool tense, bool back_leg, bool moves) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
@@ -192,7 +199,7 @@ RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, En
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
   for (const Index f : mesh.copied_face)
     ++(mesh.faces[std::size_t(f)].quad() ? c.copied_quads : c.copied_triangles);
-  return run_size(c, levels, shapes, energy, tense, back_leg);
+  return run_size(c, levels, shapes, energy, tense, back_leg, moves);
 }
 
 void require_fit(const RunSize& size, const FairOptions& options) {

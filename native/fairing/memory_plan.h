@@ -20,7 +20,8 @@ struct RunSize {
   std::int64_t bytes = 0;      // peak of the run's own arrays
 };
 
-// `tense`: under tension, which takes a little more.
+// `tense`: under tension, which takes a little more. `moves`: control vertices do, so that the control
+// mesh's own level is factored.
 //
 // From the number of vertices, up to 2^31, and from faces that require_faces() lets pass. Polygons
 // count as if split around a centre, quads that will be split count as quads. Sizes beyond any
@@ -30,7 +31,8 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
                      Energy energy = Energy::thin_plate, bool tense = false);
 // From the mesh as it is after splits: exact counts.
 RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,
-                     Energy energy = Energy::thin_plate, bool tense = false, bool back_leg = false);
+                     Energy energy = Energy::thin_plate, bool tense = false, bool back_leg = false,
+                     bool moves = false);
 
 // Throws FairingError(too_large), naming the figures, when the run does not fit into
 // options.memory_limit or its ids into 32 bits. The first takes next to no time, and lets pass what

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/simd.h"
+#include "parallel/memory_news.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -187,6 +188,7 @@ void BlockJacobi::refactor() {
 
 void BlockJacobi::factor(const SymmetricRows& rows) {
   MemoryLedger::remove(std::exchange(bytes_, 0));
+  announce_memory(rows.bytes());  // about as much
   std::vector<Factorizer::Place> places(op_.points());
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (std::size_t i = blocks_.begin[b]; i < blocks_.begin[b + 1]; ++i)

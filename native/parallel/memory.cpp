@@ -2,6 +2,10 @@
 #include "parallel/memory.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "parallel/memory_news.h"
 
 #if defined(_WIN32)
 #include <windows.h>
@@ -16,7 +20,35 @@
 
 namespace fairing {
 namespace {
+
 thread_local MemoryLedger* open_ledger = nullptr;
+thread_local MemoryNews* run_news = nullptr;
+
+// A run that takes no more than this is not told of; nor is one within a tenth of what was predicted.
+// Afterwards every quarter more is.
+constexpr std::size_t small_run = std::size_t(16) << 20, slack = 10, further = 4;
+constexpr int longest_wait = 200;  // for a listener, in milliseconds
+
+}  // namespace
+
+void MemoryNews::needs(std::size_t bytes) {
+  const std::size_t before = bytes_, predicted = predicted_;
+  const std::size_t allowed =
+      before > 0 ? before + before / further : predicted + predicted / slack;
+  if (predicted == 0 || bytes <= std::max(allowed, small_run)) return;
+  bytes_ = bytes;
+  for (int i = 0; i < longest_wait && listens_ && unheard() > 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+MemoryNews* MemoryNews::current() { return run_news; }
+
+MemoryNewsScope::MemoryNewsScope(MemoryNews& news) { run_news = &news; }
+
+MemoryNewsScope::~MemoryNewsScope() { run_news = nullptr; }
+
+void announce_memory(std::size_t bytes) {
+  if (open_ledger && run_news) run_news->needs(open_ledger->current() + bytes);
 }
 
 MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { open_ledger = this; }
@@ -27,6 +59,7 @@ void MemoryLedger::add(std::size_t bytes) {
   if (!open_ledger) return;
   open_ledger->current_ += bytes;
   open_ledger->peak_ = std::max(open_ledger->peak_, open_ledger->current_);
+  announce_memory(0);  // a new array has no pages before it is written
 }
 
 void MemoryLedger::remove(std::size_t bytes) {

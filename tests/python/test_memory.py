@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Memory is predicted, and grows as the surface does."""
 
+import warnings
+
 import control_meshes as meshes
 import discrete_fairing as df
+import numpy as np
 import pytest
 import tight
 
@@ -53,3 +56,46 @@ def test_prediction_bounds_the_peak_of_steps(name, energy):
     assert (
         df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]
     )
+
+
+@pytest.mark.parametrize("levels, most", [(1, 1.3), (2, 1.35)])
+@pytest.mark.parametrize("tolerance", [0.0, 0.02])
+def test_many_faces_on_few_levels(levels, most, tolerance):
+    """The rows of level 1 are the most there, and control vertices that move are factored."""
+    near = {"interpolation": "approximate", "tolerance": tolerance} if tolerance else {}
+    report = df.fair(*meshes.torus(96, 48), levels, threads=1, **near).report
+    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= most
+
+
+def poles():
+    """Thin faces, so that levels prove hard."""
+    parts = [meshes.closed_pole(360) for _ in range(4)]
+    vertices = np.concatenate([points + [3 * k, 0, 0] for k, (points, _) in enumerate(parts)])
+    return vertices, np.concatenate([faces + k * 362 for k, (_, faces) in enumerate(parts)])
+
+
+def test_a_run_that_takes_more_says_so_before():
+    with pytest.warns(df.MemoryWarning, match=r"at least .* MB, more than the .* MB predicted"):
+        report = df.fair(*poles(), 2, threads=1).report
+    assert report["peak_bytes"] > 1.1 * report["predicted_bytes"]
+    assert [w["code"] for w in report["warnings"]] == ["MEMORY_EXCEEDED"]
+    # an error in its place ends the run
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", df.MemoryWarning)
+        with pytest.raises(df.MemoryWarning):
+            df.fair(*poles(), 2, threads=1)
+        with pytest.raises(df.MemoryWarning):
+            df.Solver(*poles(), 2, threads=1).solve()
+
+
+def test_what_goes_as_predicted_says_nothing():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert df.fair(*meshes.torus(96, 48), 2).report["warnings"] == []
+
+
+def test_mending_is_timed():
+    vertices, faces = meshes.cube()
+    seconds = df.fair(vertices, faces, 1, repair="mend").report["seconds"]
+    assert 0 <= seconds["mend"] < 10
+    assert "mend" not in df.fair(vertices, faces, 1).report["seconds"]

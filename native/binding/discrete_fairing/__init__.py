@@ -8,6 +8,7 @@
 
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size, repair_orientation
+from .errors import MemoryWarning
 from .fairing import fair
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
@@ -18,6 +19,7 @@ from .step import write_step
 __all__ = [
     "Defect",
     "FairingError",
+    "MemoryWarning",
     "Monitor",
     "Result",
     "Solver",

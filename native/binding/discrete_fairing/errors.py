@@ -4,6 +4,10 @@
 from ._native import FairingError
 
 
+class MemoryWarning(RuntimeWarning):
+    """A run is about to take more memory than was predicted."""
+
+
 def fairing_error(
     code: str, message: str, elements: list[int] | None = None, kind: str = "mesh"
 ) -> FairingError:
