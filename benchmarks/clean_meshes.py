@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection that may lie beside the project: what it
-reaches, and how soon.
+"""Total curvature on every mesh of the collection that may lie beside the project: what it reaches,
+and how soon. Meshes that are not clean are mended first.
 
 Energies of the thin plate's and of its own surface as the core measures them, and these with the
 butterfly's by surface_measures.py, which is independent of it. Where creases are listed beside a
 mesh it is run with them as well, and measured by the core alone: it knows where the creases are.
 """
 
+import statistics
+import time
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +18,7 @@ import discrete_fairing as df
 import from_tests
 import numpy as np
 import rivals
+import self_intersections
 import surface_measures as measures
 import table
 
@@ -33,26 +37,43 @@ HEADS = (
     "total, measured",
     "butterfly, measured",
 )
-HEADS += ("steps to 1e-3", "steps", "λ²", "iterations", "folds", "angles > 90°", "short of")
+HEADS += (
+    "steps to 1e-3",
+    "steps",
+    "λ²",
+    "iterations",
+    "mended",
+    "folds",
+    "crossing",
+    "angles > 90°",
+)
+HEADS += ("µs", "short of")
+SLOWEST = 10
+SLOW_HEADS = ("µs", "times median", "hierarchy", "solve", "steps", "corrections", "iterations")
 
 
 def cases() -> Iterator[tuple[str, np.ndarray, list[list[int]], dict[str, Any]]]:
     """Name, vertices, polygons, options."""
     mesh_files, shared_data = from_tests.readers()
-    folder = shared_data.SHARED / "good"
-    for path in sorted(p for p in folder.rglob("*") if p.suffix.lower() in mesh_files.SUFFIXES):
-        name = str(path.relative_to(folder).with_suffix(""))
-        vertices, faces = mesh_files.read_mesh(path)
-        yield name, vertices, faces, {}
-        creases = listed_creases(path, faces, shared_data)
-        if creases:
-            yield f"{name}, creases", vertices, faces, creases
+    for folder in (shared_data.SHARED / "good", shared_data.SHARED / "bad"):
+        mending = {"repair": "mend"} if folder.name == "bad" else {}
+        for path in sorted(p for p in folder.rglob("*") if p.suffix.lower() in mesh_files.SUFFIXES):
+            name = str(path.relative_to(folder).with_suffix(""))
+            try:
+                vertices, faces = mesh_files.read_mesh(path)
+            except ValueError as error:
+                print(f"clean: {error}")
+                continue
+            yield name, vertices, faces, mending
+            creases = listed_creases(path, faces, shared_data)
+            if creases:
+                yield f"{name}, creases", vertices, faces, creases | mending
 
 
 def listed_creases(path: Path, faces: list[list[int]], shared_data: Any) -> dict[str, Any]:
     """As options; some lists name an edge of a face that the file does not have."""
     edges, corners = shared_data.creases_of(path, sharper_than=2.0)
-    there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])}
+    there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], *f[:1]])}
     edges = [e for e in edges.tolist() if frozenset(e) in there]
     return {"crease_edges": edges, "corner_vertices": corners} if len(edges) + len(corners) else {}
 
@@ -79,9 +100,17 @@ def one(vertices: np.ndarray, faces: list[list[int]], options: dict[str, Any]) -
     """The figures of one mesh."""
     levels = FEWER if len(faces) > MANY else LEVELS
     plate = df.fair(vertices, faces, levels=levels, measure=False, **options)
+    start = time.process_time()
     result = df.fair(
-        vertices, faces, levels=levels, energy="total_curvature", measure=False, **options
+        vertices,
+        faces,
+        levels=levels,
+        energy="total_curvature",
+        measure=False,
+        threads=1,
+        **options,
     )
+    seconds = time.process_time() - start
     entries = result.report["curvature"]
     steps = entries[-1]["steps"]
     near = [k for k, step in enumerate(steps, 1) if step["decrement"] <= DECREMENT]
@@ -99,7 +128,13 @@ def one(vertices: np.ndarray, faces: list[list[int]], options: dict[str, Any]) -
         "iterations": [max((s["iterations"] for s in e["steps"]), default=0) for e in entries],
         "finite": bool(np.isfinite(result.vertices).all()),
         "folds": entries[-1]["folds"],  # where the control mesh is not folded itself
+        "crossing": self_intersections.crossing_triangles(*arrays(result)),
         "sharp": int((measures.dihedrals(*arrays(result)) > SHARP).sum()),
+        "mended": sum(len(repair["elements"]) for repair in result.report["repairs"]),
+        "microseconds": 1e6 * seconds / len(result.triangles),
+        "seconds": result.report["seconds"],
+        "steps_of_levels": [len(e["steps"]) for e in entries],
+        "corrections": [sum(s["pad_corrections"] for s in e["steps"]) for e in entries],
     }
 
 
@@ -132,20 +167,60 @@ def row(name: str, entry: dict[str, Any]) -> list[Any]:
         entry["steps"],
         f"{entry['decrement'] ** 2:.0e}",
         " ".join(str(n or "d") for n in entry["iterations"]),
+        entry["mended"],
         entry["folds"],
+        entry["crossing"],
         entry["sharp"],
+        entry["microseconds"],
         ", ".join(shortfalls(entry)),
     ]
 
 
+def show_slowest(result: dict[str, Any]) -> None:
+    """By processor time a triangle, and where it went: shares of the run's phases."""
+    median = statistics.median(entry["microseconds"] for entry in result.values())
+    rows = []
+    for name in sorted(result, key=lambda n: -result[n]["microseconds"])[:SLOWEST]:
+        entry = result[name]
+        total = sum(entry["seconds"].values())
+        rows.append(
+            [
+                name,
+                entry["microseconds"],
+                entry["microseconds"] / median,
+                *(entry["seconds"][phase] / total for phase in ("hierarchy", "solve")),
+                " ".join(map(str, entry["steps_of_levels"])),
+                " ".join(map(str, entry["corrections"])),
+                " ".join(str(n or "d") for n in entry["iterations"]),
+            ]
+        )
+    table.show(
+        f"The slowest a triangle; the median takes {median:.2g} µs", ["mesh", *SLOW_HEADS], rows
+    )
+
+
+def show_summary(result: dict[str, Any], refused: Counter[str]) -> None:
+    """How many of what."""
+    short = [name for name, entry in result.items() if entry["short_of"]]
+    counts = {
+        "refused": refused.total(),
+        "mended": sum(entry["mended"] > 0 for entry in result.values()),
+        "with folds": sum(entry["folds"] > 0 for entry in result.values()),
+        "that cross themselves": sum(entry["crossing"] > 0 for entry in result.values()),
+    }
+    print(f"{len(result)} runs; short of something: {', '.join(short) or 'none'}")
+    print(", ".join(f"{what}: {count}" for what, count in counts.items()), dict(refused))
+
+
 def run() -> dict[str, Any]:
     """The whole collection; nothing where it is absent."""
-    result, rows = {}, []
+    result, rows, refused = {}, [], Counter()
     for name, vertices, faces, options in cases():
         try:
             entry = one(vertices, faces, options)
         except df.FairingError as error:
             print(f"clean: {name} is refused, {error.code}")
+            refused[error.code] += 1
             continue
         result[name] = entry | {"short_of": shortfalls(entry)}
         rows.append(row(name, entry))
@@ -153,13 +228,10 @@ def run() -> dict[str, Any]:
         print("clean: the collection of meshes is not here.")
         return {}
     table.show(
-        "Total curvature on the clean meshes: energies as the core has them and as measured, steps, iterations a level (d: direct)",
+        "Total curvature on real meshes: energies as the core has them and as measured, steps, iterations a level (d: direct)",
         ["mesh", *HEADS],
         rows,
     )
-    short = [name for name, entry in result.items() if entry["short_of"]]
-    folded = sum(entry["folds"] > 0 for entry in result.values())
-    print(
-        f"{len(result)} runs; short of something: {', '.join(short) or 'none'}; with folds: {folded}"
-    )
+    show_slowest(result)
+    show_summary(result, refused)
     return result
