@@ -138,6 +138,7 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
   }
   for (int s = 0; s < 4; ++s)
     for (const SideNormal& n : data.normals[std::size_t(s)]) {
+      if (n.normal.isZero()) continue;
       double& angle = out.side_angle[std::size_t(s)];
       angle = std::max(angle, angle_between(on_side(patch, s, n.t).normal(), n.normal));
       out.turned = std::max(out.turned, angle);
