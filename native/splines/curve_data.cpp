@@ -12,6 +12,9 @@ constexpr int reach = 3;
 constexpr int most_samples = 64;
 // Creases that meet at less than this (its sine) do not span a plane.
 constexpr double collinear = 0.17;
+// Creases that leave the fitted tangent plane by more (its sine) are not in one: the surface has a
+// kink at their vertex, as where straight boundary edges meet at a corner.
+constexpr double in_plane = 0.34;
 
 // Lagrange's weights at x of `count` nodes from `first` on, one apart.
 std::vector<double> interpolation(double x, int first, int count) {
@@ -108,10 +111,13 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>& cu
   if (tangents.empty()) return normal;
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);
-    if (both.norm() > collinear) return both.normalized() * (both.dot(normal) < 0 ? -1.0 : 1.0);
+    const double along = both.normalized().dot(normal);
+    if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - in_plane * in_plane))
+      return both.normalized() * (along < 0 ? -1.0 : 1.0);
+    if (both.norm() > collinear) return Vec3::Zero();
   }
-  const Vec3 out = across(normal, tangents.front());
-  return out.allFinite() ? out : normal;
+  if (std::abs(normal.dot(tangents.front())) > in_plane) return Vec3::Zero();
+  return across(normal, tangents.front());
 }
 
 // The median of side s has lattice points in every other row.

@@ -15,7 +15,7 @@ class CurveSource {
   // Of a crease or a boundary.
   CurveData sharp_edge(Index e) const;
   // The normal of the surface at the vertex of a sector. Where creases bound the sector, their
-  // `curves` lie in its plane.
+  // `curves` lie in its plane. Zero where these cannot: the surface has a kink there.
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const;
   CurveData smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const;
   // From the middle of side s of triangle f to its centroid; `edge` is the side's curve.

@@ -36,14 +36,16 @@ class CurveSystem {
     const int count = control_points(spans);
     fixed_ = Eigen::VectorXd::Zero(3 * count);
     const bool smooth = !data.normals.empty();
-    const int free = 3 * (count - 2) - (smooth ? 2 : 0);
+    const bool at_start = smooth && data.normals.front().squaredNorm() > 0,
+               at_end = smooth && data.normals.back().squaredNorm() > 0;
+    const int free = 3 * (count - 2) - at_start - at_end;
     basis_ = Eigen::MatrixXd::Zero(3 * count, free);
     set_fixed(0, data.points.front());
     set_fixed(count - 1, data.points.back());
     int column = 0;
     for (int i = 1; i + 1 < count; ++i) {
-      const bool first = i == 1, last = i + 2 == count;
-      if (smooth && (first || last)) {
+      const bool first = i == 1 && at_start, last = i + 2 == count && at_end;
+      if (first || last) {
         basis_.block<3, 2>(3 * i, column) =
             plane_of(first ? data.normals.front() : data.normals.back());
         set_fixed(i, first ? data.points.front() : data.points.back());

@@ -10,7 +10,7 @@
 namespace fairing {
 
 // Points of the lattice that a curve runs through, ends included. Along smooth curves each has a
-// normal of the surface; creases and boundaries have none.
+// normal of the surface, zero where it has a kink; creases and boundaries have none.
 struct CurveData {
   std::vector<Vec3> points, normals;
   bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
