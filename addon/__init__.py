@@ -11,8 +11,9 @@ from . import cli, freshness, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch
 from .mesh import mesh_changes
-from .operators import cancel, check, fair, faults, fill, inspect, live, old_names, presets
+from .operators import cancel, check, compare, fair, faults, fill, inspect, live, old_names, presets
 from .ui import check as check_panel
+from .ui import compare as compare_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
 from .ui import menus, outliner
@@ -31,6 +32,7 @@ _MODULES = (
     faults,
     fill,
     cancel,
+    compare,
     live,
     check,
     inspect,
@@ -39,6 +41,7 @@ _MODULES = (
     main_panel,
     check_panel,
     inspect_panel,
+    compare_panel,
     menus,
     outliner,
     cli,

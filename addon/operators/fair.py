@@ -38,7 +38,7 @@ def poll_reason(context: Context) -> str:
     return ""
 
 
-class _Fairing(ExplainedPoll, ModalRun):
+class Fairing(ExplainedPoll, ModalRun):
     """What both operators share: jobs are made, computed, and only when all are done something is
     written.
     """
@@ -144,7 +144,7 @@ class _Fairing(ExplainedPoll, ModalRun):
         """For what is not common to both."""
 
 
-class FairSurface(_Fairing, FairingSettings):
+class FairSurface(Fairing, FairingSettings):
     """All of Fair Surface but its name."""
 
     bl_idname: str
@@ -190,7 +190,7 @@ def faired_objects(context: Context) -> list[Object]:
     return sorted(selected, key=lambda o: o == active)
 
 
-class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
     """Compute this surface again from its source as it is now, with the settings below. Materials and modifiers added since then stay"""
 
     bl_idname = "object.fairing_recompute"
@@ -215,7 +215,7 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
         ]
 
 
-class OBJECT_OT_fairing_recompute_stale(_Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
     """Compute all surfaces again whose source or settings have changed since they were made"""
 
     bl_idname = "object.fairing_recompute_stale"

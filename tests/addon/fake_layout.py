@@ -15,7 +15,7 @@ class Layout:
     def row(self, **_):
         return Layout(self.log)
 
-    column = box = row
+    column = box = split = row
 
     def panel(self, _name, **_):
         return Layout(self.log), Layout(self.log)
