@@ -73,7 +73,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         )
         if triangles >= size.LARGE:
             draw_notice(
-                layout, size.why_too_large(triangles) or "A large result: this takes a while"
+                layout,
+                size.why_too_large(triangles) or "A large result: Blender may be slow to draw it",
             )
         queue = running()
         if queue is not None and not queue.gives_way:
