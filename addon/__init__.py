@@ -16,7 +16,7 @@ from .ui import check as check_panel
 from .ui import compare as compare_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
-from .ui import menus, outliner
+from .ui import menus, outliner, pictures
 
 _MODULES = (
     settings,
@@ -38,6 +38,7 @@ _MODULES = (
     inspect,
     presets,
     old_names,
+    pictures,
     main_panel,
     check_panel,
     inspect_panel,
