@@ -47,7 +47,7 @@ class Fairing(ExplainedPoll, ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        return self._in_time(context, jobs) or self._start_anew(context)
+        return self._in_time(context, jobs) or self._in_background(context, jobs)
 
     def execute(self, context: Context) -> Answer:
         jobs = self._prepare(context)
@@ -55,7 +55,7 @@ class Fairing(ExplainedPoll, ModalRun):
             return {"CANCELLED"}
         if not self.is_redone():
             return self._block(context, jobs)
-        return self._in_time(context, jobs) or self._begin_small(context)
+        return self._in_time(context, jobs) or self._begin_small(context, jobs)
 
     def is_redone(self) -> bool:
         """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
@@ -72,16 +72,20 @@ class Fairing(ExplainedPoll, ModalRun):
         except JobCancelled:
             return None
 
-    def _start_anew(self, context: Context) -> Answer:
-        """In the background, with the bar."""
-        jobs = self._prepare(context)
+    def _unused(self, context: Context, jobs: list[Job]) -> list[Job] | None:
+        """The `jobs`, or new ones where some are done already; None after an error."""
+        return jobs if all(job.result is None for job in jobs) else self._prepare(context)
+
+    def _in_background(self, context: Context, tried: list[Job]) -> Answer:
+        """With the bar."""
+        jobs = self._unused(context, tried)
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
-    def _begin_small(self, context: Context) -> Answer:
+    def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
         """Makes small surfaces, or what stands in for them, at once, and lets the whole ones follow
         in the background.
         """
-        jobs = self._prepare(context)
+        jobs = self._unused(context, tried)
         if jobs is None:
             return {"CANCELLED"}
         try:
