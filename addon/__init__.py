@@ -15,6 +15,7 @@ from .mesh import mesh_changes
 from .operators import (
     cancel,
     check,
+    compare,
     fair,
     faults,
     fill,
@@ -25,9 +26,10 @@ from .operators import (
     presets,
 )
 from .ui import check as check_panel
+from .ui import compare as compare_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
-from .ui import menus, outliner
+from .ui import menus, outliner, pictures
 
 _MODULES = (
     settings,
@@ -45,14 +47,17 @@ _MODULES = (
     fill,
     cancel,
     in_place,
+    compare,
     live,
     check,
     inspect,
     presets,
     old_names,
+    pictures,
     main_panel,
     check_panel,
     inspect_panel,
+    compare_panel,
     menus,
     outliner,
     cli,

@@ -9,28 +9,28 @@ ENERGIES = (
     (
         "THIN_PLATE",
         "Thin Plate",
-        "Bends like a thin sheet of spring steel. Fast, and linear: the classic. Flattens a little between vertices",
+        "Bends like a thin sheet of spring steel, and is linear: the classic. Flattens a little between vertices",
         0,
     ),
     (
         "TOTAL_CURVATURE",
         "Total Curvature",
-        "The roundest surface: from vertices on a sphere it makes the sphere. Takes longer than Thin Plate: the panel says how long, from the last runs",
+        "The roundest surface: from vertices on a sphere it makes the sphere",
         1,
     ),
     (
         "MINIMUM_VARIATION",
         "Minimum Variation",
-        "Curvature changes as little as possible: the calmest reflections. Slower still",
+        "Curvature changes as little as possible: the calmest reflections",
         2,
     ),
 )
 
-# what the panel has room for
+# what the panel has room for. What they cost is said once, by the prediction
 ENERGY_MEANINGS = {
-    "THIN_PLATE": "Fast, flattens between vertices",
-    "TOTAL_CURVATURE": "Roundest, takes longer",
-    "MINIMUM_VARIATION": "Calmest reflections, slowest",
+    "THIN_PLATE": "Flattens a little in between",
+    "TOTAL_CURVATURE": "Roundest: spheres stay spheres",
+    "MINIMUM_VARIATION": "Calmest reflections",
 }
 
 INTERPOLATIONS = (

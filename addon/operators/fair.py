@@ -38,7 +38,7 @@ def poll_reason(context: Context) -> str:
     return ""
 
 
-class _Fairing(ExplainedPoll, ModalRun):
+class Fairing(ExplainedPoll, ModalRun):
     """What both operators share: jobs are made, computed, and only when all are done something is
     written.
     """
@@ -47,7 +47,7 @@ class _Fairing(ExplainedPoll, ModalRun):
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        return self._in_time(context, jobs) or self._start_anew(context)
+        return self._in_time(context, jobs) or self._in_background(context, jobs)
 
     def execute(self, context: Context) -> Answer:
         jobs = self._prepare(context)
@@ -55,7 +55,7 @@ class _Fairing(ExplainedPoll, ModalRun):
             return {"CANCELLED"}
         if not self.is_redone():
             return self._block(context, jobs)
-        return self._in_time(context, jobs) or self._begin_small(context)
+        return self._in_time(context, jobs) or self._begin_small(context, jobs)
 
     def is_redone(self) -> bool:
         """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
@@ -72,16 +72,20 @@ class _Fairing(ExplainedPoll, ModalRun):
         except JobCancelled:
             return None
 
-    def _start_anew(self, context: Context) -> Answer:
-        """In the background, with the bar."""
-        jobs = self._prepare(context)
+    def _unused(self, context: Context, jobs: list[Job]) -> list[Job] | None:
+        """The `jobs`, or new ones where some are done already; None after an error."""
+        return jobs if all(job.result is None for job in jobs) else self._prepare(context)
+
+    def _in_background(self, context: Context, tried: list[Job]) -> Answer:
+        """With the bar."""
+        jobs = self._unused(context, tried)
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
-    def _begin_small(self, context: Context) -> Answer:
+    def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
         """Makes small surfaces, or what stands in for them, at once, and lets the whole ones follow
         in the background.
         """
-        jobs = self._prepare(context)
+        jobs = self._unused(context, tried)
         if jobs is None:
             return {"CANCELLED"}
         try:
@@ -144,7 +148,7 @@ class _Fairing(ExplainedPoll, ModalRun):
         """For what is not common to both."""
 
 
-class FairSurface(_Fairing, FairingSettings):
+class FairSurface(Fairing, FairingSettings):
     """All of Fair Surface but its name."""
 
     bl_idname: str
@@ -190,7 +194,7 @@ def faired_objects(context: Context) -> list[Object]:
     return sorted(selected, key=lambda o: o == active)
 
 
-class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
     """Compute this surface again from its source as it is now, with the settings below. Materials and modifiers added since then stay"""
 
     bl_idname = "object.fairing_recompute"
@@ -215,7 +219,7 @@ class OBJECT_OT_fairing_recompute(_Fairing, bpy.types.Operator):
         ]
 
 
-class OBJECT_OT_fairing_recompute_stale(_Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
     """Compute all surfaces again whose source or settings have changed since they were made"""
 
     bl_idname = "object.fairing_recompute_stale"

@@ -30,6 +30,7 @@ from .layout import (
 )
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
+from .pictures import draw_pictures
 
 # where Blender looks for the presets of the operator, which are those of the panel
 PRESET_FOLDER = "operator/object.fairing_surface"
@@ -41,6 +42,10 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
     preset_subdir = PRESET_FOLDER
     preset_operator = "object.fairing_preset_apply"
     preset_add_operator = "object.fairing_preset_add"
+
+    def draw(self, context: Context) -> None:
+        draw_pictures(cast(bpy.types.UILayout, self.layout), PRESET_FOLDER)
+        super().draw(context)
 
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
@@ -73,7 +78,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         )
         if triangles >= size.LARGE:
             draw_notice(
-                layout, size.why_too_large(triangles) or "A large result: this takes a while"
+                layout,
+                size.why_too_large(triangles) or "A large result: Blender may be slow to draw it",
             )
         queue = running()
         if queue is not None and not queue.gives_way:

@@ -15,7 +15,7 @@ class Layout:
     def row(self, **_):
         return Layout(self.log)
 
-    column = box = row
+    column = box = split = grid_flow = row
 
     def panel(self, _name, **_):
         return Layout(self.log), Layout(self.log)
@@ -29,6 +29,9 @@ class Layout:
     def prop(self, owner, name, **_):
         assert name in owner.bl_rna.properties
         self.log.append(name)
+
+    def template_icon(self, icon_value=0, **_):
+        self.log.append(icon_value)
 
     def progress(self, text="", factor=0.0, **_):
         assert 0.0 <= factor <= 1.0

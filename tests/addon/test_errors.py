@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: a sentence that names what is wrong, and nothing made."""
 
+import ast
+from pathlib import Path
+
 import bpy
 import pytest
 from scenes import CUBE, add, fair
@@ -77,6 +80,14 @@ def test_no_remedy_is_given_twice():
     said = str(refusal.value)
     assert said.count("elete") == 1 and "Delete one of each pair." in said
     assert "same vertices" in said, "and what is wrong"
+
+
+def test_messages_have_no_words_of_other_systems():
+    addon = Path(errors.__file__).parent
+    for path in addon.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                assert "library override" not in node.value.lower(), path.name
 
 
 def test_size_sentence():

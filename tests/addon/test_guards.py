@@ -17,6 +17,7 @@ MAY_USE_FILES = {
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
     "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
     "addon/cli/replacing.py",  # puts an output in its place when it is complete
+    "addon/ui/pictures.py",  # the names of the pictures of the shipped presets
     "addon/queue.py",  # `os`, for the priority of threads
     "addon/operators/presets.py",  # the folder of the shipped presets; those of the old operator move
 }

@@ -67,7 +67,7 @@ def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
 @pytest.fixture
 def redo(monkeypatch):
     """As if Adjust Last Operation called."""
-    monkeypatch.setattr(fairing._Fairing, "is_redone", lambda self: True)
+    monkeypatch.setattr(fairing.Fairing, "is_redone", lambda self: True)
 
 
 def test_a_run_that_takes_longer_than_predicted_is_broken_off(redo, monkeypatch):

@@ -7,12 +7,14 @@ from pathlib import Path
 import bpy
 import pytest
 from bl_operators.presets import AddPresetOperator
+from fake_layout import Layout
 from scenes import CUBE, add, fair
 
 import addon
 from addon.operators import presets
 from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES
+from addon.ui import pictures
 from addon.ui.main import PRESET_FOLDER
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
@@ -111,6 +113,18 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     assert target.discrete_fairing.interpolation == "APPROXIMATE"
     assert bpy.context.scene.discrete_fairing.interpolation == "EXACT"
     assert bpy.context.scene.discrete_fairing.levels == levels
+
+
+def test_each_picture_has_its_preset():
+    folder = Path(pictures.__file__).resolve().parents[1] / "presets" / "pictures"
+    assert {path.stem for path in folder.glob("*.png")} == set(pictures.SHOWN) <= set(SHIPPED)
+    for stem in pictures.SHOWN:
+        assert tuple(pictures._loaded[stem].image_size) == (112, 112)
+    assert sum(path.stat().st_size for path in folder.glob("*.png")) < 40_000
+    layout = Layout()
+    pictures.draw_pictures(layout, PRESET_FOLDER)
+    assert layout.log.count("object.fairing_preset_apply") == len(pictures.SHOWN)
+    assert Path(Layout.button.filepath).is_file()
 
 
 def test_menus_show_them_in_proper_case():

@@ -84,6 +84,12 @@ def test_energy_stands_near_the_top_with_what_it_means(energy):
     assert draw(main.VIEW3D_PT_fairing)[2:4] == ["energy", ENERGY_MEANINGS[energy]]
 
 
+def test_what_an_energy_costs_is_said_once():
+    said = [*ENERGY_MEANINGS.values(), *(text for _, _, text, *_ in ENERGIES)]
+    for word in ("fast", "slow", "longer", "while"):
+        assert not [text for text in said if word in text.lower().split()]
+
+
 def test_what_an_energy_means_fits_the_sidebar():
     assert set(ENERGY_MEANINGS) == {key for key, *_ in ENERGIES}
     assert all(len(meaning) <= notice.WIDTH for meaning in ENERGY_MEANINGS.values())

@@ -19,4 +19,18 @@ def test_sidebar_shows_the_tab():
     assert harness.colours(picture) > 100, "the window is not drawn"
 
 
+def test_presets_are_chosen_by_pictures():
+    yield from harness.open_sidebar("Fairing")
+    before = harness.colours(harness.photograph("presets"))
+    region = harness.view()["region"]
+    harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
+    yield 0.5
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.wm.call_panel(name="VIEW3D_PT_fairing_presets")
+    yield 2.0
+    assert harness.colours(harness.photograph("presets")) > before, "pictures have colours"
+    harness.xdotool("key", "Escape")
+    yield 0.5
+
+
 harness.run_in_window(globals())

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compare: the surfaces of all energies in a row beside their source, measured."""
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import cast
+
+import bpy
+import numpy as np
+
+from ..blender import Context, Object, registration
+from ..choices import ENERGIES
+from ..inspection import readout
+from ..job import Job
+from ..memory import source_of
+from ..settings import snapshot
+from ..ui.main import settings_at_hand
+from . import fill
+from .fair import Fairing, poll_reason
+
+MEASURED = 250_000  # triangles: larger surfaces wait for Measure
+_GAP = 1.15  # from one to the next, in widths of the source
+
+
+def source_at_hand(context: Context) -> Object | None:
+    """The mesh that the active object is, or is made from."""
+    active = context.active_object
+    if active is None or active.type != "MESH":
+        return None
+    return source_of(active) or active
+
+
+class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
+    """Make the surfaces of all energies with the settings of the panel, in a row beside this mesh, and measure them"""
+
+    bl_idname = "object.fairing_compare"
+    bl_label = "Compare Energies"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return poll_reason(context) or (
+            "" if source_at_hand(context) else "Select a mesh object first"
+        )
+
+    def make_jobs(self, context: Context) -> list[Job]:
+        source, settings = cast(Object, source_at_hand(context)), settings_at_hand(context)
+        chosen = vars(snapshot(settings))
+        return [
+            Job(context, source, SimpleNamespace(**{**chosen, "energy": energy}))
+            for energy, *_ in ENERGIES
+        ]
+
+    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
+        source = cast(Object, jobs[0].source)
+        source.hide_set(False)
+        context.view_layer.update()
+        step = _GAP * _width(source)
+        for place, (target, (_, name, *_)) in enumerate(zip(self._written, ENERGIES, strict=True)):
+            target.name = f"{source.name} {name}"
+            target.show_name = True
+            moved = target.matrix_world.copy()
+            moved.translation.x += (place + 1) * step
+            target.matrix_world = moved
+        for target in self._written:
+            if len(target.data.loops) <= 3 * MEASURED:
+                readout.take(context, target, source)
+
+
+def _width(source: Object) -> float:
+    """Of its box, along the world's X."""
+    matrix = np.array(source.matrix_world)
+    corners = np.array([tuple(corner) for corner in source.bound_box])
+    return float(np.ptp(corners @ matrix[0, :3]))
+
+
+register, unregister = registration(OBJECT_OT_fairing_compare)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compare: one click, and the energies stand side by side with their figures."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from scenes import CUBE, activate, add, fair, positions
+
+from addon.operators import compare as operator
+from addon.ui import compare
+
+NAMES = ["Box Thin Plate", "Box Total Curvature", "Box Minimum Variation"]
+
+
+def compared(**settings):
+    for name, value in {"levels": 2, **settings}.items():
+        setattr(bpy.context.scene.discrete_fairing, name, value)
+    assert bpy.ops.object.fairing_compare() == {"FINISHED"}
+    return [bpy.data.objects[name] for name in NAMES]
+
+
+def test_the_energies_stand_in_a_row():
+    source = add("Box", *CUBE)
+    source.location = (1, 2, 3)
+    made = compared()
+    assert {o.name for o in bpy.context.selected_objects} == set(NAMES)
+    places = [tuple(o.matrix_world.translation) for o in made]
+    assert np.allclose(places, [(1 + 2.3 * k, 2, 3) for k in (1, 2, 3)])
+    assert source.visible_get() and all(o.show_name for o in made)
+    for target, energy in zip(made, ("THIN_PLATE", "TOTAL_CURVATURE", "MINIMUM_VARIATION")):
+        assert target.discrete_fairing.energy == energy and target.discrete_fairing.levels == 2
+        alone = fair_again(source, energy=energy, levels=2)
+        assert np.array_equal(positions(target.data), positions(alone.data))
+
+
+def fair_again(source, **settings):
+    source.hide_set(False)
+    activate(source)
+    return fair(**settings)
+
+
+@pytest.mark.parametrize("active", ["Box", *NAMES])
+def test_the_panel_has_their_figures(active):
+    add("Box", *CUBE)
+    compared()
+    activate(bpy.data.objects[active])
+    log = draw(compare.VIEW3D_PT_fairing_compare)
+    assert log[0] == "object.fairing_compare"
+    rows = [log[4 + 3 * k : 7 + 3 * k] for k in range(3)]
+    assert [row[0] for row in rows] == ["Thin Plate", "Total Curvature", "Minimum Variation"]
+    curvature = [float(row[1]) for row in rows]
+    assert curvature[1] == min(curvature), "the one that has the least of it"
+
+
+def test_from_a_surface_with_its_settings():
+    add("Box", *CUBE)
+    target = fair(levels=1, use_crease_angle=True)
+    assert bpy.ops.object.fairing_compare() == {"FINISHED"}
+    made = [bpy.data.objects[name] for name in NAMES]
+    assert all(o.discrete_fairing.use_crease_angle for o in made)
+    assert all(o.discrete_fairing.source == target.discrete_fairing.source for o in made)
+
+
+def test_large_surfaces_wait_for_measure(monkeypatch):
+    monkeypatch.setattr(operator, "MEASURED", 10)
+    add("Box", *CUBE)
+    compared()
+    assert compare.measured_surfaces(bpy.context.active_object) == []

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compare in a real window: three surfaces in a row, with their names and figures."""
+
+import importlib
+import sys
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+
+PATIENCE = 300.0  # seconds
+
+
+def test_one_click_puts_the_energies_side_by_side():
+    running = importlib.import_module(f"{harness.EXTENSION}.queue").running
+    harness.add_suzanne()
+    bpy.context.scene.discrete_fairing.levels = 2
+    yield from harness.open_sidebar("Fairing")
+    with bpy.context.temp_override(**harness.view()):
+        assert bpy.ops.object.fairing_compare("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    begun = perf_counter()
+    while running():
+        assert perf_counter() - begun < PATIENCE, "the run does not end"
+        yield 0.2
+    names = ["Suzanne Thin Plate", "Suzanne Total Curvature", "Suzanne Minimum Variation"]
+    places = [bpy.data.objects[name].location.x for name in names]
+    assert 0.0 < places[0] < places[1] < places[2]
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_show_source()
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_all()
+    yield 3.0
+    harness.photograph("compare")
+
+
+harness.run_in_window(globals())
