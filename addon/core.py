@@ -96,6 +96,8 @@ def fair_arguments(
         "threads": preferences.threads,
         "measure": False,
     }
+    if settings.symmetry_plane != "NONE":
+        arguments["symmetry_plane"] = settings.symmetry_plane.lower()
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):

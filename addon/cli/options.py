@@ -35,6 +35,7 @@ _GROUPS = {
         "pad_size",
         "tension",
         "boundary",
+        "symmetry_plane",
         "shade_smooth",
     ),
     "creases": (

@@ -19,7 +19,7 @@ from ..ui.main import PRESET_FOLDER, settings_at_hand
 
 _FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
 # belongs to the work at hand, not to the kind of thing that is made
-NOT_KEPT = {"use_selection", "tolerance_group", "memory_limit"}
+NOT_KEPT = {"use_selection", "tolerance_group", "symmetry_plane", "memory_limit"}
 
 
 def _settings_as_operator(context: Context) -> Any:
