@@ -33,7 +33,9 @@ def modelled(make):
 
     def made():
         mesh = make()
-        control = settings_meshes.add(mesh.vertices.tolist(), mesh.faces, "Model")
+        points = mesh.vertices.copy()
+        points[:, :2] -= (points.max(axis=0) + points.min(axis=0))[:2] / 2
+        control = settings_meshes.add(points.tolist(), mesh.faces, "Model")
         creased = {frozenset(edge) for edge in mesh.crease_edges}
         if creased:
             values = [float(frozenset(edge.vertices) in creased) for edge in control.data.edges]
@@ -45,9 +47,9 @@ def modelled(make):
 
 
 MODELS = {
-    "hull": (modelled(control_meshes.hull), View(10.0, turn=-38, elevation=14, height=1.2)),
-    "fender": (modelled(modelling_meshes.fender), View(3.1, turn=-28, elevation=14, height=0.75)),
-    "mug": (modelled(modelling_meshes.mug), View(3.2, turn=-35, elevation=22, height=1.05)),
+    "hull": (modelled(control_meshes.hull), View(8.4, turn=-132, elevation=16, height=0.85)),
+    "fender": (modelled(modelling_meshes.fender), View(2.9, turn=-28, elevation=14, height=0.58)),
+    "mug": (modelled(modelling_meshes.mug), View(3.4, turn=-40, elevation=22, height=1.0)),
     "suzanne": (settings_meshes.suzanne, View(3.1, turn=20, height=0.85)),
 }
 
