@@ -72,6 +72,14 @@ BOUNDARIES = (
     ("FREE", "Free", "Open borders go where the surface takes them, fixed only at their vertices"),
 )
 
+# what the mesh is half of; its mirror image lies across the object's own plane
+SYMMETRY_PLANES = (
+    ("NONE", "None", "The mesh is all there is"),
+    ("X", "X", "The border in the plane x = 0 meets the mirror image of the mesh without a joint"),
+    ("Y", "Y", "The border in the plane y = 0 meets the mirror image of the mesh without a joint"),
+    ("Z", "Z", "The border in the plane z = 0 meets the mirror image of the mesh without a joint"),
+)
+
 MESH_SOURCES = (
     ("ORIGINAL", "As Modelled", "The mesh itself, as Edit Mode shows it"),
     ("EVALUATED", "With Modifiers", "What the modifiers of the source make of its mesh"),

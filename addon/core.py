@@ -101,6 +101,8 @@ def fair_arguments(
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
         arguments["weld"] = settings.weld
+    if settings.symmetry_plane != "NONE":
+        arguments["symmetry_plane"] = settings.symmetry_plane.lower()
     if region is not None:
         arguments |= {"region": region, "joint": settings.joint.lower()}
     if shapes is not None and len(shapes):

@@ -132,6 +132,7 @@ def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
         "tension": wish.tension,
         "interpolation": "EXACT",
         "repair": "REFUSE",
+        "symmetry_plane": "NONE",
     }
     return SimpleNamespace(**asked)
 

@@ -23,6 +23,7 @@ from .choices import (
     JOINTS,
     MESH_SOURCES,
     REPAIRS,
+    SYMMETRY_PLANES,
     TOLERANCE_UNITS,
 )
 
@@ -146,6 +147,12 @@ class FairingSettings:
     )
     boundary: EnumProperty(
         name="Boundary", description="What happens to open borders", items=BOUNDARIES
+    )
+    symmetry_plane: EnumProperty(
+        name="Symmetry Plane",
+        description="For half hulls and the like: the surface crosses this plane of the object as if its "
+        "mirror image were there, and only the half is made",
+        items=SYMMETRY_PLANES,
     )
 
     mesh_source: EnumProperty(

@@ -36,6 +36,7 @@ _GROUPS = {
         "pad_size",
         "tension",
         "boundary",
+        "symmetry_plane",
         "shade_smooth",
     ),
     "creases": (

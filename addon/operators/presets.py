@@ -21,7 +21,7 @@ from ..ui.main import PRESET_FOLDER, settings_at_hand
 _FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
 _OLD_SUBFOLDER = "operator/object.fair_surface"  # of an operator that has another name now
 # belongs to the work at hand, not to the kind of thing that is made
-NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "memory_limit"}
+NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
 
 
 def _settings_as_operator(context: Context) -> Any:

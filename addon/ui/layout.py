@@ -51,6 +51,7 @@ def draw_shape(
     row.active = settings.energy != "MINIMUM_VARIATION"
     row.prop(settings, "tension")
     layout.prop(settings, "boundary")
+    layout.row().prop(settings, "symmetry_plane", expand=True)
 
 
 def _draw_tolerance(

@@ -302,3 +302,20 @@ def test_creases_come_back_by_whatever_rule():
     result = tight.fair(vertices, faces, 2, crease_angle=1.0)
     assert len(result.crease_edges) == 12
     assert not len(tight.fair(vertices, faces, 2).crease_edges)
+
+
+def test_an_edge_between_two_corners_is_straight_and_the_others_are_curves():
+    points = np.array([[0, 0, 0], [1, 0, 0.4], [2, 0, 0], [2, 1, 0.3], [1, 1, 0.6], [0, 1, 0.2]])
+    faces = [[0, 1, 4, 5], [1, 2, 3, 4]]
+    result = tight.fair(points, faces, 3, corner_vertices=[0, 1])
+
+    def between(a, b):
+        """Refined border points over an edge, by how far they are from its chord."""
+        way = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
+        local = result.vertices - points[a]
+        along = local @ way / np.linalg.norm(points[b] - points[a])
+        off = np.linalg.norm(local - np.outer(local @ way, way), axis=1)
+        return off[(along > 0.01) & (along < 0.99)]
+
+    assert (between(0, 1) < 1e-12).sum() == 7
+    assert (between(2, 3) < 1e-6).sum() == 0

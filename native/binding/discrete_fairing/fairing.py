@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, shape_array, vertex_array
+from .halves import Half
 from .options import SETTINGS, native_options
 from .result import Result
 from .watching import Progress, check_watchers
@@ -36,6 +37,7 @@ def fair(
     boundary: str = "curve",
     region: ArrayLike | None = None,
     joint: str = "tangent",
+    symmetry_plane: str | None = None,
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
     repair: str = "refuse",
     weld: float | None = None,
@@ -116,6 +118,10 @@ def fair(
     joint : "position", "tangent" or "curvature"
         How the region meets the other faces: along straight edges, with their tangent planes, or
         with curvature that fades out as well. A crease on the joint makes it "position" there.
+    symmetry_plane : "x", "y", "z" or None
+        The mesh is half of a symmetric one: its border in the plane x = 0 (y, z) is no border, but
+        where the surface crosses to its mirror image. The result is the half. The report is that
+        of the whole.
     shapes : (k, n, 3) float, or a list of (n, 3)
         Further positions of the same control vertices, such as shape keys. Each becomes a surface
         on the charts and stencils of `vertices` (result.shapes), so the surface is one linear map
@@ -167,13 +173,18 @@ def fair(
     """
     # locals() holds just the arguments here, so that no setting is listed again.
     settings = {name: value for name, value in locals().items() if name in SETTINGS}
-    options = native_options(**settings)
     check_watchers(progress, monitor)
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     others = shape_array(shapes, len(points))
-    return Result(
-        _native.fair(
-            points, corners, offsets, others, options, monitor or _native.Monitor(), progress
-        )
+    half = None
+    if symmetry_plane is not None:
+        native_options(**settings)  # refuses what the caller has given, not what is made of it
+        half = Half(points, corners, offsets, symmetry_plane)
+        points, others, settings = half.points(points), half.points(others), half.settings(settings)
+        corners, offsets = half.faces(corners, offsets)
+    options = native_options(**settings)
+    found = _native.fair(
+        points, corners, offsets, others, options, monitor or _native.Monitor(), progress
     )
+    return Result(half.cut(found) if half else found)

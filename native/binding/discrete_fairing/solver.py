@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, vertex_array
 from .errors import fairing_error
+from .halves import Half
 from .options import native_options
 from .result import Result
 from .watching import Progress, check_watchers
@@ -47,15 +49,23 @@ class Solver:
         faces: ArrayLike | Sequence[Sequence[int]],
         levels: int = 3,
         energy: str = "thin_plate",
-        **settings: object,
+        *,
+        symmetry_plane: str | None = None,
+        **settings: Any,
     ):
-        options = native_options(levels=levels, energy=energy, **{"measure": False, **settings})
+        settings = {"measure": False, **settings, "levels": levels, "energy": energy}
+        options = native_options(**settings)
         points = vertex_array(vertices)
         corners, offsets = face_arrays(faces)
+        self._control_vertices = len(points)
+        self._half: Half | None = None
+        if symmetry_plane is not None:
+            half = self._half = Half(points, corners, offsets, symmetry_plane)
+            options = native_options(**half.settings(settings))
+            points, (corners, offsets) = half.points(points), half.faces(corners, offsets)
         self._native = _native.Solver(points, corners, offsets, options)
         self._constants = self._native.constants()
         self._busy = Lock()
-        self._control_vertices = len(points)
         self._levels = options.levels
         self._energy = energy
 
@@ -83,7 +93,7 @@ class Solver:
         itself; else None.
         """
         mended = self._constants["mended"]
-        return mended["vertex_origin"] if mended else None
+        return mended["vertex_origin"][: self._control_vertices] if mended else None
 
     def solve(
         self,
@@ -106,9 +116,9 @@ class Solver:
         check_watchers(progress, monitor)
         points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
         with self._alone():
-            return Result(
-                {**self._constants, "shapes": [], **self._native.solve(points, monitor, progress)}
-            )
+            solved = self._native.solve(points, monitor, progress)
+            found = {**self._constants, "shapes": [], **solved}
+            return Result(self._half.cut(found) if self._half else found)
 
     def rebase(self, vertices: ArrayLike) -> None:
         """Take charts, stencils and curves from these positions (n, 3) from now on.
@@ -128,7 +138,7 @@ class Solver:
                 f"vertices has shape {points.shape}; it must be ({self._control_vertices}, 3), "
                 "as at the start.",
             )
-        return points
+        return self._half.points(points) if self._half else points
 
     @contextmanager
     def _alone(self) -> Iterator[None]:

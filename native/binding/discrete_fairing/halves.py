@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half a mesh that meets its mirror image: the whole is faired, and the half of it is given back.
+
+The surface crosses the plane without a joint, since there is none: what is one surface is computed
+as one.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .errors import fairing_error
+
+PLANES = {"x": 0, "y": 1, "z": 2}
+SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
+
+
+class Half:
+    """The mesh given, n vertices, m faces, c corners, and its double.
+
+    In the double the caller's vertices, faces and corners come first, then their images; vertices
+    of border edges in the plane are their own.
+    """
+
+    def __init__(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, plane: object):
+        if not isinstance(plane, str) or plane not in PLANES:
+            raise fairing_error(
+                "BAD_OPTION", f'symmetry_plane is {plane!r}; it must be "x", "y", "z" or None.'
+            )
+        self.plane, self.axis = plane, PLANES[plane]
+        self.vertex_count, self.face_count = len(points), len(offsets) - 1
+        self._image = np.arange(len(points)) + len(points)
+        shared = self._shared(points, corners, offsets)
+        self._image[shared] = shared
+        self._copied = np.flatnonzero(self._image != np.arange(len(points)))
+        self._image[self._copied] = len(points) + np.arange(len(self._copied))
+        self._in_plane = shared
+
+    def _shared(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+        """Ids of the ends of border edges in the plane."""
+        used = corners[(corners >= 0) & (corners < len(points))]
+        height = np.abs(points[:, self.axis])
+        size = np.ptp(points[used], axis=0).max() if len(used) else 0.0
+        flat = height <= SNAP * size
+        following = np.roll(corners, -1)
+        last = offsets[1:][offsets[1:] > offsets[:-1]] - 1
+        following[last] = corners[offsets[:-1][offsets[1:] > offsets[:-1]]]
+        once = np.repeat(_first_of_their_kind(corners, offsets), np.diff(offsets))
+        pairs = np.sort(np.stack([corners, following], axis=1)[once], axis=1)
+        edges, uses = np.unique(pairs, axis=0, return_counts=True)
+        edges = edges[uses == 1]
+        edges = edges[(edges >= 0).all(axis=1) & (edges < len(points)).all(axis=1)]
+        found = np.unique(edges[flat[edges].all(axis=1)])
+        if not len(found):
+            raise fairing_error(
+                "BAD_OPTION",
+                f'symmetry_plane is "{self.plane}", but no border edge lies in the plane '
+                f"{self.plane} = 0. Put the vertices of the border that meets its mirror image there.",
+            )
+        return found
+
+    def points(self, points: np.ndarray) -> np.ndarray:
+        """(…, n, 3) → of the double; border vertices next to the plane are put into it."""
+        own = points.copy()
+        own[..., self._in_plane, self.axis] = 0.0
+        images = own[..., self._copied, :].copy()
+        images[..., self.axis] *= -1.0
+        return np.ascontiguousarray(np.concatenate([own, images], axis=-2))
+
+    def faces(self, corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Corners and offsets of the double; images run the other way round."""
+        sizes = np.diff(offsets)
+        place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
+        turned = np.repeat(offsets[1:], sizes) - 1 - place
+        known = (corners >= 0) & (corners < self.vertex_count)
+        images = np.where(known, self._image[np.where(known, corners, 0)], corners)[turned]
+        return np.concatenate([corners, images]), np.concatenate(
+            [offsets, offsets[-1] + offsets[1:]]
+        )
+
+    def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
+        """Those that name vertices, edges or faces, for the double."""
+        given = dict(settings)
+        for name in ("tolerance", "weights"):
+            values = given.get(name)
+            if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
+                values = np.asarray(values)
+                given[name] = np.concatenate([values, values[self._copied]])
+        for name in ("crease_edges", "corner_vertices"):
+            ids = given.get(name)
+            if ids is not None and np.size(ids):
+                ids = np.asarray(ids)
+                if ids.dtype.kind in "iu" and ids.min() >= 0 and ids.max() < self.vertex_count:
+                    given[name] = np.concatenate([ids, self._image[ids]])
+        region = given.get("region")
+        if region is not None and np.ndim(region) == 1:
+            region = np.asarray(region)
+            given["region"] = np.concatenate([region, region + self.face_count])
+        return given
+
+    def cut(self, whole: dict[str, Any]) -> dict[str, Any]:
+        """What the core made of the double → of the half."""
+        given = dict(whole)
+        kinds = ("triangle", "quad")
+        kept = {kind: whole[f"{kind}_polygon"] < self.face_count for kind in kinds}
+        used = np.zeros(len(whole["vertices"]), bool)
+        used[: self.vertex_count] = True
+        seam = used.copy()
+        seam[:] = False
+        for kind in kinds:
+            faces = whole[f"{kind}s"]
+            used[faces[kept[kind]].ravel()] = True
+            seam[faces[~kept[kind]].ravel()] = True
+        seam &= used
+        seam[: self.vertex_count] = False
+        seam[self._in_plane] = True
+        new_id = np.cumsum(used, dtype=np.int32) - 1
+        for kind in kinds:
+            given[f"{kind}s"] = new_id[whole[f"{kind}s"][kept[kind]]].astype(np.int32)
+            given[f"{kind}_polygon"] = whole[f"{kind}_polygon"][kept[kind]]
+            if whole.get(f"{kind}_mended") is not None:
+                given[f"{kind}_mended"] = whole[f"{kind}_mended"][kept[kind]]
+
+        def half(surface: np.ndarray) -> np.ndarray:
+            surface = surface[used]
+            surface[new_id[np.flatnonzero(seam)], self.axis] = 0.0
+            return surface
+
+        given["vertices"] = half(whole["vertices"])
+        given["shapes"] = [half(shape) for shape in whole["shapes"]]
+        creases = whole["crease_edges"]
+        given["crease_edges"] = creases[(creases < self.vertex_count).all(axis=1)]
+        if whole["mended"]:
+            given["mended"] = self._cut_mended(whole["mended"])
+        given["report"] = self._cut_report(whole["report"])
+        return given
+
+    def _cut_mended(self, mended: dict[str, Any]) -> dict[str, Any]:
+        faces = int(np.searchsorted(mended["face_origin"], self.face_count))
+        corners = int(mended["offsets"][faces])
+        return {
+            **mended,
+            "corners": mended["corners"][:corners],
+            "offsets": mended["offsets"][: faces + 1],
+            "vertex_origin": mended["vertex_origin"][: self.vertex_count],
+            "face_origin": mended["face_origin"][:faces],
+            "corner_origin": mended["corner_origin"][:corners],
+            "corner_share": mended["corner_share"][:corners],
+        }
+
+    def _cut_report(self, report: dict[str, Any]) -> dict[str, Any]:
+        """Lists of values a vertex; all other numbers are the double's."""
+        pads = report.get("pads")
+        if not isinstance(pads, dict) or "widths" not in pads:
+            return report
+        return {**report, "pads": {**pads, "widths": pads["widths"][: self.vertex_count]}}
+
+
+def _first_of_their_kind(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(m,) bool: false for faces that have the same vertices as one before them, which mending drops."""
+    sizes, first = np.diff(offsets), np.zeros(len(offsets) - 1, bool)
+    for size in np.unique(sizes):
+        faces = np.flatnonzero(sizes == size)
+        rows = np.sort(corners[offsets[faces, None] + np.arange(size)], axis=1)
+        first[faces[np.unique(rows, axis=0, return_index=True)[1]]] = True
+    return first
