@@ -4,14 +4,14 @@
 The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer` → `mesh` (write).
 `settings` has what is asked for, `memory` what surfaces remember; `check` looks at meshes before,
 `inspection` at surfaces afterwards, `live` follows edits. `ui` shows it, `cli` does it without a
-window.
+window, `cad` makes spline patches of it.
 """
 
 from . import cli, memory, preferences, queue, settings
 from .inspection import settings as inspection_settings
 from .live import handlers, switch
 from .mesh import mesh_changes
-from .operators import check, fair, faults, fill, inspect, live, presets
+from .operators import check, fair, faults, fill, inspect, live, presets, step
 from .ui import check as check_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
@@ -32,6 +32,7 @@ _MODULES = (
     check,
     inspect,
     presets,
+    step,
     main_panel,
     check_panel,
     inspect_panel,

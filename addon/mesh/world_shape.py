@@ -26,6 +26,14 @@ class WorldShape:
     def _matrix(self) -> np.ndarray:
         return np.array(self.rows)
 
+    @property
+    def way_back(self) -> np.ndarray:
+        """(4, 4): from the world's shape to the coordinates of the object."""
+        matrix = np.eye(4)
+        if self.rows is not None:
+            matrix[:3, :3] = np.linalg.inv(self._matrix)
+        return matrix
+
     def of_arrays(self, arrays: ControlArrays) -> ControlArrays:
         """`arrays` with their positions in the world's shape."""
         return replace(arrays, positions=self.of(arrays.positions))
@@ -50,7 +58,7 @@ class WorldShape:
 
 def world_shape(source: Object) -> WorldShape:
     """The WorldShape of a mesh object as it is now, whether Blender has looked at it since or not."""
-    linear = np.array(_world_matrix(source))[:3, :3].astype(np.float64)
+    linear = np.array(world_matrix(source))[:3, :3].astype(np.float64)
     # of its polar decomposition: the rotation is dropped
     squares, axes = np.linalg.eigh(linear.T @ linear)
     stretch = (axes * np.sqrt(np.maximum(squares, 0.0))) @ axes.T
@@ -62,14 +70,14 @@ def world_shape(source: Object) -> WorldShape:
     return WorldShape(None if rows == ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) else rows)
 
 
-def _world_matrix(source: Object) -> Any:
-    """By its own properties where these say it: Blender does not look at hidden objects."""
+def world_matrix(source: Object) -> Any:
+    """Where an object is, by its own properties where these say it: Blender does not look at hidden objects."""
     if source.constraints or (source.parent is not None and source.parent_type != "OBJECT"):
         return source.matrix_world
     if source.parent is None:
         return source.matrix_basis
     above: Any = source.parent
-    return _world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
+    return world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
 
 
 def _times(positions: np.ndarray, matrix: np.ndarray) -> np.ndarray:
