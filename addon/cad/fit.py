@@ -69,9 +69,8 @@ class PatchJob(Job):
         shown = cast(Object, self._shown.find())  # there, as is_writable has seen
         patches = self.patches.transformed(self._way_back)
         slots = self.slots[patches.patch_polygon] if len(self.slots) else None
-        surface: Any = surface_of(context, f"{self.name} Patches", patches, slots)
-        for material in colours.materials(shown, self.source or shown):
-            surface.materials.append(material)
+        paints = colours.materials(shown, self.source or shown)
+        surface = surface_of(context, f"{self.name} Patches", patches, paints, slots)
         return new_object(context, shown, surface)
 
     @property

@@ -15,12 +15,16 @@ _DEGREE = 3
 _RESOLUTION = 4  # steps a span, when drawn
 
 
-def surface_of(context: Context, name: str, patches: Any, slots: np.ndarray | None) -> Any:
-    """New surface data (bpy.types.Curve) in the coordinates of `patches`; `slots` (P,): the material
-    of each. In Object Mode.
+def surface_of(
+    context: Context, name: str, patches: Any, materials: list[Any], slots: np.ndarray | None
+) -> Any:
+    """New surface data (bpy.types.Curve) in the coordinates of `patches`; `slots` (P,): which of the
+    `materials` each has. In Object Mode.
     """
     nets = [patches.net(p) for p in range(len(patches))]
     surface: Any = bpy.data.curves.new(name, "SURFACE")
+    for material in materials:
+        surface.materials.append(material)
     for net in nets:
         row = surface.splines.new("NURBS")
         row.points.add(len(net) - 1)
