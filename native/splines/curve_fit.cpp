@@ -9,7 +9,7 @@ namespace fairing {
 namespace {
 
 // What sliding along the curve counts, and what a tangent out of the surface's tangent plane does.
-constexpr double slide = 0.01, tilt = 0.03;
+constexpr double slide = 0.1, tilt = 0.03;
 // What the middle of a halved curve counts, which other curves start from.
 constexpr double middle_weight = 10;
 constexpr int refits = 3;
@@ -190,6 +190,11 @@ FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
        spans *= 2) {
     FittedCurve next = fit_with(data, spans);
     if (next.error < best.error) best = std::move(next);
+  }
+  for (std::size_t k = 0; k < best.normals.size(); ++k) {
+    const Vec3 tangent = best.curve.at(best.parameters[k]).tangent.normalized();
+    const Vec3 across = best.normals[k] - best.normals[k].dot(tangent) * tangent;
+    if (across.norm() > 0) best.normals[k] = across.normalized();
   }
   return best;
 }

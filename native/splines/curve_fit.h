@@ -21,7 +21,7 @@ struct CurveData {
 struct FittedCurve {
   SplineCurve curve;
   std::vector<double> parameters;  // of the data's points: where the curve is closest
-  std::vector<Vec3> normals;       // the data's
+  std::vector<Vec3> normals;       // the data's, turned to stand on the curve
   double error = 0;                // the farthest that a point is from the curve
 };
 

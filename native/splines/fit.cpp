@@ -15,8 +15,9 @@ namespace {
 
 // At least four steps of the lattice a span; more spans than these cost more than they gain.
 constexpr int steps_a_span = 4, most_spans = 16;
-// Curves take this share of the tolerance: patches cannot mend them.
-constexpr double curve_share = 0.5;
+// Curves and patches take these shares of the tolerance: the refined surface has one, too, and
+// patches cannot mend their curves.
+constexpr double curve_share = 0.3, patch_share = 0.45;
 constexpr int angle_rounds = 4;
 // Directions whose bending differs by more get spans one after the other.
 constexpr double one_sided = 4;
@@ -91,13 +92,17 @@ class Fitting {
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, place, curves_);
+    data.tolerance = patch_share * tolerance();
+    data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
     const int most = std::max({most_on(place.corner >= 0), spans_u, spans_v});
     for (;;) {
       choose_fitted(lattice_, place, std::max(spans_u, spans_v), data);
-      fitted_[p] = fit_patch(data, spans_u, spans_v);
-      if (!to_tolerance || fitted_[p].residual <= tolerance()) return;
+      FittedPatch next = fit_patch(data, spans_u, spans_v);
+      if (fitted_[p].patch.net.empty() || next.misses < fitted_[p].misses)
+        fitted_[p] = std::move(next);
+      if (!to_tolerance || fitted_[p].residual <= data.tolerance) return;
       const double more = bends_more_along_u(fitted_[p].patch);
       const bool grow_u = spans_u < most && (more > 1 / one_sided || spans_v >= most),
                  grow_v = spans_v < most && (more < one_sided || spans_u >= most);

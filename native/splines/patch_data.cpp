@@ -52,6 +52,27 @@ class SideMap {
   double from_ = 0, to_ = 1;
 };
 
+// Of all points of a quad, row by row: the share of its row's length that lies before each, or with
+// `upward` of its column's.
+std::vector<double> length_shares(const Lattice& lattice, Index f, bool upward) {
+  const int n = lattice.n();
+  const auto at = [&](int line, int k) {
+    return lattice.position(f, upward ? GridPoint{line, k} : GridPoint{k, line});
+  };
+  std::vector<double> out(closed_size(true, std::size_t(n)));
+  for (int line = 0; line <= n; ++line) {
+    std::vector<double> before{0.0};
+    for (int k = 1; k <= n; ++k)
+      before.push_back(before.back() + (at(line, k) - at(line, k - 1)).norm());
+    for (int k = 0; k <= n; ++k) {
+      const auto [i, j] = upward ? GridPoint{line, k} : GridPoint{k, line};
+      out[std::size_t(j) * std::size_t(n + 1) + std::size_t(i)] =
+          before.back() > 0 ? before[std::size_t(k)] / before.back() : double(k) / n;
+    }
+  }
+  return out;
+}
+
 // The inside of a quad, at even parameters.
 template <class Visit>
 void for_quad_points(int n, Visit&& visit) {
@@ -109,10 +130,20 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
     return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
   };
   const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
+  std::vector<double> share_u, share_v;
+  if (place.corner < 0) {
+    share_u = length_shares(lattice, place.face, false);
+    share_v = length_shares(lattice, place.face, true);
+  }
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
-    out.samples.push_back({lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
-                           (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v),
-                           true});
+    PatchSample sample{lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
+                       (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v), true};
+    if (place.corner < 0) {
+      const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
+      sample.u = share_u[at];
+      sample.v = share_v[at];
+    }
+    out.samples.push_back(sample);
   });
   return out;
 }

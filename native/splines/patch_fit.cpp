@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "splines/net_system.h"
 
@@ -14,7 +15,10 @@ namespace {
 constexpr double tilt = 0.3, rough = 1e-3;
 // What counts that a sample slides along the patch: on poor surfaces the least lets patches fold.
 constexpr double slides[] = {0.01, 0.1, 1.0};
-constexpr double right_angle = 1.5707963267948966;
+constexpr double folded = 0.5;  // radians
+// Samples move to their feet and the patch is fitted again, as long as that helps.
+constexpr int least_rounds = 2, most_rounds = 8;
+constexpr double improving = 0.7;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -113,6 +117,17 @@ void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
   }
 }
 
+// Of the samples that are fitted; returns how far the farthest one is from the patch.
+double move_to_feet(const SplinePatch& patch, PatchData& data) {
+  double far = 0;
+  for (PatchSample& sample : data.samples) {
+    if (!sample.fitted) continue;
+    move_to_foot(patch, sample);
+    far = std::max(far, (patch.at(sample.u, sample.v).at - sample.at).norm());
+  }
+  return far;
+}
+
 FittedPatch measured(const PatchData& data, SplinePatch patch) {
   FittedPatch out;
   for (PatchSample sample : data.samples) {
@@ -125,9 +140,17 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     for (const SideNormal& n : data.normals[std::size_t(s)]) {
       double& angle = out.side_angle[std::size_t(s)];
       angle = std::max(angle, angle_between(on_side(patch, s, n.t).normal(), n.normal));
+      out.turned = std::max(out.turned, angle);
     }
   out.patch = std::move(patch);
   return out;
+}
+
+double misses(const PatchData& data, const FittedPatch& fitted) {
+  double angle = 0;
+  for (const double side : fitted.side_angle) angle = std::max(angle, side);
+  const double miss = std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance);
+  return fitted.turned < folded ? miss : 1e6 * (1 + fitted.turned);
 }
 
 }  // namespace
@@ -148,14 +171,17 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
   for (const double slide : slides) {
     PatchData moved = data;
     SplinePatch patch = start;
-    for (int round = 0; round < 2; ++round) {
-      for (PatchSample& sample : moved.samples)
-        if (sample.fitted) move_to_foot(patch, sample);
+    double before = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < most_rounds; ++round) {
+      const double far = move_to_feet(patch, moved);
+      if (round >= least_rounds && (far <= data.tolerance / 2 || far > improving * before)) break;
+      before = far;
       fit_once(moved, patch, &slide);
     }
     FittedPatch next = measured(moved, std::move(patch));
-    if (slide == slides[0] || next.turned < best.turned) best = std::move(next);
-    if (best.turned < right_angle) break;
+    next.misses = misses(data, next);
+    if (slide == slides[0] || next.misses < best.misses) best = std::move(next);
+    if (best.misses <= 1) break;
   }
   return best;
 }

@@ -25,14 +25,17 @@ struct PatchData {
   std::array<std::vector<SideNormal>, 4> normals;
   std::vector<PatchSample> samples;
   double size;  // of the model: what an angle weighs against a distance
+  // What is asked for, and ends the search.
+  double tolerance, normal_tolerance;
 };
 
 struct FittedPatch {
   SplinePatch patch;
   double residual = 0;  // the farthest that a sample is from the patch
-  // The sharpest angle between the normals of patch and lattice, radians.
+  // The sharpest angle between the normals of patch and lattice, sides included; radians.
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides
+  double misses = 0;  // how many times a tolerance it is off; huge where the patch folds
 };
 
 // The sides are refined to the patch's spans, exactly.

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spline patches of fair surfaces: accuracy, seams, topology, refusals."""
+
+import control_meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from spline_measures import basis, evaluate, radii, side_curve, volume
+
+CURVED = {"energy": "total_curvature"}
+SMOOTH = {
+    "cube": (control_meshes.cube(), CURVED),
+    "octahedron": (control_meshes.octahedron(), CURVED),
+    "torus": (control_meshes.torus(), CURVED),
+    "open triangles": (control_meshes.wavy_patch(), {"levels": 6}),
+    "creases": (control_meshes.drum()[0], {"levels": 6, "crease_edges": control_meshes.drum()[1]}),
+    "triangles and quads": (control_meshes.mixed_house(), {"levels": 6, "tolerance": 1e-3}),
+}
+
+
+@pytest.fixture(scope="module")
+def fitted():
+    found = {}
+
+    def of(name):
+        if name not in found:
+            mesh, options = SMOOTH[name]
+            found[name] = df.fit_patches(*mesh, **options)
+        return found[name]
+
+    return of
+
+
+@pytest.mark.parametrize("name", ["cube", "octahedron"])
+def test_points_on_a_sphere_give_its_patches(fitted, name):
+    patches = fitted(name)
+    radius = np.linalg.norm(SMOOTH[name][0][0][0])
+    assert np.abs(radii(patches) / radius - 1).max() < 1e-4
+    assert volume(patches) == pytest.approx(4 / 3 * np.pi * radius**3, rel=1e-4)
+    assert patches.patch_spans.prod(axis=1).mean() <= 16
+
+
+def test_a_sharper_tolerance_is_met():
+    mesh = control_meshes.cube()
+    patches = df.fit_patches(*mesh, tolerance=1e-5, **CURVED)
+    assert np.abs(radii(patches) / 3**0.5 - 1).max() < 1e-5
+    assert patches.levels > 5
+
+
+def test_torus(fitted):
+    """The Clifford torus: its distance from the circle through the middle of the tube is 1."""
+    patches, t = fitted("torus"), np.linspace(0, 1, 17)
+    at = np.concatenate([evaluate(patches, p, t, t)[0].reshape(-1, 3) for p in range(len(patches))])
+    ring = np.hypot(at[:, 0], at[:, 1]) - 2**0.5
+    assert np.abs(np.hypot(ring, at[:, 2]) - 1).max() < 1e-4 * patches.size
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_neighbours_share_their_edges(fitted, name):
+    patches, t = fitted(name), np.linspace(0, 1, 9)
+    for p in range(len(patches)):
+        loop = patches.loop(p)
+        ends = [patches.edge_vertices[e][:: 1 if on else -1] for e, on in loop]
+        assert all(a[1] == b[0] for a, b in zip(ends, ends[1:] + ends[:1]))
+        curves = []
+        for e, forward in loop:
+            points = basis(patches.edge_spans[e], t)[0] @ patches.edge(e)
+            curves.append(points if forward else points[::-1])
+            assert np.allclose(
+                points[[0, -1]], patches.vertices[patches.edge_vertices[e]], atol=1e-14
+            )
+        sides = [side_curve(patches, p, s, np.linspace(0, 1, 17)) for s in range(4)]
+        around = np.concatenate([side[:-1] for side in sides])
+        for curve in curves:  # each lies on the patch's rim, whole or as a half of a side
+            gap = np.linalg.norm(curve[:, None] - around[None], axis=2).min(axis=1)
+            assert gap[::2].max() < 1e-12 * patches.size
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_tolerances_are_met_and_said(fitted, name):
+    patches = fitted(name)
+    assert patches.residual.max() <= patches.tolerance * patches.size
+    angles = np.degrees(patches.edge_angles[np.isfinite(patches.edge_angles)])
+    assert angles.max() <= 0.1
+    assert np.quantile(angles, 0.999) <= 0.06
+    assert not len(patches.unresolved)
+    worst = np.nan_to_num(patches.edge_angles).max()
+    assert patches.largest_angle == worst
+
+
+@pytest.mark.parametrize(
+    ("name", "closed", "count"),
+    [
+        ("cube", True, 6),
+        ("octahedron", True, 24),
+        ("torus", True, 48),
+        ("open triangles", False, 96),
+    ],
+)
+def test_topology(fitted, name, closed, count):
+    patches = fitted(name)
+    assert len(patches) == count
+    assert patches.shell_closed.tolist() == [closed]
+    euler = len(patches.vertices) - len(patches.edge_spans) + len(patches)
+    assert euler == {"torus": 0, "open triangles": 1}.get(name, 2)
+    uses = np.bincount(patches.loop_edges)
+    assert (uses == np.where(patches.edge_kind == 2, 1, 2)).all()
+    assert (np.isnan(patches.edge_angles).all(axis=1) == (patches.edge_kind > 0)).all()
+
+
+def test_a_quad_beside_triangles_has_more_edges(fitted):
+    patches = fitted("triangles and quads")
+    sizes = {len(patches.loop(p)) for p in range(len(patches))}
+    assert sizes == {4, 6, 7}  # quads with none, two and three sides in halves
+    assert set(patches.patch_polygon.tolist()) == set(
+        range(len(SMOOTH["triangles and quads"][0][1]))
+    )
+
+
+def test_creases_are_edges(fitted):
+    patches = fitted("creases")
+    creases = patches.edge_kind == 1
+    pairs = patches.result.crease_edges
+    assert creases.sum() >= len(pairs) > 0
+    # the boundary and crease curves of the refined surface are cubics: the fit is exact
+    assert patches.edge_error[creases].max() < 1e-9 * patches.size
+
+
+def test_any_number_of_threads_gives_the_same_bits():
+    mesh = control_meshes.random_hull(12)
+    one, many = (df.fit_patches(*mesh, levels=4, threads=k, insist=True) for k in (1, 3))
+    assert one.patch_points.tobytes() == many.patch_points.tobytes()
+    assert one.edge_points.tobytes() == many.edge_points.tobytes()
+    assert one.edge_angles.tobytes() == many.edge_angles.tobytes()
+
+
+def test_a_surface_that_is_not_resolved_is_refused_by_name():
+    points, faces = control_meshes.wavy_patch(height=0.4)
+    points[12, 2] += 40  # a needle
+    with pytest.raises(df.FairingError) as caught:
+        df.fit_patches(points, faces, levels=3)
+    assert caught.value.code == "UNRESOLVED"
+    assert caught.value.kind == "face"
+    beside = {f for f, face in enumerate(faces) if 12 in face}
+    assert beside & set(caught.value.elements)
+    patches = df.fit_patches(points, faces, levels=3, insist=True)
+    assert patches.unresolved.tolist() == caught.value.elements
+
+
+def test_cancel_and_progress():
+    seen = []
+
+    def stop(fraction, phase):
+        seen.append((fraction, phase))
+        return len(seen) < 2
+
+    with pytest.raises(df.FairingError) as caught:
+        df.fit_patches(*control_meshes.random_hull(), levels=6, progress=stop, **CURVED)
+    assert caught.value.code == "CANCELLED"
+    seen.clear()
+    df.fit_patches(
+        *control_meshes.cube(), progress=lambda fraction, phase: seen.append(fraction), **CURVED
+    )
+    assert seen == sorted(seen)
+    assert seen[-1] == 1
+
+
+@pytest.mark.parametrize("options", [{"tolerance": 0}, {"normal_tolerance": -1}, {"levels": 1}])
+def test_bad_options(options):
+    with pytest.raises(df.FairingError) as caught:
+        df.fit_patches(*control_meshes.cube(), **options)
+    assert caught.value.code == "BAD_OPTION"

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""STEP files: what Open CASCADE reads back, and how they are written."""
+
+import re
+
+import control_meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+import step_files
+from discrete_fairing.step import step_real, step_text
+from spline_measures import volume
+
+open_cascade = pytest.mark.skipif(step_files.OCP is None, reason=step_files.ABSENT)
+CURVED = {"energy": "total_curvature"}
+SURFACES = {
+    "cube": (control_meshes.cube(), CURVED),
+    "octahedron": (control_meshes.octahedron(), CURVED),
+    "torus": (control_meshes.torus(), CURVED),
+    "open triangles": (control_meshes.wavy_patch(), {"levels": 4}),
+    "creases": (control_meshes.drum()[0], {"levels": 4, "crease_edges": control_meshes.drum()[1]}),
+    "triangles and quads": (control_meshes.mixed_house(), {"levels": 4}),
+}
+
+
+@pytest.fixture(scope="module")
+def cube():
+    return df.fit_patches(*control_meshes.cube(), **CURVED)
+
+
+@open_cascade
+@pytest.mark.parametrize("name", SURFACES)
+def test_open_cascade_reads_it_back(tmp_path, name):
+    mesh, options = SURFACES[name]
+    patches = df.fit_patches(*mesh, insist=True, **options)
+    df.write_step(tmp_path / "a.step", patches, unit="mm")
+    read = step_files.read(tmp_path / "a.step")
+    assert read.valid
+    assert read.faces == len(patches)
+    assert read.solids == patches.shell_closed.sum()
+    assert read.free_edges == (patches.edge_kind == 2).sum()
+    assert read.shared_edges == (patches.edge_kind != 2).sum()
+    if read.solids:
+        assert read.volume == pytest.approx(volume(patches), rel=1e-6)
+
+
+@open_cascade
+def test_a_mesh_turned_inside_out_is_a_solid_of_positive_volume(tmp_path):
+    points, faces = control_meshes.cube()
+    patches = df.fit_patches(points, faces[:, ::-1], levels=4, **CURVED)
+    assert volume(patches) < 0
+    df.write_step(tmp_path / "a.step", patches, unit="mm")
+    read = step_files.read(tmp_path / "a.step")
+    assert read.valid
+    assert read.volume == pytest.approx(-volume(patches), rel=1e-6)
+
+
+@open_cascade
+@pytest.mark.parametrize(
+    ("unit", "millimetres"), [("m", 1000), ("cm", 10), ("in", 25.4), ("ft", 304.8)]
+)
+def test_units_and_scale(tmp_path, cube, unit, millimetres):
+    df.write_step(tmp_path / "a.step", cube, unit=unit, scale=2.5)
+    read = step_files.read(tmp_path / "a.step")
+    assert read.volume == pytest.approx(volume(cube) * (2.5 * millimetres) ** 3, rel=1e-6)
+
+
+@open_cascade
+def test_several_parts_with_several_shells(tmp_path, cube):
+    points, faces = control_meshes.cube()
+    twins = df.fit_patches(
+        np.concatenate([points, points + 10]), np.concatenate([faces, faces + 8]), levels=3
+    )
+    assert twins.shell_closed.tolist() == [True, True]
+    df.write_step(
+        tmp_path / "a.step",
+        [cube, twins],
+        names=["one", "two"],
+        colours=[(1, 0, 0), np.linspace(0, 1, 36).reshape(12, 3)],
+    )
+    read = step_files.read(tmp_path / "a.step")
+    assert (read.solids, read.faces, read.valid) == (3, 18, True)
+
+
+def test_every_entity_that_is_named_exists(tmp_path, cube):
+    df.write_step(tmp_path / "a.step", cube, names="Größe 'a' \\ 面", colours=(0.1, 0.2, 0.3))
+    text = (tmp_path / "a.step").read_text("ascii")
+    data = text.split("DATA;\n")[1].split("ENDSEC;")[0].splitlines()
+    numbers = [int(re.match(r"#(\d+)=", line).group(1)) for line in data]
+    assert numbers == list(range(1, len(data) + 1))
+    used = {int(n) for line in data for n in re.findall(r"#(\d+)(?!\d|=)", line.split("=", 1)[1])}
+    assert used <= set(numbers)
+    assert "'Gr\\X2\\00F6\\X0\\\\X2\\00DF\\X0\\e ''a'' \\\\ \\X2\\9762\\X0\\'" in text
+
+
+def test_numbers_come_back_to_the_last_bit():
+    for value in (0.0, 1.0, -1 / 3, 1e-300, 6.02e23, 5e-324, 1e16, 123456789.125):
+        written = step_real(value)
+        assert "." in written.split("E")[0]
+        assert float(written) == value
+    assert step_text("it's") == "'it''s'"
+
+
+def test_a_file_is_replaced_as_a_whole(tmp_path, cube, monkeypatch):
+    path = tmp_path / "a.step"
+    path.write_text("before")
+    monkeypatch.setattr("discrete_fairing.step._Writer.end", lambda self: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        df.write_step(path, cube)
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"unit": "mile"}, {"scale": 0}, {"names": ["a", "b"]}, {"colours": (2, 0, 0)}],
+)
+def test_bad_options(tmp_path, cube, options):
+    with pytest.raises(df.FairingError) as caught:
+        df.write_step(tmp_path / "a.step", cube, **options)
+    assert caught.value.code == "BAD_OPTION"
+    assert not list(tmp_path.iterdir())
