@@ -56,8 +56,8 @@ def _colour(material: Any) -> tuple[float, float, float]:
     """What a material looks like, as screens have it; CAD has no lights."""
     if material is None:
         return PLAIN
-    linear = Color(_base(material)[:3]).from_scene_linear_to_srgb()
-    return tuple(min(max(float(value), 0.0), 1.0) for value in linear)
+    shown = Color(_base(material)[:3]).from_scene_linear_to_srgb()
+    return tuple(min(max(round(float(value), 5), 0.0), 1.0) for value in shown)
 
 
 def _base(material: Any) -> Any:

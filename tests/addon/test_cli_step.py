@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cad_files import read_step
 from cli_files import write_obj
 from cli_runs import entries, run
-from step_files import read_step
 
 from addon.cad import step as cad_step
 from addon.cli.places import BadPlaces, places
@@ -20,7 +20,7 @@ def own_folder(tmp_path, monkeypatch):
 
 def test_a_file_becomes_a_step_file_in_its_own_numbers():
     write_obj("in.obj", names=("Left", "Right"))
-    code, (entry,) = entries("in.obj", "new/out.step")
+    code, (entry,) = entries("in.obj", "new/out.step", "--energy", "total_curvature")
     assert (code, entry["status"]) == (0, "done")
     assert [item["name"] for item in entry["objects"]] == ["Left", "Right"]
     assert [item["result"] for item in entry["objects"]] == 2 * [

@@ -7,9 +7,9 @@ from math import pi, sqrt
 import bpy
 import numpy as np
 import pytest
+from cad_files import read_step
 from fake_layout import draw
 from scenes import CUBE, activate, add, fair
-from step_files import read_step
 
 from addon.cad import words
 from addon.ui import main
