@@ -4,7 +4,7 @@
 The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer` → `mesh` (write).
 `settings` has what is asked for, `memory` what surfaces remember; `check` looks at meshes before,
 `inspection` at surfaces afterwards, `live` follows edits. `ui` shows it, `cli` does it without a
-window.
+window, `cad` makes spline patches of it.
 """
 
 from . import cli, freshness, memory, preferences, queue, settings
@@ -24,6 +24,7 @@ from .operators import (
     live,
     old_names,
     presets,
+    step,
 )
 from .ui import check as check_panel
 from .ui import compare as compare_panel
@@ -54,6 +55,7 @@ _MODULES = (
     presets,
     old_names,
     pictures,
+    step,
     main_panel,
     check_panel,
     inspect_panel,

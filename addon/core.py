@@ -110,6 +110,20 @@ def fair_arguments(
     return arguments
 
 
+def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
+    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and what is
+    `wanted` of the patches (cad/settings.py). Nothing is refused: who asks looks at `unresolved`.
+    """
+    left_out = ("levels", "shapes", "tolerance", "measure")
+    return {name: value for name, value in fairing.items() if name not in left_out} | {
+        "fair_tolerance": fairing["tolerance"],
+        "tolerance": wanted.fit_tolerance,
+        "normal_tolerance": wanted.fit_angle,
+        "levels": wanted.fit_levels or None,
+        "insist": True,
+    }
+
+
 def mean_edge_length(arrays: ControlArrays) -> float:
     """Of the edges that belong to faces; 0 if there are none."""
     ends = arrays.positions[arrays.edges[_occurs(arrays.corner_edges, len(arrays.edges))]]

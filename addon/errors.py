@@ -25,6 +25,8 @@ _REMEDIES = {
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
     "OUT_OF_MEMORY": "Use fewer levels",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
+    "UNRESOLVED": "Move or add vertices there, or raise Tension",
+    "PATCH_TOLERANCE": "Add vertices there, or allow a larger tolerance",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 # code: what is wrong with one, with several
@@ -47,6 +49,14 @@ _WHAT = {
         "vertices lie on others without being joined",
     ),
     "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
+    "UNRESOLVED": (
+        "face has a surface that folds or turns too sharply for patches",
+        "faces have a surface that folds or turns too sharply for patches",
+    ),
+    "PATCH_TOLERANCE": (
+        "face has a patch that misses the tolerance",
+        "faces have patches that miss the tolerance",
+    ),
 }
 # whose sentence from the core is followed by one that says what to do
 _WITH_REMEDY = {*_WHAT, "NON_ORIENTABLE"} - {"COINCIDENT_VERTICES", "ISOLATED_VERTICES"}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files in and out with Blender's own importers and exporters, in the files' own coordinates."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,16 @@ def write_file(path: Path) -> None:
             _export(part)
     except (OSError, _NotWritten) as error:
         reason = getattr(error, "strerror", None) or str(error)
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+
+
+def write_whole(path: Path, write: Callable[[str], None]) -> None:
+    """For what `write` writes whole or not at all, where it is told."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write(str(path.resolve()))  # a link stays one
+    except OSError as error:
+        reason = error.strerror or str(error)
         raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
 
 

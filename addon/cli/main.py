@@ -16,12 +16,13 @@ import bpy
 
 from .. import core, memory
 from ..blender import Mesh, Object, current_context
+from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import report
+from . import report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
-from .places import BadPlaces, Place, places
+from .places import BadPlaces, Place, is_step, places
 from .report import Progress
 
 ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 130
@@ -46,11 +47,10 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
     made = parser(" ".join(f"{name} {number}" for name, number in _versions().items()))
     arguments = made.parse_intermixed_args(argv)
     try:
-        return (
-            arguments,
-            settings_of(arguments),
-            places(arguments.inputs, arguments.output, arguments.format),
-        )
+        settings = settings_of(arguments)
+        ways = places(arguments.inputs, arguments.output, arguments.format)
+        arguments.patches = step.wanted_of(arguments, settings, ways)
+        return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
 
@@ -62,7 +62,8 @@ def _run_all(
     records = [report.new_record(way, shown(settings)) for way in ways]
     width = max(len(record["input"]) for record in records)
     if not arguments.quiet:
-        _say(report.table_head(width, settings.energy))
+        to_step = arguments.patches is not None
+        _say(step.table_head(width) if to_step else report.table_head(width, settings.energy))
     for way, record in zip(ways, records):
         try:
             _run_one(way, record, arguments, settings)
@@ -72,7 +73,7 @@ def _run_all(
             _say(f"{way.source}: interrupted")
             return records, INTERRUPTED
         if record["status"] == report.DONE and not arguments.quiet:
-            _say(report.table_line(record, width))
+            _say((step if is_step(way.target) else report).table_line(record, width))
     failed = any(record["status"] == report.FAILED for record in records)
     return records, SOME_FAILED if failed else ALL_DONE
 
@@ -105,11 +106,13 @@ def _fair_file(
 ) -> None:
     sources = read_file(way.source, arguments.merge)
     progress = Progress(sys.stderr, str(way.source), len(sources))
-    jobs = [Job(current_context(), source, settings) for source in sources]
+    patches = arguments.patches if is_step(way.target) else None
+    jobs = [_job(source, settings, patches) for source in sources]
     is_read = not arguments.quiet or arguments.json is not None
     try:
         for job in jobs:
-            job.arguments["measure"] = is_read  # the table and the report have energies
+            # the table and the report have energies
+            job.arguments["measure"] = is_read and patches is None
             if arguments.weld is not None:
                 job.arguments["weld"] = arguments.weld
             if arguments.threads is not None:
@@ -119,14 +122,24 @@ def _fair_file(
     finally:
         progress.clear()
     for job, source in zip(jobs, sources):
-        record["objects"].append(_replace(job, source))
         mended = repairs_text(job.result.report["repairs"])
         if mended and not arguments.quiet:
             _say(f"{way.source}: mended: {mended}")
         for warning in job.warnings():
             record["warnings"].append(warning)
             _say(f"{way.source}: warning: {warning}")
-    write_file(way.target)
+        is_patches = isinstance(job, PatchJob)
+        record["objects"].append(step.object_entry(job) if is_patches else _replace(job, source))
+    if patches is None:
+        write_file(way.target)
+    else:
+        step.write_step_file(way, jobs, patches)
+
+
+def _job(source: Object, settings: SimpleNamespace, patches: SimpleNamespace | None) -> Any:
+    if patches is None:
+        return Job(current_context(), source, settings)
+    return PatchJob(current_context(), source, patches, settings)
 
 
 def _replace(job: Job, source: Object) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..settings import NAMES, FAIRING_PG_settings
+from . import step
 from .places import FORMATS
 
 # Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
@@ -54,12 +55,13 @@ _TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
 Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
-names. Coordinates stay what they are: no axes are swapped, no units converted, whatever the formats."""
+names; OUT may also be a STEP file of spline patches for CAD. Coordinates stay what they are: no axes are swapped, no units converted, whatever the formats."""
 _EXAMPLES = f"""\
 examples:
   {_PROGRAM} in.obj out.obj --levels 4
   {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
   {_PROGRAM} parts/*.stl out/ --format ply
+  {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
 exit codes:
@@ -226,9 +228,9 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--format",
-        choices=FORMATS,
+        choices=(*FORMATS, "step"),
         help="type of the files in an output folder [each like its input]",
-        metavar="obj|ply|stl",
+        metavar="obj|ply|stl|step",
     )
     made.add_argument(
         "--overwrite",
@@ -264,6 +266,7 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--version", action="version", version=version, help="print the versions and exit"
     )
     add_settings(made)
+    step.add_options(made)
     return made
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FORMATS = ("obj", "ply", "stl")
+STEP_FORMATS = ("step", "stp")  # for outputs only
 _NAME = "{name}"
 
 
@@ -34,8 +35,12 @@ def places(inputs: Sequence[str], output: str, chosen_format: str | None = None)
 
 
 def file_format(path: Path) -> str:
-    """`obj`, `ply` or `stl`, by the name alone."""
+    """`obj`, `ply`, `stl` or `step`, by the name alone."""
     return Path(path).suffix.lower().removeprefix(".")
+
+
+def is_step(path: Path) -> bool:
+    return file_format(path) in STEP_FORMATS
 
 
 def _expanded(name: str) -> list[str]:
@@ -59,13 +64,13 @@ def _target(source: Path, output: str, chosen_format: str | None, count: int) ->
             f"{count} inputs need a folder, with / at its end, or a name with {_NAME} as output, not {output}."
         )
     target = Path(output.replace(_NAME, source.stem))
-    _supported(target)
+    _supported(target, (*FORMATS, *STEP_FORMATS))
     return target
 
 
-def _supported(path: Path) -> None:
-    if file_format(path) not in FORMATS:
-        known = ", ".join(name.upper() for name in FORMATS)
+def _supported(path: Path, formats: Sequence[str] = FORMATS) -> None:
+    if file_format(path) not in formats:
+        known = ", ".join(name.upper() for name in formats if name != "stp")
         raise BadPlaces(f"{path} is of no known type; the known types are {known}.")
 
 

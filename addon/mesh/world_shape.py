@@ -26,6 +26,14 @@ class WorldShape:
     def _matrix(self) -> np.ndarray:
         return np.array(self.rows)
 
+    @property
+    def way_back(self) -> np.ndarray:
+        """(4, 4): from the world's shape to the coordinates of the object."""
+        matrix = np.eye(4)
+        if self.rows is not None:
+            matrix[:3, :3] = np.linalg.inv(self._matrix)
+        return matrix
+
     def of_arrays(self, arrays: ControlArrays) -> ControlArrays:
         """`arrays` with their positions in the world's shape."""
         return replace(arrays, positions=self.of(arrays.positions))

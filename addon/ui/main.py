@@ -95,6 +95,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
             draw_stale_surfaces(layout, context.active_object)
         draw_live(layout, context)
+        if memory is not None:
+            _draw_cad(layout)
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:
@@ -242,6 +244,13 @@ def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str
     row = layout.row()
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
+
+
+def _draw_cad(layout: bpy.types.UILayout) -> None:
+    """From the surface to CAD."""
+    row = layout.row(align=True)
+    row.operator("export_scene.fairing_step", text="Export STEP", icon="EXPORT")
+    row.operator("object.fairing_show_patches", icon="OUTLINER_OB_SURFACE")
 
 
 def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:

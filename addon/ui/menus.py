@@ -21,6 +21,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
         layout.operator("object.fairing_show_source")
+        layout.operator("object.fairing_show_patches")
         layout.separator()
         layout.operator("object.fairing_check")
         layout.operator("object.fairing_select_faults")
@@ -55,12 +56,17 @@ def _draw_faces(menu: Any, _context: Context) -> None:
     menu.layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
 
 
+def _draw_export(menu: Any, _context: Context) -> None:
+    menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
+
+
 _ENTRIES = {
     "VIEW3D_MT_object": _draw_all,
     "VIEW3D_MT_object_context_menu": _draw_one,
     "VIEW3D_MT_edit_mesh": _draw_all,
     "VIEW3D_MT_edit_mesh_context_menu": _draw_faces,
     "VIEW3D_MT_edit_mesh_faces": _draw_faces,
+    "TOPBAR_MT_file_export": _draw_export,
 }
 
 

@@ -78,7 +78,18 @@ FILE_METHODS = frozenset(
 )
 
 BLENDER = frozenset(
-    ["bpy", "bmesh", "mathutils", "gpu", "gpu_extras", "bl_ui", "bl_operators", "bl_math", "blf"]
+    [
+        "bpy",
+        "bpy_extras",
+        "bmesh",
+        "mathutils",
+        "gpu",
+        "gpu_extras",
+        "bl_ui",
+        "bl_operators",
+        "bl_math",
+        "blf",
+    ]
 )
 
 

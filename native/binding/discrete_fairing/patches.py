@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .result import Result
 
@@ -98,6 +100,28 @@ class SplinePatches:
         """The edges around patch p, counter-clockwise, each with whether it runs forward."""
         part = slice(self.loop_offsets[p], self.loop_offsets[p + 1])
         return list(zip(self.loop_edges[part].tolist(), self.loop_forward[part].tolist()))
+
+    def transformed(self, matrix: ArrayLike) -> SplinePatches:
+        """A copy of the patches, at matrix @ (x, y, z, 1); a mirrored one turns them, so that they
+        still look outward. Errors stay in the old mesh units; result stays where it is.
+        """
+        linear, shift = np.asarray(matrix, float)[:3, :3], np.asarray(matrix, float)[:3, 3]
+        moved = copy(self)
+        for name in ("vertices", "patch_points", "edge_points"):
+            setattr(moved, name, getattr(self, name) @ linear.T + shift)
+        if np.linalg.det(linear) < 0:
+            moved._turn()
+        return moved
+
+    def _turn(self) -> None:
+        """Exchanges u and v."""
+        nets = [self.net(p).transpose(1, 0, 2).reshape(-1, 3) for p in range(len(self))]
+        loops = [self.loop(p)[::-1] for p in range(len(self))]
+        self.patch_points = np.concatenate([np.empty((0, 3)), *nets])
+        self.patch_spans = self.patch_spans[:, ::-1].copy()
+        steps = [step for loop in loops for step in loop]
+        self.loop_edges = np.array([edge for edge, _ in steps], np.int32)
+        self.loop_forward = np.array([not forward for _, forward in steps], bool)
 
     @cached_property
     def unmet(self) -> np.ndarray:

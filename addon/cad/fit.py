@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A job whose outcome is spline patches in the place of a surface's mesh."""
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+
+from .. import core, errors, prediction
+from ..blender import Context, Object
+from ..check.defects import store_defects
+from ..errors import JobError
+from ..job import Job
+from ..memory import source_of
+from ..mesh.object import Reference, new_object
+from ..mesh.world_shape import world_matrix
+from ..settings import Settings, is_evaluated, snapshot
+from . import colours, words
+from .nurbs import surface_of
+
+_USUAL_LEVELS = 5  # those of the lattice that patches are fitted to, for predictions
+_KINDS = (("UNRESOLVED", "unresolved"), ("PATCH_TOLERANCE", "unmet"))
+
+
+class PatchJob(Job):
+    """Fits patches to the fair surface of one object; `patches` has them once computed."""
+
+    def __init__(
+        self, context: Context, shown: Object, wanted: Any, settings: Settings | None = None
+    ) -> None:
+        """`shown`: a surface, made again from its source by its own settings, or a mesh to be faired
+        with `settings`; None: those of the scene. `wanted`: as cad/settings.py has it.
+        """
+        source = source_of(shown)
+        if source is not None:
+            settings = shown.discrete_fairing
+        fairing = vars(snapshot(settings or context.scene.discrete_fairing))
+        # the lattice has its own levels, and shape keys do not become patches
+        one = SimpleNamespace(**{**fairing, "levels": 1, "use_shape_keys": False})
+        super().__init__(context, source or shown, one)
+        self.name = shown.name
+        self._shown = Reference(shown)
+        self._way_back = self.shape.way_back
+        self.placement = np.array(world_matrix(shown), float) @ self._way_back
+        if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
+            raise JobError(f"{self.name}: its scale is 0 along an axis. Give it a thickness.")
+        self.notes = []  # all are of what only meshes carry
+        self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
+        self.arguments = core.patch_arguments(self.arguments, wanted)
+
+    def compute(self, **watchers: Any) -> None:
+        with errors.explained(self.name):
+            self.patches = core.module().fit_patches(**self.arguments, **watchers)
+        self.result = self.patches.result
+        mended = errors.repairs_text(self.result.report["repairs"])
+        if mended:
+            self.notes.append(mended)
+
+    def predict(self, energy: str, levels: int) -> float:
+        finest = max(levels, self.arguments["levels"] or _USUAL_LEVELS)
+        return prediction.seconds(energy, self._work(finest), self._source.key)
+
+    def is_writable(self) -> bool:
+        return super().is_writable() and self._shown.find() is not None
+
+    def write(self, context: Context, _own: Any = None) -> Object:
+        """The patches as a new object beside the surface."""
+        shown = cast(Object, self._shown.find())  # there, as is_writable has seen
+        patches = self.patches.transformed(self._way_back)
+        slots = self.slots[patches.patch_polygon] if len(self.slots) else None
+        paints = colours.materials(shown, self.source or shown)
+        surface = surface_of(context, f"{self.name} Patches", patches, paints, slots)
+        return new_object(context, shown, surface)
+
+    @property
+    def off(self) -> float:
+        """How far patches are from the fair surface, in Blender units of the world."""
+        lattice = np.nan_to_num(self.patches.lattice_error)
+        return float(self._stretch.max() * (self.patches.largest_residual + lattice))
+
+    @property
+    def angle(self) -> float:
+        """The sharpest angle at smooth edges; a surface stretched otherwise than its source has no
+        sharper one than this.
+        """
+        return float(self.patches.largest_angle * self._stretch.max() / self._stretch.min())
+
+    @property
+    def _stretch(self) -> np.ndarray:
+        return np.linalg.svd(self.placement[:3, :3], compute_uv=False)
+
+    @property
+    def defects(self) -> list[dict[str, Any]]:
+        """What is wrong with the patches, by the faces of the source, as Check Mesh keeps it."""
+        found = []
+        for code, name in _KINDS:
+            faces = getattr(self.patches, name).tolist()
+            if faces:
+                severity = "error" if code == "UNRESOLVED" else "warning"
+                found.append(
+                    {"code": code, "kind": "face", "elements": faces, "severity": severity}
+                )
+        return found
+
+    def warnings(self) -> list[str]:
+        """What is wrong with the patches, a sentence each."""
+        return [
+            words.together(
+                (
+                    f"{self.name}: {errors.what(defect)}",
+                    f"{words.faces_text(defect['elements'])}.",
+                    errors.remedy(defect["code"]),
+                )
+            )
+            for defect in self.defects
+        ]
+
+    def note_defects(self, context: Context) -> None:
+        """Lists them in the panel Check of the source, whose buttons select them."""
+        source = self.source
+        if source is not None and self.defects and not is_evaluated(self.settings):
+            store_defects(context, source, self.defects)
+
+
+def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:
+    """The jobs whose surface folds or is not resolved."""
+    return [job for job in jobs if len(job.patches.unresolved)]

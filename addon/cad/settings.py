@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is asked of spline patches, and of a file of them; on the command line too."""
+
+from math import radians
+from typing import Any
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from ..blender import Scene
+
+UNITS = (
+    ("MM", "Millimetres", "Lengths in the file are in millimetres"),
+    ("CM", "Centimetres", "Lengths in the file are in centimetres"),
+    ("M", "Metres", "Lengths in the file are in metres"),
+    ("IN", "Inches", "Lengths in the file are in inches"),
+    ("FT", "Feet", "Lengths in the file are in feet"),
+)
+# metres in each
+METRES = {"MM": 0.001, "CM": 0.01, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
+
+
+class PatchSettings:
+    """Mix-in of annotations for operators."""
+
+    fit_tolerance: FloatProperty(
+        name="Tolerance",
+        description="The farthest that a patch may be from the fair surface, as a share of the surface's size",
+        default=1e-4,
+        min=1e-7,
+        max=0.1,
+        precision=6,
+    )
+    fit_angle: FloatProperty(
+        name="Angle",
+        description="The sharpest angle at which two patches may meet where there is no crease",
+        default=radians(0.05),
+        min=radians(0.001),
+        max=radians(10.0),
+        precision=3,
+        subtype="ANGLE",
+    )
+    fit_levels: IntProperty(
+        name="Levels",
+        description="How often faces are split before patches are fitted. 0: as often as the tolerance needs",
+        default=0,
+        min=0,
+        max=8,
+    )
+
+
+class StepSettings(PatchSettings):
+    """Of a file."""
+
+    unit: EnumProperty(
+        name="Unit", description="The unit of lengths in the file", items=UNITS, default="MM"
+    )
+    insist: BoolProperty(
+        name="Write Faulty Faces",
+        description="Writes the file even if a surface folds or turns too sharply for patches. "
+        "The patches of such faces are red",
+        default=False,
+    )
+
+
+def scale_to(unit: str, scene: Scene) -> float:
+    """How many of a file's units a Blender unit has; 1 in scenes without units."""
+    known: Any = scene.unit_settings
+    return 1.0 if known.system == "NONE" else known.scale_length / METRES[unit]

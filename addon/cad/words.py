@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How patches came out, in words. No Blender."""
+
+from collections.abc import Iterable, Sequence
+from math import degrees
+
+_LISTED = 8  # faces
+
+
+def summary(patches: int, off: float, unit: str, angle: float) -> str:
+    """`96 patches, 0.008 mm off, 0.02° at edges`; `off` in `unit`, `angle` in radians."""
+    noun = "patch" if patches == 1 else "patches"
+    return f"{patches:,} {noun}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
+
+
+def short(value: float) -> str:
+    """Two digits that say something, without an exponent: 0.0082, 12, 3,400."""
+    digits = float(f"{value:.1e}")
+    text = f"{digits:,.12f}".rstrip("0").rstrip(".")
+    return text if digits == 0.0 or text not in ("0", "-0") else f"{digits:g}"
+
+
+def faces_text(faces: Sequence[int]) -> str:
+    """`Faces 4, 7 and 9`, of many the first few and `…`."""
+    shown = [str(face) for face in faces[:_LISTED]]
+    noun = "Face" if len(faces) == 1 else "Faces"
+    if len(faces) > _LISTED:
+        return f"{noun} {', '.join(shown)}, …"
+    return f"{noun} {' and '.join(filter(None, (', '.join(shown[:-1]), shown[-1])))}"
+
+
+def together(sentences: Iterable[str]) -> str:
+    """Sentences one after another, without those that are empty."""
+    return " ".join(filter(None, sentences))

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""STEP files of the command line: its options, the jobs' file, what the report says of them."""
+
+import argparse
+from collections.abc import Sequence
+from math import degrees, radians
+from types import SimpleNamespace
+from typing import Any
+
+from ..cad import words
+from ..cad.fit import PatchJob, refused
+from ..cad.settings import METRES
+from ..cad.step import write_jobs
+from ..errors import JobError
+from .files import write_whole
+from .places import Place, is_step
+
+_TOLERANCE, _ANGLE, _UNIT = 1e-4, 0.05, "mm"
+_ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "insist")
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("STEP files (OUT ends in .step or .stp)")
+    group.add_argument(
+        "--fit-tolerance",
+        type=_positive,
+        metavar="X",
+        help="the farthest that a patch may be from the fair surface, as a share of its size "
+        f"[{_TOLERANCE:g}]",
+    )
+    group.add_argument(
+        "--fit-angle",
+        type=_positive,
+        metavar="DEGREES",
+        help=f"the sharpest angle at which two patches may meet where there is no crease [{_ANGLE}]",
+    )
+    group.add_argument(
+        "--unit",
+        choices=[unit.lower() for unit in METRES],
+        metavar="|".join(unit.lower() for unit in METRES),
+        help=f"the unit that the coordinates are in; they do not change [{_UNIT}]",
+    )
+    group.add_argument(
+        "--insist",
+        action="store_true",
+        default=None,
+        help="write a surface that folds or turns too sharply for patches all the same; its patches "
+        "are red there",
+    )
+
+
+def wanted_of(
+    arguments: argparse.Namespace, settings: SimpleNamespace, ways: Sequence[Place]
+) -> SimpleNamespace | None:
+    """What is asked of STEP files; None where none is written. Raises ValueError if that is said all
+    the same.
+    """
+    if not any(is_step(way.target) for way in ways):
+        for name in _ONLY_HERE:
+            if getattr(arguments, name) is not None:
+                raise ValueError(f"--{name.replace('_', '-')} needs an output that ends in .step")
+        return None
+    return SimpleNamespace(
+        fit_tolerance=arguments.fit_tolerance or _TOLERANCE,
+        fit_angle=radians(arguments.fit_angle or _ANGLE),
+        fit_levels=settings.levels if "levels" in vars(arguments) else 0,
+        unit=arguments.unit or _UNIT,
+        insist=bool(arguments.insist),
+    )
+
+
+def write_step_file(way: Place, jobs: Sequence[PatchJob], wanted: SimpleNamespace) -> None:
+    """All parts as one file, coordinates as they are. Raises JobError where a surface is refused."""
+    faulty = refused(jobs)
+    if faulty and not wanted.insist:
+        raise JobError(
+            words.together(job.warnings()[0] for job in faulty) + " --insist writes them red.",
+            "UNRESOLVED",
+            "face",
+            faulty[0].patches.unresolved.tolist(),
+        )
+    write_whole(way.target, lambda path: write_jobs(path, jobs, wanted.unit, 1.0))
+
+
+def object_entry(job: PatchJob) -> dict[str, Any]:
+    """One object for the report."""
+    patches = job.patches
+    closed = int(patches.shell_closed.sum())
+    return {
+        "name": job.name,
+        "control": {
+            "vertices": len(job.arrays.positions),
+            "faces": len(job.arrays.face_sizes),
+        },
+        "result": {
+            "patches": len(patches),
+            "solids": closed,
+            "shells": len(patches.shell_closed) - closed,
+        },
+        "report": {
+            "levels": patches.levels,
+            "size": patches.size,
+            "off": job.off,
+            "largest_angle": job.angle,
+            "spans": int(patches.patch_spans.prod(axis=1).sum()),
+            "unmet": patches.unmet.tolist(),
+            "unresolved": patches.unresolved.tolist(),
+        },
+    }
+
+
+def table_head(width: int) -> str:
+    return (
+        f"{'file':<{width}} {'faces in':>10} {'patches':>9} {'seconds':>8} {'off':>10} {'angle':>9}"
+    )
+
+
+def table_line(record: dict[str, Any], width: int) -> str:
+    """A finished input's line: sums over its objects, and the accuracy of the worst one."""
+    objects = record["objects"]
+    faces = sum(item["control"]["faces"] for item in objects)
+    patches = sum(item["result"]["patches"] for item in objects)
+    off = max(item["report"]["off"] for item in objects)
+    angle = degrees(max(item["report"]["largest_angle"] for item in objects))
+    return (
+        f"{record['input']:<{width}} {faces:>10,} {patches:>9,} {record['seconds']:>8.2f} "
+        f"{words.short(off):>10} {words.short(angle) + '°':>9}"
+    )
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < 90.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0 and below 90")
+    return value

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""To CAD: File > Export > Fair Surface (.step), and Show Patches."""
+
+from typing import Any, cast
+
+import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from .. import prediction
+from ..blender import Answer, Context, Object, registration
+from ..cad.fit import PatchJob, refused
+from ..cad.settings import PatchSettings, StepSettings, scale_to
+from ..cad.step import summary, write_jobs
+from ..memory import source_of
+from ..mesh.read import source_objects
+from . import fair, fill
+
+
+def _to_fit(context: Context) -> list[Object]:
+    """The selected meshes, but the sources of surfaces that are selected too."""
+    chosen = source_objects(context)
+    sources = {source_of(target) for target in chosen}
+    return [target for target in chosen if target not in sources]
+
+
+class _Fitting(fair._Fairing):
+    """What both share: patches are fitted to the surfaces of all selected objects."""
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return fair.poll_reason(context) or (
+            "" if source_objects(context) else "Select a mesh or a faired surface first"
+        )
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        return [PatchJob(context, target, self) for target in _to_fit(context)]
+
+    def execute(self, context: Context) -> Answer:
+        """From scripts."""
+        jobs = self._prepare(context)
+        return {"CANCELLED"} if jobs is None else self._block(context, jobs)
+
+
+class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.types.Operator):
+    """Write the fair surfaces of the selected objects as spline patches, for CAD: faired surfaces by their own settings, other meshes by those of the scene"""
+
+    bl_idname = "export_scene.fairing_step"
+    bl_label = "Export Fair Surface"
+    bl_options = {"PRESET"}
+    filename_ext = ".step"
+
+    filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
+
+    _from_browser = False
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        self._from_browser = True
+        return ExportHelper.invoke(self, context, event)
+
+    def execute(self, context: Context) -> Answer:
+        """The file browser calls it too; then the window stays alive."""
+        if not self._from_browser or bpy.app.background:
+            return super().execute(context)
+        jobs = self._prepare(context)
+        return {"CANCELLED"} if jobs is None else self.start(context, jobs)
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in StepSettings.__annotations__ | PatchSettings.__annotations__:
+            layout.prop(self, name)
+
+    def finish(self, context: Context, jobs: list[Any]) -> Answer:
+        faulty = refused(jobs)
+        for job in jobs:
+            job.note_defects(context)
+            for sentence in job.warnings():
+                self.report({"WARNING"}, sentence)
+        if faulty and not self.insist:
+            names = ", ".join(job.name for job in faulty)
+            self.report(
+                {"ERROR"},
+                f"Nothing was written: the surface of {names} folds or turns too sharply for patches. "
+                "Show Source, and Check in the panel selects the faces; Write Faulty Faces writes them red.",
+            )
+            return {"CANCELLED"}
+        scale = scale_to(self.unit, context.scene)
+        path = bpy.path.abspath(self.filepath)
+        try:
+            write_jobs(path, jobs, self.unit, scale)
+        except OSError as error:
+            self.report({"ERROR"}, f"{path} cannot be written: {error.strerror or error}.")
+            return {"CANCELLED"}
+        self.report({"INFO"}, summary(jobs, self.unit, scale))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_show_patches(_Fitting, PatchSettings, bpy.types.Operator):
+    """Make a NURBS surface of the spline patches that CAD will get, beside the surface"""
+
+    bl_idname = "object.fairing_show_patches"
+    bl_label = "Show Patches"
+    bl_options = {"UNDO"}
+
+    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        jobs = self._prepare(context)
+        if jobs is None:
+            return {"CANCELLED"}
+        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
+            return self.start(context, jobs)
+        return self._block(context, jobs)
+
+    def after(self, context: Context, jobs: Any) -> None:
+        for job in jobs:
+            job.note_defects(context)
+
+
+CLASSES = (EXPORT_SCENE_OT_fairing_step, OBJECT_OT_fairing_show_patches)
+
+register, unregister = registration(*CLASSES)

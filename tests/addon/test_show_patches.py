@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Show Patches: the control points that CAD gets, as a NURBS surface."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+from scenes import CUBE, activate, add
+
+from addon.cad.fit import PatchJob
+
+WANTED = SimpleNamespace(fit_tolerance=1e-4, fit_angle=1e-3, fit_levels=4)
+
+
+def patches_of(target):
+    job = PatchJob(bpy.context, target, WANTED)
+    job.compute()
+    return job.patches
+
+
+def shown(target):
+    """The new object beside `target`."""
+    activate(target)
+    assert bpy.ops.object.fairing_show_patches(fit_angle=1e-3, fit_levels=4) == {"FINISHED"}
+    return bpy.context.active_object
+
+
+def points(spline):
+    """(u, v, 3), as a net of patches."""
+    values = np.empty(4 * len(spline.points), np.float32)
+    spline.points.foreach_get("co", values)
+    grid = values.reshape(spline.point_count_v, spline.point_count_u, 4)
+    assert (grid[..., 3] == 1).all()
+    return grid[..., :3].transpose(1, 0, 2)
+
+
+def house():
+    """Quads and triangles, so patches of several sizes."""
+    vertices = [*CUBE[0], (0, 0, 2.2)]
+    faces = [face for face in CUBE[1] if set(face) != {1, 3, 5, 7}]
+    return add("House", vertices, [*faces, (1, 5, 8), (5, 7, 8), (7, 3, 8), (3, 1, 8)])
+
+
+def test_every_control_point_is_that_of_its_patch():
+    target = house()
+    patches = patches_of(target)
+    surface = shown(target)
+    assert surface.type == "SURFACE" and surface.name == "House Patches"
+    assert len(surface.data.splines) == len(patches) == 5 + 12
+    for p, spline in enumerate(surface.data.splines):
+        assert (points(spline) == patches.net(p).astype(np.float32)).all()
+        assert spline.order_u == spline.order_v == 4
+        assert spline.use_endpoint_u and spline.use_endpoint_v
+
+
+def test_the_surface_that_blender_draws_is_the_one_of_cad():
+    box = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    surface = shown(box)
+    mesh = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    radius = [vertex.co.length for vertex in mesh.vertices]
+    assert len(radius) > 100 and np.allclose(radius, np.sqrt(3), rtol=3e-3)
+
+
+def test_it_stands_where_its_source_is_and_has_its_materials():
+    box = add("Box", *CUBE)
+    box.location, box.scale = (3, 0, 0), (1, 2, 1)
+    for name in ("Red", "Green"):
+        box.data.materials.append(bpy.data.materials.new(name))
+    box.data.polygons[4].material_index = 1
+    surface = shown(box)
+    assert tuple(surface.location) == (3, 0, 0) and tuple(surface.scale) == (1, 2, 1)
+    assert [material.name for material in surface.data.materials] == ["Red", "Green"]
+    assert [spline.material_index for spline in surface.data.splines].count(1) == 1
+    corners = np.concatenate(
+        [points(spline)[::-1][:1, :1].reshape(-1, 3) for spline in surface.data.splines]
+    )
+    assert np.allclose(np.abs(corners), 1, atol=1e-6)
+
+
+def test_nothing_else_is_left():
+    box = add("Box", *CUBE)
+    before = set(bpy.data.objects)
+    surface = shown(box)
+    assert set(bpy.data.objects) - before == {surface}
+    assert bpy.context.mode == "OBJECT" and len(bpy.data.curves) == 1

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""File > Export > Fair Surface (.step): what is written, what is said, what is refused."""
+
+import re
+from math import pi, sqrt
+
+import bpy
+import numpy as np
+import pytest
+from cad_files import read_step
+from fake_layout import draw
+from scenes import CUBE, activate, add, fair
+
+from addon.cad import words
+from addon.ui import main
+
+# two faces folded onto one another but for a little: no surface through them is resolved
+FOLDED = (
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)],
+    [(0, 1, 2, 3), (1, 4, 5, 2)],
+)
+RADIUS = sqrt(3)
+
+
+def export(path, **settings):
+    return bpy.ops.export_scene.fairing_step(filepath=str(path), **settings)
+
+
+def sphere(name="Ball"):
+    """A cube whose fair surface is a sphere of the radius √3."""
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    return add(name, *CUBE)
+
+
+def names(path):
+    text = path.read_text()
+    return [line.split("'")[1] for line in text.splitlines() if "=PRODUCT('" in line]
+
+
+def test_a_mesh_becomes_a_solid_by_the_settings_of_the_scene(tmp_path, capfd):
+    sphere()
+    assert export(tmp_path / "ball.step") == {"FINISHED"}
+    told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: ")]
+    assert len(told) == 1 and re.fullmatch(
+        r"Info: 6 patches, 0\.\d+ mm off, 0\.\d+° at edges", told[0]
+    )
+    found = read_step(tmp_path / "ball.step")
+    assert (found.valid, found.solids, found.faces) == (True, 1, 6)
+    radius = 1000 * RADIUS
+    assert found.volume == pytest.approx(4 / 3 * pi * radius**3, rel=2e-4)
+    assert np.allclose(found.highest, radius, atol=1e-4 * 2 * radius)
+
+
+@pytest.mark.parametrize("unit", ["MM", "M", "IN"])
+def test_place_scale_and_units_are_applied(tmp_path, unit):
+    ball = sphere()
+    ball.location, ball.rotation_euler = (5, -1, 2), (0, 0, pi / 2)
+    ball.scale = (-1, 1, 2)  # mirrored too
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    path = tmp_path / "ball.step"
+    export(path, unit=unit)
+    found = read_step(path)
+    assert found.valid and found.solids == 1 and found.volume > 0
+    assert np.allclose(found.centre, (50, -10, 20), atol=0.02)
+    size = np.subtract(found.highest, found.lowest)
+    # the corners of a box that is twice as high lie on a sphere too
+    assert np.allclose(size, 20 * sqrt(6), rtol=1e-3)
+
+
+def test_a_scene_without_units_keeps_its_numbers(tmp_path):
+    ball = sphere()
+    ball.location = (5, 0, 0)
+    bpy.context.scene.unit_settings.system = "NONE"
+    export(tmp_path / "ball.step", unit="MM")
+    assert np.allclose(read_step(tmp_path / "ball.step").centre, (5, 0, 0), atol=1e-4)
+
+
+def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path):
+    ball = sphere()
+    surface = fair(energy="TOTAL_CURVATURE", levels=2)
+    surface.location = (7, 0, 0)
+    bpy.context.scene.discrete_fairing.energy = "THIN_PLATE"  # for the next one
+    ball.hide_set(False)
+    ball.select_set(True)  # its surface stands for it
+    path = tmp_path / "ball.step"
+    export(path)
+    assert names(path) == ["Ball Fair"]
+    found = read_step(path)
+    assert found.solids == 1
+    assert np.allclose(found.centre, (7000, 0, 0), atol=0.5)
+    assert found.volume == pytest.approx(4 / 3 * pi * (1000 * RADIUS) ** 3, rel=2e-4)
+
+
+def test_several_objects_become_parts_with_names_and_colours(tmp_path):
+    first, second = sphere("Left"), sphere("Right")
+    second.location.x = 5
+    for target, colour in ((first, (1, 0, 0, 1)), (second, (0, 0, 1, 1))):
+        material = bpy.data.materials.new(target.name)
+        material.diffuse_color = colour
+        target.data.materials.append(material)
+    first.select_set(True)
+    path = tmp_path / "both.step"
+    export(path)
+    assert sorted(names(path)) == ["Left", "Right"]
+    text = path.read_text()
+    assert "COLOUR_RGB('',1.0,0.0,0.0)" in text and "COLOUR_RGB('',0.0,0.0,1.0)" in text
+    assert read_step(path).solids == 2
+
+
+def test_faces_of_two_materials_have_two_colours(tmp_path):
+    ball = sphere()
+    for colour in ((1, 0, 0, 1), (0, 1, 0, 1)):
+        material = bpy.data.materials.new("Paint")
+        material.diffuse_color = colour
+        ball.data.materials.append(material)
+    ball.data.polygons[2].material_index = 1
+    export(tmp_path / "ball.step")
+    text = (tmp_path / "ball.step").read_text()
+    assert text.count("STYLED_ITEM") == 6 and text.count("COLOUR_RGB") == 2
+
+
+def test_a_surface_that_folds_is_refused_and_its_faces_are_listed(tmp_path, capfd):
+    folded = add("Leaf", *FOLDED)
+    path = tmp_path / "leaf.step"
+    path.write_text("old")
+    with pytest.raises(RuntimeError, match="Nothing was written: the surface of Leaf folds"):
+        export(path)
+    assert path.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
+    told = capfd.readouterr().out
+    assert "Leaf: 2 faces have a surface that folds" in told and "Faces 0 and 1." in told
+    activate(folded)
+    assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
+    assert sum(face.select for face in folded.data.polygons) == 2
+
+
+def test_who_insists_gets_the_faces_marked(tmp_path, capfd):
+    add("Leaf", *FOLDED)
+    path = tmp_path / "leaf.step"
+    assert export(path, insist=True) == {"FINISHED"}
+    assert "COLOUR_RGB('',1.0,0.0,0.0)" in path.read_text()
+    assert "Warning: Leaf: 2 faces" in capfd.readouterr().out
+
+
+def test_a_missed_tolerance_is_said_and_the_file_written(tmp_path, capfd):
+    ball = sphere()
+    assert export(tmp_path / "ball.step", fit_tolerance=1e-7, fit_levels=3) == {"FINISHED"}
+    assert (tmp_path / "ball.step").exists()
+    assert "miss the tolerance" in capfd.readouterr().out
+    assert "PATCH_TOLERANCE" in ball.discrete_fairing.defects
+
+
+def test_a_file_that_cannot_be_written_is_said(tmp_path):
+    sphere()
+    with pytest.raises(RuntimeError, match="cannot be written: No such file"):
+        export(tmp_path / "none" / "ball.step")
+
+
+def test_a_flat_scale_is_refused(tmp_path):
+    sphere().scale.z = 0
+    with pytest.raises(RuntimeError, match="Ball: its scale is 0 along an axis"):
+        export(tmp_path / "ball.step")
+
+
+def test_nothing_selected_is_explained():
+    with pytest.raises(RuntimeError, match="Select a mesh or a faired surface first"):
+        bpy.ops.export_scene.fairing_step(filepath="never.step")
+
+
+def test_the_button_stands_with_a_faired_surface_only():
+    add("Box", *CUBE)
+    assert "export_scene.fairing_step" not in draw(main.VIEW3D_PT_fairing)
+    fair(levels=1)
+    assert "export_scene.fairing_step" in draw(main.VIEW3D_PT_fairing)
+
+
+def test_numbers_are_said_shortly():
+    assert [words.short(x) for x in (0.0, 0.00823, 12.3, 3412, 2e-14)] == [
+        "0", "0.0082", "12", "3,400", "2e-14",
+    ]  # fmt: skip
+    assert words.faces_text([4]) == "Face 4" and words.faces_text([4, 7, 9]) == "Faces 4, 7 and 9"
+    assert words.faces_text(range(9)).endswith("7, …")
