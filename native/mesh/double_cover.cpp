@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/validate/checks.h"
+#include "mesh/orientation.h"
 #include "parallel/cancel.h"
 
 namespace fairing {

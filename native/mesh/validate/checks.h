@@ -5,6 +5,7 @@
 #pragma once
 
 #include "mesh/half_edges.h"
+#include "mesh/orientation.h"
 #include "mesh/validate/check.h"
 
 namespace fairing {
@@ -46,15 +47,6 @@ void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found);
 // out: the edge tells.
 void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
                                 Defects& found);
-
-struct Orientation {
-  // The faces (ascending) that must turn over for all neighbours to agree: in each component the
-  // minority; of two halves, the one without the component's first face.
-  std::vector<std::int64_t> to_flip;
-  std::vector<std::int64_t> one_sided;  // all faces (ascending) of components that cannot agree
-};
-
-Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges);
 
 // Adds non_orientable and inconsistent_orientation, the latter as a warning where it will be
 // repaired.

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which way the faces of each sheet run, and which sheets have only one side.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/half_edges.h"
+
+namespace fairing {
+
+struct Orientation {
+  // The faces (ascending) that must turn over for all neighbours to agree: in each component the
+  // minority; of two halves, the one without the component's first face.
+  std::vector<std::int64_t> to_flip;
+  std::vector<std::int64_t> one_sided;  // all faces (ascending) of components that cannot agree
+};
+
+Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges);
+
+}  // namespace fairing
