@@ -51,6 +51,12 @@ class Fitting {
 
  private:
   double tolerance() const { return options_.tolerance * lattice_.size(); }
+  // A curve that is off leans as well, and patches cannot mend that either.
+  double curve_tolerance() const {
+    constexpr double a_radian = 0.125;
+    return curve_share * lattice_.size() *
+           std::min(options_.tolerance, a_radian * options_.normal_tolerance);
+  }
   int most_on(bool part) const {
     return std::clamp(lattice_.n() / (part ? 2 * steps_a_span : steps_a_span), 1, most_spans);
   }
@@ -67,7 +73,7 @@ class Fitting {
     const std::size_t edges = topology_.edges.size();
     const auto limits = [&](std::size_t e) {
       const int least = topology_.edges[e].halved ? 2 : 1;
-      return SpanLimits{least, std::max(least, most_on(false)), curve_share * tolerance()};
+      return SpanLimits{least, std::max(least, most_on(false)), curve_tolerance()};
     };
     for_each(edges, [&](std::size_t e) {
       if (topology_.edges[e].kind != EdgeKind::smooth)
@@ -80,7 +86,7 @@ class Fitting {
       if (topology_.edges[e].kind == EdgeKind::smooth)
         curves_[e] = fit_curve(source.smooth_edge(Index(e), normals), limits(e));
     });
-    const SpanLimits inside{1, most_on(true), curve_share * tolerance()};
+    const SpanLimits inside{1, most_on(true), curve_tolerance()};
     for_each(3 * std::size_t(lattice_.triangle_faces()), [&](std::size_t k) {
       const Index f = Index(k / 3);
       const int s = int(k % 3);

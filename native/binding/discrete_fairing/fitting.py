@@ -156,7 +156,11 @@ class _Run:
             watched["progress"],
         )
         bad = arrays["lattice_turn"] > TURN_LIMIT
-        bad[arrays["patch_face"][~(arrays["turned"] <= FOLD_LIMIT)]] = True
+        folded = ~(arrays["turned"] <= FOLD_LIMIT)
+        sharp = np.nan_to_num(arrays["angles"]).max(axis=1, initial=0) > TURN_LIMIT
+        patch = np.repeat(np.arange(len(folded)), np.diff(arrays["loop_offsets"]))
+        folded[patch[sharp[arrays["loop_edges"]]]] = True
+        bad[arrays["patch_face"][folded]] = True
         arrays.update(
             tolerance=self.tolerance,
             normal_tolerance=self.normal_tolerance,
