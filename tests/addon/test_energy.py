@@ -147,11 +147,13 @@ def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     add("Box", *CUBE)
     started = []
     fake = type(
-        "Fake", (), {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"}
+        "Fake",
+        (fair_operators.Fairing,),
+        {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"},
     )
     fake.start = lambda self, context, jobs: started.append(jobs) or "started"
-    job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768})
-    answer = fair_operators._Fairing.invoke(fake(), bpy.context, None)
+    job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768, "result": None})
+    answer = fake().invoke(bpy.context, None)
     assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")
 
 

@@ -234,6 +234,7 @@ def test_another_file_is_opened_meanwhile():
     assert running() is None, "the run ends with its file"
     _, settings = yield from open_panel(2)
     yield from press(settings)
+    yield from wait_for_the_end()
     assert "Suzanne Fair" in bpy.data.objects
 
 
