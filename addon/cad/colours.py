@@ -57,7 +57,7 @@ def _colour(material: Any) -> tuple[float, float, float]:
     if material is None:
         return PLAIN
     shown = Color(_base(material)[:3]).from_scene_linear_to_srgb()
-    return tuple(min(max(round(float(value), 5), 0.0), 1.0) for value in shown)
+    return tuple(min(max(round(float(value), 4), 0.0), 1.0) for value in shown)
 
 
 def _base(material: Any) -> Any:
