@@ -57,7 +57,8 @@ def _colour(material: Any) -> tuple[float, float, float]:
     if material is None:
         return PLAIN
     shown = Color(_base(material)[:3]).from_scene_linear_to_srgb()
-    return tuple(min(max(round(float(value), 5), 0.0), 1.0) for value in shown)
+    red, green, blue = (min(max(round(v, 4), 0.0), 1.0) for v in (shown.r, shown.g, shown.b))
+    return red, green, blue
 
 
 def _base(material: Any) -> Any:

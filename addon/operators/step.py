@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """To CAD: File > Export > Fair Surface (.step), and Show Patches."""
 
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import bpy
 from bpy.props import StringProperty
@@ -50,13 +50,17 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
     bl_options = {"PRESET"}
     filename_ext = ".step"
 
+    if TYPE_CHECKING:
+        filepath: str  # what ExportHelper adds
+
     filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
 
     _from_browser = False
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         self._from_browser = True
-        return ExportHelper.invoke(self, context, event)
+        helper: Any = ExportHelper  # whose stub says None
+        return helper.invoke(self, context, event)
 
     def execute(self, context: Context) -> Answer:
         """The file browser calls it too; then the window stays alive."""
