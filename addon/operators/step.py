@@ -24,7 +24,7 @@ def _to_fit(context: Context) -> list[Object]:
     return [target for target in chosen if target not in sources]
 
 
-class _Fitting(fair._Fairing):
+class _Fitting(fair.Fairing):
     """What both share: patches are fitted to the surfaces of all selected objects."""
 
     @staticmethod
