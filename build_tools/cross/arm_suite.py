@@ -18,13 +18,13 @@ from cross.targets import target_named
 TARGET = target_named("linux-arm64")
 UNPACKED = CACHE / "debian-trixie-arm64"
 LIBRARIES = UNPACKED / "usr" / "lib" / "aarch64-linux-gnu"
-PACKAGES = ["libc6", "python3", "python3-numpy"]
+PACKAGES = ["libc6", "python3", "python3-numpy", "python3-scipy"]
 PYTHON = "cp313"  # of trixie
 SITE = CACHE / "arm64-site"  # our wheel
 
 
 def unpack_debian() -> None:
-    """The C library, Python and NumPy, unpacked and no more: nothing of them runs while that is done."""
+    """The C library, Python, NumPy and SciPy, unpacked and no more: nothing of them runs while that is done."""
     system_packages.install(["qemu-user-static", "mmdebstrap"])
     stamp, value = CACHE / f"{UNPACKED.name}.stamp", fingerprint([], *PACKAGES)
     with alone(UNPACKED.name):
