@@ -95,8 +95,9 @@ TEST(Splines, BasisSumsToOneAndItsSlopesAreDerivatives) {
       double sum = 0;
       for (std::size_t i = 0; i < 4; ++i) {
         sum += b.value[i];
-        if (next.first == before.first)
+        if (next.first == before.first) {
           EXPECT_NEAR(b.slope[i], (next.value[i] - before.value[i]) / (2 * h), 1e-6 * spans);
+        }
       }
       EXPECT_NEAR(sum, 1, 1e-14);
     }
