@@ -131,13 +131,49 @@ def _look(
 
 
 def _pairs(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(p, 2) triangles that cross, but for those that share an edge, each pair once."""
+    """(p, 2) triangles that cross, but for those that share an edge, each pair once. (The tree, in
+    single precision, also takes some for crossing that touch in a vertex of both.)
+    """
     used, local = np.unique(triangles, return_inverse=True)
     tree: Any = BVHTree.FromPolygons(
         vertices[used].tolist(), local.reshape(-1, 3).tolist(), all_triangles=True
     )
     found = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
-    return found[found[:, 0] < found[:, 1]]
+    found = found[found[:, 0] < found[:, 1]]
+    first, second = triangles[found[:, 0]], triangles[found[:, 1]]
+    same = first[:, :, None] == second[:, None, :]
+    at = np.flatnonzero(same.sum(axis=(1, 2)) == 1)
+    first, second = (
+        vertices[_turned(corners[at], same[at].any(axis=axis))].astype(np.float64)
+        for corners, axis in ((first, 2), (second, 1))
+    )
+    kept = np.ones(len(found), bool)
+    kept[at] = _pierced(first, second) | _pierced(second, first)
+    return found[kept]
+
+
+def _turned(triangles: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """The `triangles` (t, 3), the one corner `chosen` (t, 3) of each in front."""
+    return np.take_along_axis(
+        triangles, (chosen.argmax(axis=1)[:, None] + np.arange(3)) % 3, axis=1
+    )
+
+
+def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """(t,) bool: whether the last sides of `others` pass through `triangles`, both (t, 3, 3), with
+    the same first corner [Möller and Trumbore 1997].
+    """
+    u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    start = others[:, 1] - triangles[:, 0]
+    way = others[:, 2] - others[:, 1]
+    across = cross(way, v)
+    determinant = (u * across).sum(axis=1)
+    inverse = 1.0 / np.where(determinant == 0.0, np.inf, determinant)
+    turned = cross(start, u)
+    a, b, along = (
+        inverse * (x * y).sum(axis=1) for x, y in ((start, across), (way, turned), (v, turned))
+    )
+    return np.minimum.reduce([a, b, 1.0 - a - b, along, 1.0 - along]) > 1e-6
 
 
 class _Excused:

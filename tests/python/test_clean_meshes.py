@@ -20,11 +20,13 @@ LEVELS, FEWER, MANY = 3, 2, 100  # levels; those of meshes with more faces
 CONVERGED = 1e-3**0.5  # the decrement: its square, a share of the energy, is below a thousandth
 STEPS, ITERATIONS = 10, 40
 
+# It has several surfaces, with folds and without: vertices moved by 1e-13 lead to another one. So
+# either may come out.
+BISHOP = "creases/opensubdiv-shapes__catmark_bishop"
 SLOW = {  # damped steps, short ones: how many to convergence
     "cages/opensubdiv-shapes__catmark_lefthanded": "12 steps",
     "cages/opensubdiv-shapes__catmark_righthanded": "13 steps",
-    # one of several surfaces: with vertices moved by 1e-13 it takes 10 steps to others, without folds
-    "creases/opensubdiv-shapes__catmark_bishop": "12 steps",
+    BISHOP: "10 to 12 steps",
     "creases/opensubdiv-shapes__catmark_car": "11 steps",
     "creases/opensubdiv-shapes__catmark_car, creases": "12 steps",
 }
@@ -33,7 +35,7 @@ FOLDED = {  # edges, before the cure and after it
     "cages/opensubdiv-shapes__catmark_lefthanded": "125, 29 left",
     "cages/opensubdiv-shapes__catmark_righthanded": "80, 25 left",
     "cages/trimesh__mirror": "10, and every filling has several times the energy",
-    "creases/opensubdiv-shapes__catmark_bishop": "7, 4 left",
+    BISHOP: "7, 4 left or none",
     "creases/opensubdiv-shapes__catmark_car": "260, 28 left",
     "creases/opensubdiv-shapes__catmark_car, creases": "226, 26 left",
     "mechanical/trimesh__fandisk": "3, none of them cured",
@@ -57,7 +59,7 @@ def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> 
             name = file.id.removeprefix("good/") + (", creases" if with_creases else "")
             marks = [*file.marks]
             if name in (exceptions or {}):
-                marks.append(pytest.mark.xfail(reason=exceptions[name]))
+                marks.append(pytest.mark.xfail(reason=exceptions[name], strict=name != BISHOP))
             result.append(pytest.param(path, with_creases, marks=marks, id=name))
     return result
 
