@@ -113,7 +113,8 @@ struct ThinPlateSolver::Rounds {
     if (!whole && !limits.from_start) {
       now.from_start = true;
       now.tolerance = std::max(limits.tolerance, gain_wanted());
-      now.enough = constraint ? 0 : limits.tolerance;
+      // Afterwards something has to move: forces that are read again say nothing.
+      if (!constraint && report.pad_corrections == 0) now.enough = limits.tolerance;
     }
     const LevelSolve solve = solver.hierarchy_.solve(
         std::size_t(level - solver.base_), now,
@@ -211,7 +212,9 @@ struct ThinPlateSolver::Rounds {
       const bool nearly = loads_nearly_settled(), was_whole = whole;
       const bool bounds = was_whole || bounds_settled();
       const bool may_adapt = constraint && !was_whole && rounds_left() > 0;
-      whole = was_whole || ((bounds || !may_adapt) && (loads || nearly));
+      // A correction after the last solve may ask for less than that leaves: then nothing would move,
+      // and forces be read that say nothing. Loads go on with solves that gain.
+      whole = (was_whole && constraint) || ((bounds || !may_adapt) && (loads || nearly));
       const bool adapts = may_adapt && !whole;
       if (adapts && constraint->begin(x))
         take_weights();
