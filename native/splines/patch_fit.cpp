@@ -91,8 +91,8 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const double* slide) {
         const double across = (s % 2 ? p.along_u : p.along_v).norm();
         const double scale = tilt * data.size / across;
         if (std::isfinite(scale))
-          system.add(across_side(patch, s, n.t), squared(scale) * n.normal * n.normal.transpose(),
-                     Vec3::Zero());
+          system.add(across_side(patch, s, n.t),
+                     n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
   if (!system.solve(solved)) return false;

@@ -18,6 +18,7 @@ struct PatchSample {
 struct SideNormal {
   double t;
   Vec3 normal;
+  double weight = 1;
 };
 
 struct PatchData {
