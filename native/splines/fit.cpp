@@ -108,7 +108,7 @@ class Fitting {
       FittedPatch next = fit_patch(data, spans_u, spans_v);
       if (fitted_[p].patch.net.empty() || next.misses < fitted_[p].misses)
         fitted_[p] = std::move(next);
-      if (!to_tolerance || fitted_[p].residual <= data.tolerance) return;
+      if (!to_tolerance || (fitted_[p].residual <= data.tolerance && !fitted_[p].folds())) return;
       const double more = bends_more_along_u(fitted_[p].patch);
       const bool grow_u = spans_u < most && (more > 1 / one_sided || spans_v >= most),
                  grow_v = spans_v < most && (more < one_sided || spans_u >= most);

@@ -37,6 +37,8 @@ struct FittedPatch {
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides
   double misses = 0;  // how many times a tolerance it is off; huge where the patch folds
+
+  bool folds() const { return !(turned < 0.5); }
 };
 
 // The sides are refined to the patch's spans, exactly.
