@@ -211,7 +211,7 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
     }
   };
   try_all(std::span(ways).subspan(1), 1);
-  try_all(unfolding, fold_misses);
+  if (!data.may_fold) try_all(unfolding, fold_misses);
   return best;
 }
 

@@ -28,6 +28,7 @@ struct PatchData {
   double size;  // of the model: what an angle weighs against a distance
   // What is asked for, and ends the search.
   double tolerance, normal_tolerance;
+  bool may_fold = false;  // no time is spent against it
 };
 
 struct FittedPatch {
