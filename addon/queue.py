@@ -20,6 +20,7 @@ _PHASES = {
     "constrain": "Keeping the tolerance",
     "measure": "Measuring",
     "output": "Building the mesh",
+    "patches": "Fitting patches",
     "done": "Done",
 }
 _NICENESS = 5  # of the threads that compute, above that of the window's

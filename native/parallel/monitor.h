@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-enum class Phase : int { check, hierarchy, curves, solve, constrain, measure, output, done };
+enum class Phase : int { check, hierarchy, curves, solve, constrain, measure, output, patches, done };
 
 inline const char* name(Phase phase) {
   switch (phase) {
@@ -20,6 +20,7 @@ inline const char* name(Phase phase) {
     case Phase::constrain: return "constrain";
     case Phase::measure: return "measure";
     case Phase::output: return "output";
+    case Phase::patches: return "patches";
     case Phase::done: return "done";
   }
   return "";

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fairing {
 namespace {
@@ -13,6 +14,10 @@ constexpr double slide = 0.1, tilt = 0.03;
 // What the middle of a halved curve counts, which other curves start from.
 constexpr double middle_weight = 10;
 constexpr int refits = 3;
+// Curvature has a pole at control vertices, where most energies hold the surface: spans that are
+// shorter towards both ends, by this share, follow it.
+constexpr double end_share = 0.35;
+constexpr int least_graded = 4;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 
@@ -141,6 +146,18 @@ std::vector<double> length_parameters(const CurveData& data) {
   return t;
 }
 
+// The parameter whose span is by length at `share`, where spans at both ends are shorter.
+double graded(double share) {
+  constexpr double turn = 2 * std::numbers::pi;
+  double t = share;
+  for (int step = 0; step < 30; ++step) {
+    const double off = t - (1 - end_share) / turn * std::sin(turn * t) - share;
+    t = std::clamp(t - off / (1 - (1 - end_share) * std::cos(turn * t)), 0.0, 1.0);
+    if (std::abs(off) < 1e-14) break;
+  }
+  return t;
+}
+
 FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   FittedCurve out;
   out.normals = data.normals;
@@ -150,10 +167,12 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   return out;
 }
 
-FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system) {
+FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool to_ends) {
   FittedCurve out;
   out.normals = data.normals;
   out.parameters = length_parameters(data);
+  if (to_ends)
+    for (double& t : out.parameters) t = graded(t);
   out.curve = system.solve(out.parameters, {});
   const std::size_t last = data.points.size() - 1;
   for (int round = 0; round <= refits; ++round) {
@@ -169,11 +188,14 @@ FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system) {
   return out;
 }
 
-FittedCurve fit_with(const CurveData& data, int spans) {
+FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
   if (even.error <= exact * length_of(data.points)) return even;
-  return fit_by_length(data, system);
+  FittedCurve plain = fit_by_length(data, system, false);
+  if (spans < least_graded || plain.error <= tolerance) return plain;
+  FittedCurve to_ends = fit_by_length(data, system, true);
+  return to_ends.error < plain.error ? to_ends : plain;
 }
 
 }  // namespace
@@ -183,14 +205,16 @@ Vec3 normal_at(const FittedCurve& curve, double t) {
   const auto k = std::size_t(after - curve.parameters.begin());
   const double from = curve.parameters[k - 1], width = curve.parameters[k] - from;
   const double share = width > 0 ? (t - from) / width : 0.0;
-  return ((1 - share) * curve.normals[k - 1] + share * curve.normals[k]).normalized();
+  const Vec3 normal = (1 - share) * curve.normals[k - 1] + share * curve.normals[k];
+  const Vec3 tangent = curve.curve.at(t).tangent.normalized();
+  return (normal - normal.dot(tangent) * tangent).normalized();
 }
 
 FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
-  FittedCurve best = fit_with(data, limits.least);
+  FittedCurve best = fit_with(data, limits.least, limits.tolerance);
   for (int spans = 2 * limits.least; spans <= limits.most && best.error > limits.tolerance;
        spans *= 2) {
-    FittedCurve next = fit_with(data, spans);
+    FittedCurve next = fit_with(data, spans, limits.tolerance);
     if (next.error < best.error) best = std::move(next);
   }
   for (std::size_t k = 0; k < best.normals.size(); ++k) {

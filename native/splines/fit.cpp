@@ -19,6 +19,8 @@ constexpr int steps_a_span = 4, most_spans = 16;
 // patches cannot mend their curves.
 constexpr double curve_share = 0.3, patch_share = 0.45;
 constexpr int angle_rounds = 4;
+// A lattice that turns by more (radians) between two cells folds itself: so may its patches.
+constexpr double hopeless = 0.8;
 // Directions whose bending differs by more get spans one after the other.
 constexpr double one_sided = 4;
 
@@ -35,17 +37,19 @@ class Fitting {
 
   SplineSurface run() {
     SplineSurface out;
+    monitor_.report(Phase::patches, 0);
     out.lattice_turn = lattice_turns(lattice_, topology_, workers_);
-    monitor_.report(Phase::output, 0.05);
+    turns_ = out.lattice_turn;
+    monitor_.report(Phase::patches, 0.05);
     fit_curves();
-    monitor_.report(Phase::output, 0.3);
+    monitor_.report(Phase::patches, 0.3);
     fit_patches();
-    monitor_.report(Phase::output, 0.7);
+    monitor_.report(Phase::patches, 0.7);
     for (int round = 0; round < angle_rounds && refine_at_edges(); ++round)
-      monitor_.report(Phase::output, 0.7 + 0.2 * (round + 1) / angle_rounds);
+      monitor_.report(Phase::patches, 0.7 + 0.2 * (round + 1) / angle_rounds);
     out.angles = edge_angles(topology_, fitted_, curves_.size(), workers_);
     assemble(lattice_, topology_, curves_, fitted_, out);
-    monitor_.report(Phase::output, 1);
+    monitor_.report(Phase::done, 1);
     return out;
   }
 
@@ -100,6 +104,7 @@ class Fitting {
     PatchData data = patch_data(lattice_, place, curves_);
     data.tolerance = patch_share * tolerance();
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
+    data.may_fold = turns_[std::size_t(place.face)] > hopeless;
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
     const int most = std::max({most_on(place.corner >= 0), spans_u, spans_v});
@@ -108,7 +113,7 @@ class Fitting {
       FittedPatch next = fit_patch(data, spans_u, spans_v);
       if (fitted_[p].patch.net.empty() || next.misses < fitted_[p].misses)
         fitted_[p] = std::move(next);
-      if (!to_tolerance || fitted_[p].residual <= data.tolerance) return;
+      if (!to_tolerance || (fitted_[p].residual <= data.tolerance && !fitted_[p].folds())) return;
       const double more = bends_more_along_u(fitted_[p].patch);
       const bool grow_u = spans_u < most && (more > 1 / one_sided || spans_v >= most),
                  grow_v = spans_v < most && (more < one_sided || spans_u >= most);
@@ -146,6 +151,7 @@ class Fitting {
   Topology topology_;
   std::vector<FittedCurve> curves_;
   std::vector<FittedPatch> fitted_;
+  std::vector<double> turns_;
 };
 
 }  // namespace

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace fairing {
 namespace {
 
 constexpr int samples_a_span = 6;
+constexpr double widest_gap = 1.0 / 64;
 
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
   SplineCurve out =
@@ -15,12 +17,23 @@ SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
   return side.reversed ? reversed(std::move(out)) : out;
 }
 
-// Normals of a smooth curve that belong to the side.
+// Normals of a smooth curve that belong to the side. Where spans are shorter than the lattice's
+// steps, there are more between: neighbours have to agree there, too.
 std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& side) {
   std::vector<SideNormal> out;
+  const auto add = [&](double at, const Vec3& normal, double weight) {
+    const double t = on_side(side, at);
+    if (t >= 0 && t <= 1) out.push_back({t, normal, weight});
+  };
   for (std::size_t k = 0; k < curve.normals.size(); ++k) {
-    const double t = on_side(side, curve.parameters[k]);
-    if (t >= 0 && t <= 1) out.push_back({t, curve.normals[k]});
+    add(curve.parameters[k], curve.normals[k], 1);
+    if (k + 1 == curve.normals.size()) break;
+    const double from = curve.parameters[k], width = curve.parameters[k + 1] - from;
+    const int parts = int(std::ceil(width / widest_gap));
+    for (int part = 1; part < parts; ++part) {
+      const double at = from + width * part / parts;
+      add(at, normal_at(curve, at), 1.0 / parts);
+    }
   }
   return out;
 }
@@ -70,6 +83,25 @@ std::vector<double> length_shares(const Lattice& lattice, Index f, bool upward) 
           before.back() > 0 ? before[std::size_t(k)] / before.back() : double(k) / n;
     }
   }
+  return out;
+}
+
+// Where a side's curve has the share of the side's length.
+double at_share(const SideMap& map, std::span<const double> shares, double share) {
+  const auto after = std::upper_bound(shares.begin() + 1, shares.end() - 1, share);
+  const auto k = after - shares.begin();
+  const double from = shares[std::size_t(k - 1)], width = *after - from;
+  const double even = double(k - 1) + (width > 0 ? (share - from) / width : 0.0);
+  return map(std::clamp(even / double(shares.size() - 1), 0.0, 1.0));
+}
+
+// The shares along a line of length_shares.
+std::vector<double> line_of(const std::vector<double>& shares, int n, GridPoint from,
+                            GridPoint step) {
+  std::vector<double> out;
+  for (int k = 0; k <= n; ++k)
+    out.push_back(shares[std::size_t(from.j + k * step.j) * std::size_t(n + 1) +
+                         std::size_t(from.i + k * step.i)]);
   return out;
 }
 
@@ -131,17 +163,22 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
   };
   const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
   std::vector<double> share_u, share_v;
+  std::array<std::vector<double>, 4> line;
   if (place.corner < 0) {
+    const int n = lattice.n();
     share_u = length_shares(lattice, place.face, false);
     share_v = length_shares(lattice, place.face, true);
+    line = {line_of(share_u, n, {0, 0}, {1, 0}), line_of(share_v, n, {n, 0}, {0, 1}),
+            line_of(share_u, n, {0, n}, {1, 0}), line_of(share_v, n, {0, 0}, {0, 1})};
   }
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
     PatchSample sample{lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
                        (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v), true};
     if (place.corner < 0) {
       const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
-      sample.u = share_u[at];
-      sample.v = share_v[at];
+      const double a = share_u[at], b = share_v[at];
+      sample.u = (1 - b) * at_share(below, line[0], a) + b * at_share(above, line[2], a);
+      sample.v = (1 - a) * at_share(left, line[3], b) + a * at_share(right, line[1], b);
     }
     out.samples.push_back(sample);
   });

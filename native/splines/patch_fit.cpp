@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "splines/net_system.h"
 
@@ -13,9 +14,15 @@ namespace {
 // What counts beside distances along the lattice's normals: a cross derivative that leaves the
 // tangent plane of a side, and third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
-// What counts that a sample slides along the patch: on poor surfaces the least lets patches fold.
-constexpr double slides[] = {0.01, 0.1, 1.0};
-constexpr double folded = 0.5;  // radians
+// Tried one after the other until one serves. `slide` is what counts that a sample slides along the
+// patch: on poor surfaces the least lets patches fold. In narrow corners all do, unless `shear`,
+// what the cells of the net being no parallelograms counts, within the patch, keeps their rows apart.
+struct Way {
+  double slide, shear;
+};
+constexpr Way ways[] = {{0.01, 0}, {0.1, 0}, {1, 0}};
+constexpr Way unfolding[] = {{0.1, 0.1}, {0.1, 1}, {1, 0.3}, {1, 1}, {1, 3}};
+constexpr double fold_misses = 1e6;  // of patches that fold, at least
 // Samples move to their feet and the patch is fitted again, as long as that helps.
 constexpr int least_rounds = 2, most_rounds = 8;
 constexpr double improving = 0.7;
@@ -71,28 +78,41 @@ std::array<NetTerm, 8> across_side(const SplinePatch& patch, int side, double t)
 
 double squared(double x) { return x * x; }
 
-// One fit. Without `slide` all directions count alike, and derivatives across sides are not known.
-bool fit_once(const PatchData& data, SplinePatch& patch, const double* slide) {
+void add_shear(double shear, const SplinePatch& patch, NetSystem& system) {
+  const int nu = control_points(patch.spans_u), nv = control_points(patch.spans_v);
+  for (int i = 0; i + 1 < nu; ++i)
+    for (int j = 0; j + 1 < nv; ++j) {
+      const Vec3 n = patch.at((i + 0.5) / (nu - 1), (j + 0.5) / (nv - 1)).normal();
+      const Eigen::Matrix3d within = Eigen::Matrix3d::Identity() - n * n.transpose();
+      system.add(
+          std::array<NetTerm, 4>{{{i, j, 1}, {i, j + 1, -1}, {i + 1, j, -1}, {i + 1, j + 1, 1}}},
+          squared(shear) * within, Vec3::Zero());
+    }
+}
+
+// One fit. Without a way all directions count alike, and derivatives across sides are not known.
+bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   NetSystem system(patch);
   for (const PatchSample& sample : data.samples) {
     if (!sample.fitted) continue;
     Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
-    if (slide) {
+    if (way) {
       const Vec3 n = patch.at(sample.u, sample.v).normal();
-      weight = squared(*slide) * weight + (1 - squared(*slide)) * n * n.transpose();
+      weight = squared(way->slide) * weight + (1 - squared(way->slide)) * n * n.transpose();
     }
     system.add(terms_at(patch, sample.u, sample.v), weight, sample.at);
   }
   system.add_third_differences(rough);
-  if (slide)
+  if (way && way->shear > 0) add_shear(way->shear, patch, system);
+  if (way)
     for (int s = 0; s < 4; ++s)
       for (const SideNormal& n : data.normals[std::size_t(s)]) {
         const SurfacePoint p = on_side(patch, s, n.t);
         const double across = (s % 2 ? p.along_u : p.along_v).norm();
         const double scale = tilt * data.size / across;
         if (std::isfinite(scale))
-          system.add(across_side(patch, s, n.t), squared(scale) * n.normal * n.normal.transpose(),
-                     Vec3::Zero());
+          system.add(across_side(patch, s, n.t),
+                     n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
   if (!system.solve(solved)) return false;
@@ -151,7 +171,21 @@ double misses(const PatchData& data, const FittedPatch& fitted) {
   double angle = 0;
   for (const double side : fitted.side_angle) angle = std::max(angle, side);
   const double miss = std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance);
-  return fitted.turned < folded ? miss : 1e6 * (1 + fitted.turned);
+  return fitted.folds() ? fold_misses * (1 + fitted.turned) : std::min(miss, fold_misses);
+}
+
+FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) {
+  PatchData moved = data;
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < most_rounds; ++round) {
+    const double far = move_to_feet(patch, moved);
+    if (round >= least_rounds && (far <= data.tolerance / 2 || far > improving * before)) break;
+    before = far;
+    fit_once(moved, patch, &way);
+  }
+  FittedPatch out = measured(moved, std::move(patch));
+  out.misses = misses(data, out);
+  return out;
 }
 
 }  // namespace
@@ -168,22 +202,16 @@ SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
 FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
   SplinePatch start = with_sides(data, spans_u, spans_v);
   fit_once(data, start, nullptr);
-  FittedPatch best;
-  for (const double slide : slides) {
-    PatchData moved = data;
-    SplinePatch patch = start;
-    double before = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < most_rounds; ++round) {
-      const double far = move_to_feet(patch, moved);
-      if (round >= least_rounds && (far <= data.tolerance / 2 || far > improving * before)) break;
-      before = far;
-      fit_once(moved, patch, &slide);
+  FittedPatch best = fitted_by(ways[0], data, start);
+  const auto try_all = [&](std::span<const Way> others, double enough) {
+    for (const Way& way : others) {
+      if (best.misses <= enough) return;
+      FittedPatch next = fitted_by(way, data, start);
+      if (next.misses < best.misses) best = std::move(next);
     }
-    FittedPatch next = measured(moved, std::move(patch));
-    next.misses = misses(data, next);
-    if (slide == slides[0] || next.misses < best.misses) best = std::move(next);
-    if (best.misses <= 1) break;
-  }
+  };
+  try_all(std::span(ways).subspan(1), 1);
+  if (!data.may_fold) try_all(unfolding, fold_misses);
   return best;
 }
 

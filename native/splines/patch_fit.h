@@ -18,6 +18,7 @@ struct PatchSample {
 struct SideNormal {
   double t;
   Vec3 normal;
+  double weight = 1;
 };
 
 struct PatchData {
@@ -27,6 +28,7 @@ struct PatchData {
   double size;  // of the model: what an angle weighs against a distance
   // What is asked for, and ends the search.
   double tolerance, normal_tolerance;
+  bool may_fold = false;  // no time is spent against it
 };
 
 struct FittedPatch {
@@ -36,6 +38,8 @@ struct FittedPatch {
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides
   double misses = 0;  // how many times a tolerance it is off; huge where the patch folds
+
+  bool folds() const { return !(turned < 0.5); }
 };
 
 // The sides are refined to the patch's spans, exactly.

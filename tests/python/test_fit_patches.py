@@ -5,6 +5,7 @@ import control_meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from shared_data import SHARED, read_obj
 from spline_measures import basis, evaluate, radii, side_curve, volume
 
 CURVED = {"energy": "total_curvature"}
@@ -16,6 +17,7 @@ SMOOTH = {
     "creases": (control_meshes.drum()[0], {"levels": 6, "crease_edges": control_meshes.drum()[1]}),
     "triangles and quads": (control_meshes.mixed_house(), {"levels": 6, "tolerance": 1e-3}),
 }
+CAT = SHARED / "good" / "cages" / "geometry-central__cat_head.obj"
 
 
 @pytest.fixture(scope="module")
@@ -45,6 +47,37 @@ def test_a_sharper_tolerance_is_met():
     patches = df.fit_patches(*mesh, tolerance=1e-5, **CURVED)
     assert np.abs(radii(patches) / 3**0.5 - 1).max() < 1e-5
     assert patches.levels > 5
+
+
+@pytest.mark.parametrize(
+    ("mesh", "levels"),
+    [
+        (control_meshes.cube(), 5),
+        (control_meshes.cut_quads(control_meshes.cube()), 7),
+        (control_meshes.octahedron(), 7),
+        (control_meshes.mixed_house(), 7),
+    ],
+    ids=["cube", "cube of triangles", "octahedron", "triangles and quads"],
+)
+def test_patches_follow_the_poles_of_curvature_at_vertices(mesh, levels):
+    """Thin plates have one at every control vertex."""
+    patches = df.fit_patches(*mesh, levels=levels)
+    assert patches.levels == levels and not len(patches.unmet)
+    assert patches.largest_residual <= 1e-4 * patches.size
+
+
+def test_the_default_leaves_no_face_of_a_cube_unmet():
+    patches = df.fit_patches(*control_meshes.cube())
+    assert patches.lattice_error > 1e-4 * patches.size  # a figure of its own
+    assert not len(patches.unmet)
+
+
+@pytest.mark.skipif(not CAT.is_file(), reason="no shared meshes")
+def test_patches_in_narrow_corners_do_not_fold():
+    patches = df.fit_patches(*read_obj(CAT), levels=5)
+    assert not len(patches.unresolved)
+    assert np.degrees(patches.turned.max()) < 20
+    assert np.degrees(patches.largest_angle) < 20
 
 
 def test_torus(fitted):
@@ -158,11 +191,11 @@ def test_cancel_and_progress():
         df.fit_patches(*control_meshes.random_hull(), levels=6, progress=stop, **CURVED)
     assert caught.value.code == "CANCELLED"
     seen.clear()
-    df.fit_patches(
-        *control_meshes.cube(), progress=lambda fraction, phase: seen.append(fraction), **CURVED
-    )
-    assert seen == sorted(seen)
-    assert seen[-1] == 1
+    df.fit_patches(*control_meshes.cube(), progress=lambda *heard: seen.append(heard), **CURVED)
+    fractions, phases = zip(*seen)
+    assert fractions == tuple(sorted(fractions))
+    assert seen[-1] == (1, "done")
+    assert "patches" in phases
 
 
 @pytest.mark.parametrize("options", [{"tolerance": 0}, {"normal_tolerance": -1}, {"levels": 1}])
