@@ -5,6 +5,7 @@ import control_meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing import fitting
 from shared_data import SHARED, read_obj
 from spline_measures import basis, evaluate, radii, side_curve, volume
 
@@ -178,6 +179,22 @@ def test_a_surface_that_is_not_resolved_is_refused_by_name():
     assert beside & set(caught.value.elements)
     patches = df.fit_patches(points, faces, levels=3, insist=True)
     assert patches.unresolved.tolist() == caught.value.elements
+
+
+def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
+    """A leaf bent back onto itself: no patch is fitted, and no finer level is computed."""
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]
+    faces = [(0, 1, 2, 3), (1, 4, 5, 2)]
+    levels = []
+    fair = fitting.fair
+    monkeypatch.setattr(
+        fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
+    )
+    with pytest.raises(df.FairingError) as caught:
+        df.fit_patches(points, faces)
+    assert caught.value.code == "UNRESOLVED"
+    assert caught.value.elements
+    assert levels == [fitting.FIRST_LEVEL - 1]
 
 
 def test_cancel_and_progress():

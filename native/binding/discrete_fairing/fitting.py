@@ -23,6 +23,7 @@ FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
 # Points of a surface that is begun with, and of a finer one that a tolerance asks for.
 MOST_POINTS, MOST_FINER_POINTS = 6_000_000, 300_000
 TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
+HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that stays
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
 # The share of the tolerance that the refined surface itself may be off.
 LATTICE_SHARE = 0.5
@@ -113,6 +114,7 @@ def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
         done += 0.4 * (1 - done)
         if at < level:
             coarser = result
+            run.refuse_hopeless(result, at, _finest(count, level) - at, watched["threads"])
             continue
         last = at == LAST_LEVEL or count(at + 1) > MOST_FINER_POINTS
         error = change_between(coarser, result, at) / 3  # of second order
@@ -126,6 +128,13 @@ def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
         if last or not (len(found.unmet) or len(found.unresolved)):
             break
     return run.checked(found)
+
+
+def _finest(count, level: int) -> int:
+    """The last level that `_at_own_level` may come to."""
+    while level < LAST_LEVEL and count(level + 1) <= MOST_FINER_POINTS:
+        level += 1
+    return level
 
 
 class _Run:
@@ -169,8 +178,21 @@ class _Run:
         )
         return SplinePatches(arrays, result, level)
 
+    def refuse_hopeless(self, result: Result, level: int, finer: int, threads: object) -> None:
+        """Refuses what no finer level mends: turns about halve from one to the next."""
+        if self.insist:
+            return
+        turns = _native.lattice_turns(
+            result.vertices, *result.faces, result.crease_edges, level, whole("threads", threads)
+        )
+        bad = turns > min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
+        self._refuse(np.unique(control_polygons(result, level)[bad]).tolist())
+
     def checked(self, patches: SplinePatches) -> SplinePatches:
-        faces = patches.unresolved.tolist()
+        self._refuse(patches.unresolved.tolist())
+        return patches
+
+    def _refuse(self, faces: list[int]) -> None:
         if faces and not self.insist:
             listed = ", ".join(map(str, faces[:5])) + (", …" if len(faces) > 5 else "")
             noun, verb = ("face", "has") if len(faces) == 1 else ("faces", "have")
@@ -181,7 +203,6 @@ class _Run:
                 faces,
                 "face",
             )
-        return patches
 
 
 def change_between(coarse: Result, fine: Result, levels: int) -> float:
