@@ -30,8 +30,8 @@ struct Mirror {
     return !ring.empty() && turn[std::size_t(ring[0].face)] == in_plane;
   }
   bool edge_in_plane(const ControlMesh& mesh, Index e) const {
-    const Edge& edge = mesh.edges[std::size_t(e)];
-    const Index side = edge.side[edge.side[0] < 0 ? 1 : 0];
+    const auto& sides = mesh.edges[std::size_t(e)].side;
+    const Index side = sides[sides[0] < 0 ? 1 : 0];
     return turn[std::size_t(mesh.sides[std::size_t(side)].face)] == in_plane;
   }
 

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inspection of cross-compiled modules: what it reads, what it objects to, and the wheels that were built."""
 
+import re
 import struct
 from importlib import metadata
 
 import pytest
 from cross import python_parts
-from cross.binary import BUILD_VERSION, CODE_SIGNATURE, LOAD_DYLIB, Binary, read
+from cross.binary import BUILD_VERSION, CODE_SIGNATURE, LOAD_DYLIB, Binary, listing, read
 from cross.inspection import faults, faults_of
 from cross.wheels import WHEELS
 from cross.wine import WINE
@@ -70,10 +71,14 @@ def test_a_module_for_macos_is_read(tmp_path):
     assert read(path) == MACOS
 
 
-def test_a_module_for_linux_is_read():
+def installed_module():
     wheel = metadata.distribution("discrete-fairing")
     (module,) = (path for path in wheel.files if path.name.startswith("_native"))
-    found = read(module.locate())
+    return module.locate()
+
+
+def test_a_module_for_linux_is_read():
+    found = read(installed_module())
     assert "libc.so.6" in found.libraries
     assert found.least_system >= (2, 14)
     assert "PyInit__native" in found.exports
@@ -99,3 +104,10 @@ def test_windows_python_has_what_the_import_library_promises(python):
         pytest.skip("Windows' Python was not fetched: `dev.py test windows`")
     names = set(python_parts.definition(python).split()[3:])
     assert names <= set(read(path).exports)
+
+
+def test_the_import_library_has_what_the_binding_uses():
+    table = listing("readelf", "--wide", "--dyn-syms", installed_module())
+    used = set(re.findall(r"\sUND\s+(_?Py\w+)", table))
+    assert len(used) > 100
+    assert used - set(python_parts.definition("cp311").split()[3:]) == set()
