@@ -9,7 +9,17 @@
 
 namespace fairing {
 
-enum class Phase : int { check, hierarchy, curves, solve, constrain, measure, output, patches, done };
+enum class Phase : int {
+  check,
+  hierarchy,
+  curves,
+  solve,
+  constrain,
+  measure,
+  output,
+  patches,
+  done
+};
 
 inline const char* name(Phase phase) {
   switch (phase) {
