@@ -31,6 +31,8 @@ from .transfer.carrier import Carrier
 from .transfer.lattice import fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
 
+NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
+
 
 class Job:
     """The fairing of one object. A failed or cancelled job leaves everything as it was."""
@@ -206,7 +208,11 @@ class Job:
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
         report = self.result.report
-        sentences = [errors.warning_text(self.name, warning) for warning in report["warnings"]]
+        sentences = [
+            errors.warning_text(self.name, warning)
+            for warning in report["warnings"]
+            if warning["code"] != "MEMORY_EXCEEDED" or report["peak_bytes"] >= NOTICED_MEMORY
+        ]
         told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
         if not told and not core.has_converged(report):
             sentences.append(errors.unfinished_text(self.name, energy_name(self.settings.energy)))

@@ -143,6 +143,20 @@ def test_notes_are_told(capfd):
     assert "Custom normals are dropped" in capfd.readouterr().out
 
 
+@pytest.mark.parametrize(("peak", "said"), [(30e6, False), (3e9, True)])
+def test_little_memory_is_not_worth_a_word(peak, said):
+    job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
+    job.compute()
+    notice = {
+        "code": "MEMORY_EXCEEDED",
+        "message": "This took more.",
+        "elements": [],
+        "kind": "mesh",
+    }
+    job.result.report.update(warnings=[notice], peak_bytes=int(peak))
+    assert job.warnings() == (["Box: This took more."] if said else [])
+
+
 def test_a_source_that_is_deleted_meanwhile_is_noticed():
     source = add("Box", *CUBE)
     job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
