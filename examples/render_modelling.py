@@ -63,7 +63,7 @@ def subdivided(control):
 
 
 def faired(_control):
-    bpy.ops.object.fair_surface()
+    bpy.ops.object.fairing_surface()
     return bpy.context.active_object
 
 

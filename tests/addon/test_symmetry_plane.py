@@ -35,7 +35,7 @@ def positions(target):
 
 def fair(source, **options):
     activate(source)
-    assert bpy.ops.object.fair_surface(**{"levels": 3, **options}) == {"FINISHED"}
+    assert bpy.ops.object.fairing_surface(**{"levels": 3, **options}) == {"FINISHED"}
     return bpy.context.object
 
 
@@ -89,4 +89,4 @@ def test_without_a_border_in_the_plane_it_says_so():
     source = half_bowl()
     activate(source)
     with pytest.raises(RuntimeError, match="no border edge lies in the plane y = 0"):
-        bpy.ops.object.fair_surface(levels=1, symmetry_plane="Y")
+        bpy.ops.object.fairing_surface(levels=1, symmetry_plane="Y")
