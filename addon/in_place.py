@@ -4,7 +4,9 @@
 Only what is near takes part: the selection and the faces around it.
 """
 
+from collections.abc import Hashable
 from dataclasses import dataclass
+from time import perf_counter
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -12,9 +14,10 @@ import bmesh
 import numpy as np
 from mathutils import kdtree
 
-from . import core, errors
+from . import core, errors, prediction, size
 from .blender import Context, Object
 from .errors import JobError
+from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.world_shape import world_shape
 from .preferences import preferences
@@ -44,6 +47,7 @@ class Faired:
     """What `apply` needs."""
 
     part: CutOut
+    chosen: np.ndarray  # (r,) ids of the faces that were selected
     points: np.ndarray  # (N, 3) in the object's coordinates, the vertices of `part` first
     # by selected face that was split: the points that all its triangles have, a centre or a diagonal
     splits: dict[int, list[int]]
@@ -51,39 +55,100 @@ class Faired:
     levels: int
 
 
-def compute(context: Context, source: Object, settings: Settings, wish: Wish) -> Faired:
-    """The selected faces of `source`, which is in Edit Mode; JobError says why not. `settings`: what
-    counts as a crease, and the rest that `wish` does not say.
-    """
-    with control_mesh(context, source) as mesh:
-        arrays = read_mesh(mesh)
-        chosen = np.zeros(len(arrays.face_sizes), bool)
-        chosen[selected_faces(mesh, source.name)] = True
-    shape = world_shape(source)
-    refined = wish.levels > 0
-    near = grown(arrays, chosen, _RINGS_REFINED if refined else _RINGS[wish.joint])
-    free = inside(arrays, chosen)
-    _refuse(source.name, arrays, chosen, free, wish)
-    part = cut_out(arrays, near)
-    region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
-    arguments = core.fair_arguments(
-        shape.of_arrays(part.arrays), _settings(settings, wish), preferences(), region
-    )
-    if wish.release or not refined:
-        arguments["interpolation"] = "approximate"
-        arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
-    with errors.explained(source.name):
-        result = core.module().fair(**arguments)
-    points = shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
-    carrier = Carrier(result, part.arrays, arguments["levels"])
-    labels = np.random.default_rng(0).random((len(part.vertices), 3))
-    splits = _split_faces(carrier, part) if refined else {}
-    if any(not common for index, common in splits.items() if chosen[index]):
-        raise JobError(
-            f"{source.name}: a face of many corners is too bent to be refined in place. "
-            "Triangulate it (Ctrl T)."
+class InPlaceJob:
+    """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
+
+    def __init__(self, context: Context, source: Object, settings: Settings, wish: Wish) -> None:
+        """Reads; JobError says why that cannot be. `settings`: what counts as a crease, and the rest
+        that `wish` does not say.
+        """
+        self.name, self._source, self._wish = source.name, Reference(source), wish
+        self.result: Any = None
+        self._arrays, chosen = self._read(context, source)
+        self._shape = world_shape(source)
+        near = grown(self._arrays, chosen, self._rings)
+        free = inside(self._arrays, chosen)
+        _refuse(source.name, self._arrays, chosen, free, wish)
+        self._chosen = chosen
+        self._part = part = cut_out(self._arrays, near)
+        refined = wish.levels > 0
+        region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
+        asked = _settings(settings, wish)
+        self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
+        self._arguments = core.fair_arguments(
+            self._shape.of_arrays(part.arrays), asked, preferences(), region
         )
-    return Faired(part, points, splits, carrier.point(labels), wish.levels)
+        if wish.release or not refined:
+            self._arguments["interpolation"] = "approximate"
+            self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
+
+    @property
+    def _rings(self) -> int:
+        return _RINGS_REFINED if self._wish.levels else _RINGS[self._wish.joint]
+
+    @property
+    def _key(self) -> Hashable:
+        """For predictions: a part of a mesh is another mesh."""
+        return "in place", self._source.key
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return prediction.seconds(self._wish.energy, self.triangles, self._key)
+
+    @staticmethod
+    def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
+        with control_mesh(context, source) as mesh:
+            arrays = read_mesh(mesh)
+            chosen = np.zeros(len(arrays.face_sizes), bool)
+            chosen[selected_faces(mesh, source.name)] = True
+        return arrays, chosen
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core; `watchers` are its `monitor` and `progress`."""
+        begun = perf_counter()
+        arguments, part = self._arguments, self._part
+        with errors.explained(self.name):
+            result = core.module().fair(**arguments, **watchers)
+        points = self._shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
+        carrier = Carrier(result, part.arrays, arguments["levels"])
+        labels = np.random.default_rng(0).random((len(part.vertices), 3))
+        levels = self._wish.levels
+        splits = _split_faces(carrier, part) if levels else {}
+        if any(not common for index, common in splits.items() if self._chosen[index]):
+            raise JobError(
+                f"{self.name}: a face of many corners is too bent to be refined in place. "
+                "Triangulate it (Ctrl T)."
+            )
+        chosen = np.flatnonzero(self._chosen)
+        self.result = Faired(part, chosen, points, splits, carrier.point(labels), levels)
+        self._taken = perf_counter() - begun
+
+    def why_outdated(self, context: Context) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
+        leaves time for edits, undo and other modes.
+        """
+        source = self._source.find()
+        if source is None:
+            return f"{self.name} was deleted or undone during the run: nothing has changed."
+        if source.mode != "EDIT":
+            return f"{self.name} left Edit Mode during the run: nothing has changed."
+        with control_mesh(context, source) as mesh:
+            now = read_mesh(mesh)
+        if (
+            core.same_faces(now, self._arrays)
+            and np.array_equal(now.positions, self._arrays.positions)
+            and self._shape == world_shape(source)
+        ):
+            return ""
+        return (
+            f"{self.name} was edited during the run: nothing more has changed. Fair it once more."
+        )
+
+    def apply(self, factor: float) -> None:
+        """Moves, and with levels refines, the faces; `factor`: how far the old vertices go."""
+        apply(cast(Object, self._source.find()), self.result, factor)
+        prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
 
 
 def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
@@ -184,8 +249,9 @@ def _refine(edited: bmesh.types.BMesh, faired: Faired, factor: float) -> None:
     count = len(edited.verts)
     for row, index in enumerate(faired.part.vertices.tolist()):
         edited.verts[index][label] = faired.labels[row].tolist()
-    for face in [face for face in edited.faces if face.select]:
-        face[chosen] = 1
+    edited.faces.ensure_lookup_table()
+    for index in faired.chosen.tolist():
+        edited.faces[index][chosen] = 1
     _split(edited, faired, label, chosen)
     faces = [face for face in edited.faces if face[chosen]]
     edges = list({edge for face in faces for edge in face.edges})

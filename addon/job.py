@@ -26,7 +26,7 @@ from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
-from .settings import Settings, is_evaluated, snapshot, wants_modifiers
+from .settings import Settings, halves, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
 from .transfer.lattice import fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
@@ -122,9 +122,10 @@ class Job:
         return prediction.seconds(energy, self._work(levels), self._source.key)
 
     def _work(self, levels: int) -> int:
-        """Triangles, of the surface and of each shape."""
+        """Triangles, of the surface and of each shape, mirror images too."""
         shapes = len(self.arguments.get("shapes", ()))
-        return size.triangle_count(self.arrays.face_sizes, levels) * (1 + shapes)
+        one = size.triangle_count(self.arrays.face_sizes, levels)
+        return one * (1 + shapes) * halves(self.settings)
 
     def _to_object(self) -> None:
         """The core's surfaces from the world's shape to the coordinates of the object."""

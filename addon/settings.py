@@ -277,10 +277,6 @@ class FairingSettings:
         subtype="NONE",
     )
 
-    # Presets of development builds set them: settings that are gone, without effect.
-    vertex_release = property(lambda self: 0.0, lambda self, value: None)
-    repair_orientation = property(lambda self: self.repair == "MEND", lambda self, value: None)
-
 
 # of an operator, a property group, or a copy of their values
 Settings: TypeAlias = FairingSettings | SimpleNamespace
@@ -298,6 +294,11 @@ def is_evaluated(settings: Settings) -> bool:
     as modelled.
     """
     return settings.mesh_source == "EVALUATED" and not settings.use_selection
+
+
+def halves(settings: Settings) -> int:
+    """How many times as large as the mesh what is computed is: with its mirror image, twice."""
+    return 1 if settings.symmetry_plane == "NONE" else 2
 
 
 def wants_modifiers(settings: Settings) -> bool:

@@ -3,13 +3,17 @@
 
 from typing import Any
 
+import bmesh
 import numpy as np
-from mathutils import bvhtree, kdtree
+from mathutils import Vector, bvhtree, kdtree
 
 from ..blender import Context, Object
 from ..core import ControlArrays
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import world_matrix, world_shape
+from ..transfer.cut_out import cut_out
+
+_ROUNDING = 1e-4  # share of a distance: Blender's trees are in single precision
 
 
 def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) -> np.ndarray:
@@ -19,12 +23,13 @@ def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) ->
     """
     shape = world_shape(target)
     control, surface = shape.of(control), shape.of(positions)
-    missed = -signed_distances(_tree(surface, read_mesh(target.data)), control)
-    nearest: Any = kdtree.KDTree(len(control))
-    for index, point in enumerate(control):
-        nearest.insert(point, index)
-    nearest.balance()
-    return missed[[nearest.find(point)[1] for point in surface]]
+    nearest, away = _nearest(control, surface)
+    used = np.unique(nearest)
+    arrays = read_mesh(target.data)
+    tree = _tree(surface, arrays, _faces_near(surface, arrays, nearest, away))
+    missed = np.zeros(len(control))
+    missed[used] = -signed_distances(tree, control[used])
+    return missed[nearest]
 
 
 def from_object(
@@ -34,29 +39,78 @@ def from_object(
     seen, in scene units; positive on the outer side of its faces.
     """
     with control_mesh(context, other, evaluated=True) as mesh:
-        arrays = read_mesh(mesh)
-    there = _in_world(other, arrays.positions)
-    return signed_distances(_tree(there, arrays), _in_world(target, positions))
+        there = bmesh.new(use_operators=False)
+        there.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    there.transform(world_matrix(other))
+    there.normal_update()
+    make: Any = bvhtree.BVHTree.FromBMesh
+    tree = make(there)
+    there.free()
+    return signed_distances(tree, _in_world(target, positions))
 
 
 def signed_distances(tree: Any, points: np.ndarray) -> np.ndarray:
     """(n,) of `points` (n, 3) to the surface in the BVH `tree`, positive on its outer side; 0 where
     there is none.
     """
-    out = np.zeros(len(points))
-    for row, point in enumerate(points.tolist()):
-        place, normal, _, distance = tree.find_nearest(point)
-        if place is not None:
-            outside = sum((p - q) * n for p, q, n in zip(point, place, normal))
-            out[row] = distance if outside >= 0.0 else -distance
-    return out
+    find, out = tree.find_nearest, []
+    place: Any = find(points[0].tolist())[0] if len(points) else None
+    if place is None:
+        return np.zeros(len(points))
+    for point in map(Vector, points.tolist()):
+        # points mostly follow one another: the last one's place is near, and makes the search short
+        within = (1.0 + _ROUNDING) * (point - place).length + _ROUNDING * point.length
+        place, normal, _, distance = find(point, within)
+        if place is None:
+            place, normal, _, distance = find(point)
+        out.append(distance if normal.dot(point - place) >= 0.0 else -distance)
+    return np.array(out)
 
 
-def _tree(positions: np.ndarray, arrays: ControlArrays) -> Any:
-    """Of the faces of `arrays` at other `positions`."""
-    faces = np.split(arrays.corners, arrays.offsets[1:-1])
+def _nearest(control: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) of the `control` vertices that which is nearest to each point of the `surface`, and how
+    far it is.
+    """
+    tree: Any = kdtree.KDTree(len(control))
+    for index, point in enumerate(control.tolist()):
+        tree.insert(point, index)
+    tree.balance()
+    find = tree.find
+    nearest = np.fromiter((find(p)[1] for p in surface.tolist()), np.intp, len(surface))
+    return nearest, np.linalg.norm(surface - control[nearest], axis=1)
+
+
+def _faces_near(
+    surface: np.ndarray, arrays: ControlArrays, nearest: np.ndarray, away: np.ndarray
+) -> np.ndarray:
+    """(m,) bool: faces that may be those nearest to some control vertex. It is no farther from the
+    surface than from one of its points, so nobody else need be looked at; most faces lie between
+    the vertices.
+    """
+    if not len(arrays.corners):
+        return np.zeros(0, bool)
+    closest = np.full(int(nearest.max()) + 1, np.inf)
+    np.minimum.at(closest, nearest, away)
+    farthest = closest[np.isfinite(closest)].max()
+    ends = surface[arrays.edges]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    first = arrays.offsets[:-1]
+    across = 0.5 * np.add.reduceat(length[arrays.corner_edges], first)  # no face is wider
+    near: np.ndarray = np.maximum.reduceat(away[arrays.corners], first)
+    return near <= (1.0 + _ROUNDING) * (farthest + across)
+
+
+def _tree(positions: np.ndarray, arrays: ControlArrays, chosen: np.ndarray) -> Any:
+    """Of the faces `chosen` (m,) bool of `arrays`, at other `positions`."""
+    part = cut_out(arrays, chosen)
+    corners, starts, sizes = part.arrays.corners, part.arrays.offsets[:-1], part.arrays.face_sizes
+    faces = [
+        face
+        for size in np.unique(sizes).tolist()
+        for face in corners[starts[sizes == size, None] + np.arange(size)].tolist()
+    ]
     make: Any = bvhtree.BVHTree.FromPolygons
-    return make(positions.tolist(), [face.tolist() for face in faces])
+    return make(positions[part.vertices].tolist(), faces)
 
 
 def _in_world(target: Object, positions: np.ndarray) -> np.ndarray:

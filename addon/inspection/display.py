@@ -22,6 +22,7 @@ CURVATURES = {
 }
 # what is shown in colours, and the attribute that has the numbers
 VALUES = {**CURVATURES, "DEVIATION": "fair_deviation"}
+QUICK = 10_000  # vertices whose deviation takes no longer than a redraw
 # false at borders and sharp edges, whose curvature comes from the neighbours
 INNER = "fair_curvature_measured"
 
@@ -141,14 +142,27 @@ def refresh(target: Object, settings: Any) -> None:
 
 
 def remeasure(target: Object, settings: Any) -> None:
-    """Measures anew what `target` shows in colours; for after its points have moved.
+    """Measures anew what `target` shows in colours, after its points have moved and where that is
+    quick: during a drag. `refresh` does the rest afterwards.
 
     Nothing to do if it shows none.
     """
     mode = target.discrete_fairing_inspection.mode
-    if mode in VALUES:
+    if mode not in VALUES:
+        return
+    if _is_quick(target, mode, settings):
         write_values(target, mode, settings)
-        write_colours(target.data, mode, settings)
+    elif not have_values(target.data, mode):
+        blank = np.zeros(len(target.data.vertices))
+        fill_layer(make_layer(target.data, VALUES[mode], "FLOAT", "POINT"), blank)
+    write_colours(target.data, mode, settings)
+
+
+def _is_quick(target: Object, mode: str, settings: Any) -> bool:
+    """Distances are looked for point by point; from another object also face by face."""
+    if mode != "DEVIATION":
+        return True
+    return settings.deviation_object is None and len(target.data.vertices) <= QUICK
 
 
 def recolour(target: Object, settings: Any) -> None:

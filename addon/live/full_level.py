@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface at all its levels, once edits pause: on a thread, so that the next edit can begin."""
 
+from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -89,6 +90,41 @@ class FullLevel:
         self._queue.cancel()
         if wait:
             self._queue.join()
+
+
+class Schedule:
+    """When the full level begins; then its `run`, None while there is none."""
+
+    def __init__(self) -> None:
+        self._begins: float | None = None
+        self.run: FullLevel | None = None
+
+    @property
+    def is_planned(self) -> bool:
+        return self._begins is not None
+
+    def plan(self) -> None:
+        """It begins once edits have paused."""
+        self._begins = monotonic() + PAUSE
+
+    def drop(self) -> None:
+        """It does not begin."""
+        self._begins = None
+
+    def is_due(self, context: Context, at_once: bool) -> bool:
+        """Whether it is to begin now; `at_once`: without a pause."""
+        return (
+            self._begins is not None
+            and (at_once or monotonic() >= self._begins)
+            and not is_editing(context)
+        )
+
+    def cancel(self, wait: bool = False) -> None:
+        """Of a run that has become worthless; the next is planned."""
+        if self.run is not None:
+            self.run.cancel(wait)
+            self.run = None
+            self.plan()
 
 
 def is_dragging(context: Context) -> bool:

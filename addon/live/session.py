@@ -6,7 +6,6 @@ Called by `handlers`, on Blender's main thread.
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager
-from time import monotonic
 from typing import Any
 
 import bpy
@@ -33,8 +32,8 @@ from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_share
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
-from ..settings import is_evaluated, snapshot
-from .full_level import PAUSE, FullLevel, is_editing
+from ..settings import halves, is_evaluated, snapshot
+from .full_level import FullLevel, Schedule
 from .pace import Clock, Deadline, Pace
 from .registry import why_gone
 
@@ -63,8 +62,7 @@ class Session:
         self.updates = 0
         self._stale = True  # the mesh may not be what was written
         self._mesh: int | str | None = None  # key of the mesh that was built
-        self._due: float | None = None  # when the full level may begin
-        self._full: FullLevel | None = None
+        self._schedule = Schedule()  # of the full level
         self._own: OwnData | None = None  # of the surface at its full level
         self._forget()
 
@@ -154,7 +152,7 @@ class Session:
             self._pace.note(self.level, self._arguments["energy"], clock.total / 1e3)
         self.parts, self.trouble = clock.parts, ""
         self.updates += 1
-        self._due = monotonic() + PAUSE
+        self._schedule.plan()
         return True
 
     def _mesh_now(
@@ -192,7 +190,8 @@ class Session:
         ):
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
-        self._level = self._pace.level(self._chosen, size.coarse_triangles(arrays.face_sizes))
+        computed = size.coarse_triangles(arrays.face_sizes) * halves(self._settings)
+        self._level = self._pace.level(self._chosen, computed)
         world = self._shape.of_arrays(arrays)
         if not (self._edge_length and same_faces(arrays, self._arrays)):
             self._edge_length = mean_edge_length(world)
@@ -251,7 +250,7 @@ class Session:
         self.cancel_full()
         self.trouble = sentence
         self._stale = False
-        self._due = None
+        self._schedule.drop()
 
     def _has_settings_of(self, source: Object, target: Object) -> bool:
         """The scale of the source counts as one."""
@@ -266,39 +265,31 @@ class Session:
     @property
     def is_waiting(self) -> bool:
         """Whether the full level is still to come."""
-        return self._due is not None or self._full is not None
+        return self._schedule.is_planned or self._schedule.run is not None
 
     def cancel_full(self, wait: bool = False) -> None:
         """An edit makes the run worthless; the full level is due again."""
-        if self._full is not None:
-            self._full.cancel(wait)
-            self._full, self._due = None, monotonic() + PAUSE
+        self._schedule.cancel(wait)
 
     def advance(self, context: Context) -> None:
         """Begins the full level when edits have paused, and writes it when it is there."""
-        if self._full is not None and self._full.finished:
+        run = self._schedule.run
+        if run is not None and run.finished:
             self._finish(context)
-        elif self._is_due(context):
+        elif self._schedule.is_due(context, at_once=self.ending):
             full = self._begin(context)
             if full is not None:
                 full.start()
 
-    def _is_due(self, context: Context) -> bool:
-        return (
-            self._due is not None
-            and (self.ending or monotonic() >= self._due)
-            and not is_editing(context)
-        )
-
     def complete(self, context: Context) -> None:
         """The full level now, if it is due: for scripts, and where there is no window."""
-        full = self._begin(context) if self._due is not None else None
+        full = self._begin(context) if self._schedule.is_planned else None
         if full is None:
             return
         try:
             full.compute()
         except JobError as error:
-            self._full = None
+            self._schedule.run = None
             self._fail(str(error))
             return
         self._finish(context)
@@ -307,21 +298,23 @@ class Session:
         source, target = self._present()
         if target.mode == "EDIT":
             return None
-        self._due = None
+        self._schedule.drop()
         try:
-            self._full = FullLevel(context, source, target, self._region, self._arguments)
+            run = FullLevel(context, source, target, self._region, self._arguments)
         except JobError as error:
             self._fail(str(error))
-        return self._full
+            return None
+        self._schedule.run = run
+        return run
 
     def _finish(self, context: Context) -> None:
-        full, self._full = self._full, None
+        full, self._schedule.run = self._schedule.run, None
         assert full is not None
         if full.error is not None:
             self._fail(full.error)
             return
         if self._present()[1].mode == "EDIT":
-            self._due = monotonic() + PAUSE
+            self._schedule.plan()
             return
         job = full.job
         target = job.write(context, self._own)
@@ -336,7 +329,8 @@ class Session:
     @property
     def full_text(self) -> str:
         """How far the full level is, in words; empty while none is computed."""
-        return self._full.text if self._full is not None else ""
+        run = self._schedule.run
+        return run.text if run is not None else ""
 
     @property
     def slower(self) -> list[str]:

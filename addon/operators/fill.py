@@ -86,18 +86,25 @@ def fill_soon(context: Context, targets: Sequence[Object], jobs: Sequence[Job]) 
     for target, job in zip(targets, jobs, strict=True):
         copy_settings(job.settings, target.discrete_fairing)
     _due[:] = map(Reference, targets)
+    invoke_soon(context, cast(Any, bpy.ops.object).fairing_fill, {})
+
+
+def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
+    """Calls an operator of bpy.ops as its button does, in the window at hand, once Blender is done with the
+    present one; not at all where a run has begun meanwhile.
+    """
     window = context.window
-    if window is not None:
-        place = list(context.window_manager.windows).index(window)
-        bpy.app.timers.register(lambda: _start(place), first_interval=0.01)
+    if window is None:
+        return
+    place = list(context.window_manager.windows).index(window)
 
+    def begin() -> None:
+        manager = current_context().window_manager
+        if place < len(manager.windows) and not running():
+            with current_context().temp_override(window=manager.windows[place]):
+                operator("INVOKE_DEFAULT", **properties)
 
-def _start(place: int) -> None:
-    context, operators = current_context(), cast(Any, bpy.ops.object)
-    windows = context.window_manager.windows
-    if place < len(windows) and not running():
-        with context.temp_override(window=windows[place]):
-            operators.fairing_fill("INVOKE_DEFAULT")
+    bpy.app.timers.register(begin, first_interval=0.01)
 
 
 def give_way() -> None:

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Selected Faces in Place: the mesh in Edit Mode itself, by request and with undo."""
 
-from typing import cast
+from collections.abc import Sequence
+from typing import Any, cast
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .. import core, in_place
+from .. import in_place
 from ..blender import Answer, Context, Object, registration
 from ..choices import DEFAULT_ENERGY, ENERGIES, JOINTS
 from ..errors import JobError
-from ..poll import ExplainedPoll
+from . import fill
+from .fair import Fairing, poll_reason
 
 
 def _joints() -> tuple[tuple[str, str, str], ...]:
@@ -22,7 +24,7 @@ def _joints() -> tuple[tuple[str, str, str], ...]:
     return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
 
 
-class OBJECT_OT_fairing_in_place(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
     """Fair the selected faces of this mesh itself: move their vertices, or refine them too. Everything around stays where it is"""
 
     bl_idname = "object.fairing_in_place"
@@ -74,8 +76,8 @@ class OBJECT_OT_fairing_in_place(ExplainedPoll, bpy.types.Operator):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        if core.why_missing():
-            return core.why_missing()
+        if poll_reason(context):
+            return poll_reason(context)
         if context.mode != "EDIT_MESH":
             return "Fairing in place works on the selected faces in Edit Mode: press Tab first"
         return ""
@@ -93,19 +95,31 @@ class OBJECT_OT_fairing_in_place(ExplainedPoll, bpy.types.Operator):
         if self.energy != "MINIMUM_VARIATION":
             layout.prop(self, "tension")
 
-    def execute(self, context: Context) -> Answer:
+    def make_jobs(self, context: Context) -> list[Any]:
         wish = in_place.Wish(self.levels, self.joint, self.energy, self.tension, self.release)
         settings = context.scene.discrete_fairing
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
-        try:
-            if not objects:
-                raise JobError("No face is selected. Select the faces to fair.")
-            found = [in_place.compute(context, target, settings, wish) for target in objects]
-        except JobError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        for target, faired in zip(objects, found, strict=True):
-            in_place.apply(target, faired, self.factor)
+        if not objects:
+            raise JobError("No face is selected. Select the faces to fair.")
+        return [in_place.InPlaceJob(context, target, settings, wish) for target in objects]
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        """Changes the meshes, if nobody else has meanwhile."""
+        for job in jobs:
+            reason = job.why_outdated(context)
+            if reason:
+                self.report({"ERROR"}, reason)
+                return {"CANCELLED"}
+        for job in jobs:
+            job.apply(self.factor)
+        return {"FINISHED"}
+
+    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
+        """From Adjust Last Operation, which cannot wait: the mesh stays for now as it was before,
+        and the same run begins anew by itself.
+        """
+        asked = {name: getattr(self, name) for name in type(self).__annotations__}
+        fill.invoke_soon(context, cast(Any, bpy.ops.object).fairing_in_place, asked)
         return {"FINISHED"}
 
 

@@ -18,7 +18,7 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
 from ..queue import Queue, running, status_text
-from ..settings import Settings, is_evaluated, is_near
+from ..settings import Settings, halves, is_evaluated, is_near
 from .layout import (
     Folded,
     Sidebar,
@@ -112,7 +112,8 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
 def _size_text(settings: Settings, sources: list[Object], triangles: int) -> str:
     """`61,952 triangles, about 12 s`; empty where there are none."""
     mesh = session_key(sources[0]) if len(sources) == 1 else None
-    time = prediction.text(prediction.seconds(settings.energy, triangles, mesh))
+    work = triangles * halves(settings)
+    time = prediction.text(prediction.seconds(settings.energy, work, mesh))
     return ", ".join(filter(None, (size.count_text(triangles), time))) if triangles else ""
 
 

@@ -12,7 +12,7 @@ bpy = pytest.importorskip("bpy")
 
 import addon  # noqa: E402
 from addon import prediction  # noqa: E402
-from addon.live import session  # noqa: E402
+from addon.live import full_level  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -28,4 +28,4 @@ def blender():
 @pytest.fixture
 def no_pause(monkeypatch):
     """Live begins the full level at once."""
-    monkeypatch.setattr(session, "PAUSE", 0.0)
+    monkeypatch.setattr(full_level, "PAUSE", 0.0)

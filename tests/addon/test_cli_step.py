@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cad_files import read_step
+import step_files
 from cli_files import write_obj
 from cli_runs import entries, run
 
@@ -27,7 +27,7 @@ def test_a_file_becomes_a_step_file_in_its_own_numbers():
         {"patches": 6, "solids": 1, "shells": 0}
     ]
     assert 0 < entry["objects"][0]["report"]["off"] < 1e-3
-    found = read_step("new/out.step")
+    found = step_files.read("new/out.step")
     assert (found.valid, found.solids, found.faces) == (True, 2, 12)
     assert np.allclose(found.centre, (2, 0, 0), atol=1e-3)
 
@@ -36,7 +36,7 @@ def test_units_say_what_the_numbers_are():
     write_obj("in.obj")
     assert run("in.obj", "out.stp", "--unit", "m", "--fit-tolerance", "1e-3") == 0
     assert ".METRE." in Path("out.stp").read_text()
-    found = read_step("out.stp")
+    found = step_files.read("out.stp")
     assert 1000 < found.highest[0] < 2500
 
 

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Selected Faces in Place: what moves, what stays, how it joins, and that it is the fair one."""
 
+import bmesh
 import bpy
 import discrete_fairing as df
 import numpy as np
 import pytest
 from scenes import CUBE, activate, add
+
+from addon import prediction
+from addon.in_place import InPlaceJob, Wish
+from addon.operators import fill
+from addon.operators.fair import Fairing
+from addon.queue import Queue
 
 RADIUS = 3.0
 SIZE = 12  # faces a side
@@ -189,3 +196,75 @@ def test_faces_of_many_corners_are_refined_as_the_core_splits_them():
     inner = np.unique(whole.faces[0][whole.triangle_polygon == lid])
     apart = np.abs(after[:, None] - whole.vertices[None, inner]).max(axis=2)
     assert apart.min(axis=0).max() < 1e-5
+
+
+def begun(target, **options):
+    """A job as the button begins it, before it is computed."""
+    wish = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
+    wish = Wish(**wish | {"release": False} | options)
+    return InPlaceJob(bpy.context, target, bpy.context.scene.discrete_fairing, wish)
+
+
+def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():
+    target, _ = cap()
+    expected = fair(target, levels=2)
+    target, _ = cap()
+    job = begun(target, levels=2)
+    assert job.predicted_seconds > 0.0 and job.triangles > 16 * 2 * 16
+    queue = Queue([job], df.Monitor)
+    queue.start()
+    bpy.ops.mesh.select_all(action="DESELECT")  # what is selected meanwhile does not matter
+    queue.join()
+    assert queue.error is None and len(bmesh.from_edit_mesh(target.data).faces) == SIZE**2
+    assert job.why_outdated(bpy.context) == ""
+    job.apply(1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(positions(target), expected)
+
+
+def test_a_cancelled_run_changes_nothing():
+    target, _ = cap()
+    before = positions(target)
+    queue = Queue([begun(target)], df.Monitor)
+    queue.cancel()
+    queue.start()
+    queue.join()
+    assert queue.cancelled and queue.jobs[0].result is None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(positions(target), before)
+
+
+def move_a_vertex(target):
+    edited = bmesh.from_edit_mesh(target.data)
+    edited.verts.ensure_lookup_table()
+    edited.verts[0].co.z += 0.5
+    bmesh.update_edit_mesh(target.data)
+
+
+CHANGES = {
+    "was edited": move_a_vertex,
+    "left Edit Mode": lambda _target: bpy.ops.object.mode_set(mode="OBJECT"),
+    "was deleted": lambda target: bpy.data.objects.remove(target),
+}
+
+
+@pytest.mark.parametrize("said", CHANGES)
+def test_a_mesh_that_changes_during_the_run_is_left_alone(said):
+    target, _ = cap()
+    job = begun(target)
+    job.compute()
+    CHANGES[said](target)
+    assert f"Cap {said}" in job.why_outdated(bpy.context)
+
+
+def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
+    target, _ = cap()
+    before, asked = positions(target), []
+    monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
+    monkeypatch.setattr(prediction, "_AT_FIRST", {"THIN_PLATE": 1.0})
+    monkeypatch.setattr(fill, "invoke_soon", lambda *given: asked.append(given[1:]))
+    after = fair(target, levels=1, factor=0.5)
+    assert np.array_equal(after, before)
+    ((operator, properties),) = asked
+    assert operator.idname_py() == "object.fairing_in_place"
+    assert (properties["levels"], properties["factor"], properties["joint"]) == (1, 0.5, "TANGENT")

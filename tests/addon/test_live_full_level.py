@@ -8,7 +8,6 @@ from live_scenes import box, follow, live, move, session, tick_until
 from scenes import CUBE, activate, add, fair, positions
 
 from addon.live import full_level, handlers, registry
-from addon.live import session as session_module
 
 
 def test_the_full_level_comes_when_the_edit_pauses(no_pause):
@@ -48,7 +47,7 @@ def test_not_before_the_pause():
 
 def test_not_while_the_mouse_drags(no_pause, monkeypatch):
     _, target = box()
-    monkeypatch.setattr(session_module, "is_editing", lambda context: True)
+    monkeypatch.setattr(full_level, "is_editing", lambda context: True)
     handlers.on_timer()
     assert session(target).is_waiting and not session(target).full_text
 

@@ -13,7 +13,7 @@ from scenes import CUBE, add, fair
 import addon
 from addon.operators import presets
 from addon.operators.presets import NOT_KEPT
-from addon.settings import NAMES
+from addon.settings import NAMES, FairingSettings
 from addon.ui import pictures
 from addon.ui.main import PRESET_FOLDER
 
@@ -66,6 +66,7 @@ op = bpy.context.active_operator
 op.interpolation = "APPROXIMATE"
 op.tolerance = 0.005
 op.vertex_release = 0.125
+op.repair_orientation = True
 op.shade_smooth = True
 """
 
@@ -76,7 +77,9 @@ def test_a_preset_from_before_still_opens(tmp_path):
     bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Old.py"))
     assert settings.shade_smooth, "to its last line"
     assert (settings.tolerance, settings.tolerance_unit) == (pytest.approx(0.005), "SCENE")
-    assert settings.get("vertex_release") is None
+    for gone in ("vertex_release", "repair_orientation"):
+        assert gone not in FairingSettings.__dict__ and settings.get(gone) is None
+    assert settings.repair == "MEND"
 
 
 def test_presets_of_the_old_operator_move(tmp_path, monkeypatch):

@@ -7,7 +7,7 @@ from math import pi, sqrt
 import bpy
 import numpy as np
 import pytest
-from cad_files import read_step
+import step_files
 from fake_layout import draw
 from scenes import CUBE, activate, add, fair
 
@@ -44,7 +44,7 @@ def test_a_mesh_becomes_a_solid_by_the_settings_of_the_scene(tmp_path, capfd):
     assert len(told) == 1 and re.fullmatch(
         r"Info: 6 patches, 0\.\d+ mm off, 0\.\d+° at edges", told[0]
     )
-    found = read_step(tmp_path / "ball.step")
+    found = step_files.read(tmp_path / "ball.step")
     assert (found.valid, found.solids, found.faces) == (True, 1, 6)
     radius = 1000 * RADIUS
     assert found.volume == pytest.approx(4 / 3 * pi * radius**3, rel=2e-4)
@@ -59,7 +59,7 @@ def test_place_scale_and_units_are_applied(tmp_path, unit):
     bpy.context.scene.unit_settings.scale_length = 0.01
     path = tmp_path / "ball.step"
     export(path, unit=unit)
-    found = read_step(path)
+    found = step_files.read(path)
     assert found.valid and found.solids == 1 and found.volume > 0
     assert np.allclose(found.centre, (50, -10, 20), atol=0.02)
     size = np.subtract(found.highest, found.lowest)
@@ -72,7 +72,7 @@ def test_a_scene_without_units_keeps_its_numbers(tmp_path):
     ball.location = (5, 0, 0)
     bpy.context.scene.unit_settings.system = "NONE"
     export(tmp_path / "ball.step", unit="MM")
-    assert np.allclose(read_step(tmp_path / "ball.step").centre, (5, 0, 0), atol=1e-4)
+    assert np.allclose(step_files.read(tmp_path / "ball.step").centre, (5, 0, 0), atol=1e-4)
 
 
 def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path):
@@ -85,7 +85,7 @@ def test_a_surface_is_written_by_its_own_settings_where_it_stands(tmp_path):
     path = tmp_path / "ball.step"
     export(path)
     assert names(path) == ["Ball Fair"]
-    found = read_step(path)
+    found = step_files.read(path)
     assert found.solids == 1
     assert np.allclose(found.centre, (7000, 0, 0), atol=0.5)
     assert found.volume == pytest.approx(4 / 3 * pi * (1000 * RADIUS) ** 3, rel=2e-4)
@@ -104,7 +104,7 @@ def test_several_objects_become_parts_with_names_and_colours(tmp_path):
     assert sorted(names(path)) == ["Left", "Right"]
     text = path.read_text()
     assert "COLOUR_RGB('',1.0,0.0,0.0)" in text and "COLOUR_RGB('',0.0,0.0,1.0)" in text
-    assert read_step(path).solids == 2
+    assert step_files.read(path).solids == 2
 
 
 def test_faces_of_two_materials_have_two_colours(tmp_path):

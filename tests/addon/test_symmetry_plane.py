@@ -4,7 +4,13 @@
 import bpy
 import numpy as np
 import pytest
+from fake_layout import draw
 from scenes import activate, add
+
+from addon import prediction
+from addon.job import Job
+from addon.live import pace, registry
+from addon.ui import main
 
 
 def half_bowl():
@@ -90,3 +96,39 @@ def test_without_a_border_in_the_plane_it_says_so():
     activate(source)
     with pytest.raises(RuntimeError, match="no border edge lies in the plane y = 0"):
         bpy.ops.object.fairing_surface(levels=1, symmetry_plane="Y")
+
+
+def test_an_error_names_the_faces_that_are_there():
+    source = half_bowl()
+    activate(source)
+    source.data.polygons[7].flip()
+    with pytest.raises(RuntimeError, match=r"1 face \(7\) looks the other way"):
+        bpy.ops.object.fairing_surface(levels=1, symmetry_plane="X", repair="REFUSE")
+
+
+@pytest.mark.parametrize("energy", ["THIN_PLATE", "TOTAL_CURVATURE"])
+def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
+    source = half_bowl()
+    settings = bpy.context.scene.discrete_fairing
+    settings.levels, settings.energy = 6, energy
+    alone = Job(bpy.context, source, settings)
+    said = draw(main.VIEW3D_PT_fairing)
+    settings.symmetry_plane = "X"
+    half = Job(bpy.context, source, settings)
+    assert half.predicted_seconds == 2 * alone.predicted_seconds
+    assert half.triangles == alone.triangles
+    expected = f"{alone.triangles:,} triangles, {prediction.text(half.predicted_seconds)}"
+    assert expected in draw(main.VIEW3D_PT_fairing) and expected not in said
+
+
+def test_live_counts_both_halves(monkeypatch):
+    source = half_bowl()
+    half = fair(source, symmetry_plane="X", levels=3)
+    monkeypatch.setattr(pace, "MAX_TRIANGLES", 2 * len(half.data.polygons))
+    half.discrete_fairing_live.on = True
+    session = registry.session_of(half)
+    assert session.level == 2
+    half.discrete_fairing.symmetry_plane = "NONE"
+    session.follow(bpy.context.evaluated_depsgraph_get())
+    assert session.level == 3
+    half.discrete_fairing_live.on = False

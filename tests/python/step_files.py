@@ -2,7 +2,11 @@
 """STEP files read back by Open CASCADE (cadquery-ocp-novtk), where that is installed."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 try:
     import OCP.TopAbs as OCP
@@ -14,42 +18,106 @@ ABSENT = "Open CASCADE is missing: pip install cadquery-ocp-novtk, as build_tool
 
 @dataclass(frozen=True)
 class ReadFile:
-    """What Open CASCADE found; lengths in millimetres, which it converts all units to."""
+    """What Open CASCADE found, measured where somebody asks; lengths in millimetres, which it
+    converts all units to.
+    """
 
-    valid: bool
-    solids: int
-    shells: int
-    faces: int
-    free_edges: int
-    shared_edges: int
-    volume: float
-    area: float
+    shape: Any
+
+    @property
+    def valid(self) -> bool:
+        from OCP.BRepCheck import BRepCheck_Analyzer
+
+        return BRepCheck_Analyzer(self.shape).IsValid()
+
+    @property
+    def solids(self) -> int:
+        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_SOLID)
+
+    @property
+    def shells(self) -> int:
+        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_SHELL)
+
+    @property
+    def faces(self) -> int:
+        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_FACE)
+
+    @property
+    def free_edges(self) -> int:
+        return self._faces_of_edges.count(1)
+
+    @property
+    def shared_edges(self) -> int:
+        return self._faces_of_edges.count(2)
+
+    @property
+    def volume(self) -> float:
+        return self._mass("VolumeProperties_s").Mass()
+
+    @property
+    def area(self) -> float:
+        return self._mass("SurfaceProperties_s").Mass()
+
+    @property
+    def centre(self) -> tuple[float, float, float]:
+        """Of the volume."""
+        return _coordinates(self._mass("VolumeProperties_s").CentreOfMass())
+
+    @property
+    def lowest(self) -> tuple[float, float, float]:
+        return _coordinates(self._box.CornerMin())
+
+    @property
+    def highest(self) -> tuple[float, float, float]:
+        return _coordinates(self._box.CornerMax())
+
+    @cached_property
+    def _faces_of_edges(self) -> list[int]:
+        """The number of faces at each edge."""
+        from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
+        from OCP.TopExp import TopExp, TopExp_Explorer
+
+        edges, kind = ShapeMap(), OCP.TopAbs_ShapeEnum.TopAbs_EDGE
+        TopExp.MapShapes_s(self.shape, kind, edges)
+        uses = [0] * edges.Extent()
+        explorer = TopExp_Explorer(self.shape, kind)
+        while explorer.More():
+            uses[edges.FindIndex(explorer.Current()) - 1] += 1
+            explorer.Next()
+        return uses
+
+    @cached_property
+    def _box(self) -> Any:
+        from OCP.Bnd import Bnd_Box
+        from OCP.BRepBndLib import BRepBndLib
+
+        box = Bnd_Box()
+        BRepBndLib.AddOptimal_s(self.shape, box)
+        return box
+
+    def _mass(self, properties: str) -> Any:
+        from OCP.BRepGProp import BRepGProp
+        from OCP.GProp import GProp_GProps
+
+        found = GProp_GProps()
+        getattr(BRepGProp, properties)(self.shape, found, 1e-9)
+        return found
 
 
-def read(path: Path) -> ReadFile:
-    from OCP.BRepCheck import BRepCheck_Analyzer
+def read(path: Path | str) -> ReadFile:
+    """The file at `path`; the test is skipped where Open CASCADE is missing."""
+    if OCP is None:
+        pytest.skip(ABSENT)
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.STEPControl import STEPControl_Reader
 
     reader = STEPControl_Reader()
     assert reader.ReadFile(str(path)) == IFSelect_ReturnStatus.IFSelect_RetDone
     reader.TransferRoots()
-    shape = reader.OneShape()
-    kinds = OCP.TopAbs_ShapeEnum
-    uses = _faces_of_edges(shape)
-    return ReadFile(
-        BRepCheck_Analyzer(shape).IsValid(),
-        _count(shape, kinds.TopAbs_SOLID),
-        _count(shape, kinds.TopAbs_SHELL),
-        _count(shape, kinds.TopAbs_FACE),
-        sum(count == 1 for count in uses),
-        sum(count == 2 for count in uses),
-        _measure(shape, "VolumeProperties_s"),
-        _measure(shape, "SurfaceProperties_s"),
-    )
+    return ReadFile(reader.OneShape())
 
 
-def _count(shape, kind) -> int:
+def _count(shape: Any, kind: Any) -> int:
     from OCP.TopExp import TopExp_Explorer
 
     explorer, count = TopExp_Explorer(shape, kind), 0
@@ -59,26 +127,5 @@ def _count(shape, kind) -> int:
     return count
 
 
-def _faces_of_edges(shape) -> list[int]:
-    """The number of faces at each edge."""
-    from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
-    from OCP.TopExp import TopExp, TopExp_Explorer
-
-    edges = ShapeMap()
-    kinds = OCP.TopAbs_ShapeEnum
-    TopExp.MapShapes_s(shape, kinds.TopAbs_EDGE, edges)
-    uses = [0] * edges.Extent()
-    explorer = TopExp_Explorer(shape, kinds.TopAbs_EDGE)
-    while explorer.More():
-        uses[edges.FindIndex(explorer.Current()) - 1] += 1
-        explorer.Next()
-    return uses
-
-
-def _measure(shape, properties: str) -> float:
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    found = GProp_GProps()
-    getattr(BRepGProp, properties)(shape, found, 1e-9)
-    return found.Mass()
+def _coordinates(point: Any) -> tuple[float, float, float]:
+    return point.X(), point.Y(), point.Z()

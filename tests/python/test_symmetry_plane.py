@@ -4,35 +4,10 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from half_hulls import COUNT, hull, whole
 
-COUNT = 7
 TIGHT = {"relative_residual": 1e-11, "step_tolerance": 1e-10}
 ENDS = [0, 4 * (COUNT - 1)]  # of the keel
-
-
-def hull(jitter=0.0):
-    """Half a boat: rows of vertices from the keel, in the plane y = 0, up to the deck."""
-    along, up = np.meshgrid(np.linspace(-3, 3, COUNT), np.linspace(0, 1, 4), indexing="ij")
-    beam = (1 - (along / 3.5) ** 2) * np.sin(up * 1.4)
-    points = np.stack([along, beam, up + 0.1 * along**2 / 9], axis=-1).reshape(-1, 3)
-    points[points[:, 1] < 1e-12, 1] = jitter
-    faces = [
-        [4 * i + j, 4 * i + j + 1, 4 * i + j + 5, 4 * i + j + 4]
-        for i in range(COUNT - 1)
-        for j in range(3)
-    ]
-    return points, np.array(faces)
-
-
-def whole(points, faces):
-    """Both halves, joined at the keel by hand."""
-    keel = np.flatnonzero(points[:, 1] == 0)
-    image = np.arange(len(points)) + len(points)
-    image[keel] = keel
-    others = np.setdiff1d(np.arange(len(points)), keel)
-    image[others] = len(points) + np.arange(len(others))
-    both = np.concatenate([points, points[others] * [1, -1, 1]])
-    return both, np.concatenate([faces, image[faces[:, ::-1]]])
 
 
 @pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])

@@ -79,13 +79,14 @@ def predicted_size(
     levels: int,
     shapes: int = 0,
     energy: str = "thin_plate",
+    halved: bool = False,
 ) -> dict[str, int]:
     """The size of a surface and the memory of its run, without running it.
 
     `faces`, `levels` and `energy` are those of fair(), `vertex_count` and `shapes` are numbers.
-    Returns "vertices" and "triangles" of the refined surface, and "bytes", the peak of the run's
-    own arrays. Quads that will be split count as quads. Raises FairingError BAD_SHAPE and
-    BAD_OPTION.
+    `halved`: the mesh will have a symmetry_plane. Returns "vertices" and "triangles" of the refined
+    surface, and "bytes", the peak of the run's own arrays, of both halves where it is halved. Quads
+    that will be split count as quads. Raises FairingError BAD_SHAPE and BAD_OPTION.
     """
     count, depth, more = (
         whole(name, value)
@@ -97,4 +98,12 @@ def predicted_size(
         )
     functional = choice(_native.Energy)("energy", energy)
     corners, offsets = face_arrays(faces)
-    return _native.predicted_size(count, corners, offsets, depth, more, functional)
+
+    def of(copies: int) -> dict[str, int]:
+        every, shift = np.arange(copies)[:, None], count * np.arange(copies)[:, None]
+        starts = np.append(offsets[:-1] + len(corners) * every, copies * len(corners))
+        ids = (corners + shift).ravel()
+        return _native.predicted_size(copies * count, ids, starts, depth, more, functional)
+
+    size = of(1)
+    return {**size, "bytes": of(2)["bytes"]} if switch("halved", halved) else size

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 
 from numpy.typing import ArrayLike
 
@@ -184,7 +185,8 @@ def fair(
         points, others, settings = half.points(points), half.points(others), half.settings(settings)
         corners, offsets = half.faces(corners, offsets)
     options = native_options(**settings)
-    found = _native.fair(
-        points, corners, offsets, others, options, monitor or _native.Monitor(), progress
-    )
+    with half.named() if half else nullcontext():
+        found = _native.fair(
+            points, corners, offsets, others, options, monitor or _native.Monitor(), progress
+        )
     return Result(half.cut(found) if half else found)

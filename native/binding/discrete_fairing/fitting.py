@@ -100,8 +100,10 @@ def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
     """Finer and finer surfaces, until one serves or the next is too large."""
     energy = options.get("energy", "thin_plate")
 
+    halves = 1 if options.get("symmetry_plane") is None else 2
+
     def count(level):
-        return predicted_size(len(points), polygons, level, 0, energy)["vertices"]
+        return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
 
     level = FIRST_LEVEL
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:

@@ -7,14 +7,20 @@ as one.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
+from ._native import FairingError
 from .errors import fairing_error
+from .listing import listing, relisted
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
+# settings that name elements, and what of
+_IDS = {"crease_edges": "vertex", "corner_vertices": "vertex", "region": "face"}
 
 
 class Half:
@@ -31,6 +37,8 @@ class Half:
             )
         self.plane, self.axis = plane, PLANES[plane]
         self.vertex_count, self.face_count = len(points), len(offsets) - 1
+        # an id that the mesh does not have would be that of an image
+        _refuse_unknown("faces", "vertex", corners, self.vertex_count)
         self._image = np.arange(len(points)) + len(points)
         shared = self._shared(points, corners, offsets)
         self._image[shared] = shared
@@ -88,17 +96,39 @@ class Half:
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
                 values = np.asarray(values)
                 given[name] = np.concatenate([values, values[self._copied]])
-        for name in ("crease_edges", "corner_vertices"):
+        for name, kind in _IDS.items():
             ids = given.get(name)
-            if ids is not None and np.size(ids):
-                ids = np.asarray(ids)
-                if ids.dtype.kind in "iu" and ids.min() >= 0 and ids.max() < self.vertex_count:
-                    given[name] = np.concatenate([ids, self._image[ids]])
-        region = given.get("region")
-        if region is not None and np.ndim(region) == 1:
-            region = np.asarray(region)
-            given["region"] = np.concatenate([region, region + self.face_count])
+            if ids is None or not np.size(ids):
+                continue
+            ids = np.asarray(ids)
+            of_vertices = kind == "vertex"
+            _refuse_unknown(name, kind, ids, self.vertex_count if of_vertices else self.face_count)
+            images = self._image[ids] if of_vertices else ids + self.face_count
+            given[name] = np.concatenate([ids, images])
         return given
+
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Inside the `with` errors of the core name elements of the half."""
+        try:
+            yield
+        except FairingError as error:
+            own = self._own(error.elements, error.kind)
+            message = relisted(str(error), error.kind, own)
+            if error.code == "TOO_LARGE":
+                message = message.replace(" triangles", " triangles of both halves", 1)
+            raise fairing_error(error.code, message, own, error.kind) from None
+
+    def _own(self, elements: Sequence[int], kind: str) -> list[int]:
+        """The elements of the half that these of the double are, or are images of; each once."""
+        if kind == "face":
+            return list(dict.fromkeys(face % self.face_count for face in elements))
+        origin = np.concatenate([np.arange(self.vertex_count), self._copied])
+        own = origin[np.asarray(elements, int)].tolist()
+        if kind != "edge":
+            return list(dict.fromkeys(own))
+        pairs = {frozenset(pair): pair for pair in reversed(list(zip(own[::2], own[1::2])))}
+        return [vertex for pair in reversed(pairs.values()) for vertex in pair]
 
     def cut(self, whole: dict[str, Any]) -> dict[str, Any]:
         """What the core made of the double → of the half."""
@@ -151,11 +181,34 @@ class Half:
         }
 
     def _cut_report(self, report: dict[str, Any]) -> dict[str, Any]:
-        """Lists of values a vertex; all other numbers are the double's."""
-        pads = report.get("pads")
-        if not isinstance(pads, dict) or "widths" not in pads:
-            return report
-        return {**report, "pads": {**pads, "widths": pads["widths"][: self.vertex_count]}}
+        """What names elements, and lists of values a vertex; all other numbers are the double's."""
+        given = dict(report)
+        for name in ("warnings", "repairs"):
+            given[name] = [self._cut_entry(entry) for entry in report[name]]
+        given["flipped_faces"] = self._own(report["flipped_faces"], "face")
+        pads = report["pads"]
+        given["pads"] = {**pads, "widths": pads["widths"][: self.vertex_count]}
+        return given
+
+    def _cut_entry(self, entry: dict[str, Any]) -> dict[str, Any]:
+        own = self._own(entry["elements"], entry["kind"])
+        message = relisted(entry["message"], entry["kind"], own)
+        return {**entry, "elements": own, "message": message}
+
+
+def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
+    """An error for ids that the mesh does not have; other faults of a setting are for the core."""
+    if ids.dtype.kind not in "iu" or not ids.size:
+        return
+    unknown = np.unique(ids[(ids < 0) | (ids >= count)]).tolist()
+    if unknown:
+        raise fairing_error(
+            "INDEX_OUT_OF_RANGE",
+            f"{listing(kind, unknown)} named in {name} but not in the mesh: "
+            f"ids run from 0 to {count - 1}.",
+            unknown,
+            kind,
+        )
 
 
 def _first_of_their_kind(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:

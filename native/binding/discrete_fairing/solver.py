@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from threading import Lock
 from typing import Any
 
@@ -63,7 +63,8 @@ class Solver:
             half = self._half = Half(points, corners, offsets, symmetry_plane)
             options = native_options(**half.settings(settings))
             points, (corners, offsets) = half.points(points), half.faces(corners, offsets)
-        self._native = _native.Solver(points, corners, offsets, options)
+        with self._named():
+            self._native = _native.Solver(points, corners, offsets, options)
         self._constants = self._native.constants()
         self._busy = Lock()
         self._levels = options.levels
@@ -115,7 +116,7 @@ class Solver:
         """
         check_watchers(progress, monitor)
         points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
-        with self._alone():
+        with self._alone(), self._named():
             solved = self._native.solve(points, monitor, progress)
             found = {**self._constants, "shapes": [], **solved}
             return Result(self._half.cut(found) if self._half else found)
@@ -127,7 +128,7 @@ class Solver:
         Raises FairingError as fair() does for bad geometry, and then changes nothing.
         """
         points = self._positions(vertices)
-        with self._alone():
+        with self._alone(), self._named():
             self._native.rebase(points)
 
     def _positions(self, vertices: ArrayLike) -> np.ndarray:
@@ -139,6 +140,9 @@ class Solver:
                 "as at the start.",
             )
         return self._half.points(points) if self._half else points
+
+    def _named(self) -> AbstractContextManager[None]:
+        return self._half.named() if self._half else nullcontext()
 
     @contextmanager
     def _alone(self) -> Iterator[None]:

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Deviation in colours: the right distances, from few faces, and none that a drag would wait for."""
+
+import bpy
+import numpy as np
+import pytest
+from live_scenes import box, follow, move, session
+from mathutils import bvhtree
+from scenes import activate, add_suzanne, positions
+
+from addon.inspection import deviation, display
+from addon.mesh.read import read_mesh
+
+
+def near_surface():
+    source = add_suzanne()
+    options = {"interpolation": "APPROXIMATE", "relative_tolerance": 0.05}
+    bpy.ops.object.fairing_surface(levels=3, **options)
+    return source, bpy.context.object
+
+
+def brute_force(arrays, points):
+    """Signed distances by a tree of all faces, each search by itself."""
+    faces = [arrays.corners[a:b].tolist() for a, b in zip(arrays.offsets[:-1], arrays.offsets[1:])]
+    tree = bvhtree.BVHTree.FromPolygons(arrays.positions.tolist(), faces)
+    found = [tree.find_nearest(point) for point in points.tolist()]
+    places, normals = (np.array([tuple(item[i]) for item in found]) for i in (0, 1))
+    outside = ((points - places) * normals).sum(axis=1) >= 0.0
+    return np.where(outside, 1.0, -1.0) * [item[3] for item in found]
+
+
+def test_from_vertices_few_faces_are_enough(monkeypatch):
+    source, surface = near_surface()
+    arrays, control = read_mesh(surface.data), positions(source.data).astype(float)
+    used, make = [], deviation._tree
+    monkeypatch.setattr(deviation, "_tree", lambda *a: used.append(a[2].mean()) or make(*a))
+    found = deviation.from_vertices(surface, arrays.positions, control)
+    apart = np.linalg.norm(arrays.positions[:, None] - control[None], axis=2)
+    expected = -brute_force(arrays, control)[apart.argmin(axis=1)]
+    assert np.abs(expected).max() > 1e-3 and np.allclose(found, expected, atol=1e-6)
+    assert used[0] < 0.5, "of the faces"
+
+
+@pytest.mark.parametrize("order", ["as they follow", "any"])
+def test_from_an_object_each_search_begins_at_the_last_place(order):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    ball = bpy.context.object
+    arrays, rng = read_mesh(ball.data), np.random.default_rng(3)
+    points = arrays.positions * rng.uniform(0.5, 1.5, (len(arrays.positions), 1))
+    if order == "any":
+        rng.shuffle(points)
+    found = deviation.from_object(bpy.context, ball, points, ball)
+    expected = brute_force(arrays, points)
+    assert (found < -0.1).any() and (found > 0.1).any()
+    assert np.allclose(found, expected, atol=1e-5)
+
+
+def test_nothing_is_measured_from_a_mesh_without_faces():
+    _, surface = near_surface()
+    bpy.ops.mesh.primitive_plane_add()
+    bare = bpy.context.object
+    bare.data.clear_geometry()
+    points = read_mesh(surface.data).positions
+    assert not deviation.from_object(bpy.context, surface, points, bare).any()
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_a_drag_waits_for_no_measurement(monkeypatch, no_pause, quick):
+    source, target = box()
+    activate(target)
+    bpy.ops.object.fairing_inspect(mode="DEVIATION")
+    monkeypatch.setattr(display, "QUICK", 10**6 if quick else 0)
+    measured, measure = [], deviation.from_vertices
+    monkeypatch.setattr(deviation, "from_vertices", lambda *a: measured.append(1) or measure(*a))
+    measured.clear()
+    move(source)
+    follow()
+    assert bool(measured) == quick
+    assert len(target.data.vertices) == len(target.data.attributes["fair_deviation"].data)
+    assert display.COLOUR in target.data.color_attributes
+    measured.clear()
+    session(target).complete(bpy.context)
+    assert measured, "with the full level"

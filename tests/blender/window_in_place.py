@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair Selected Faces in Place in a window: the view lives meanwhile, ESC and Cancel end it, undo takes it back."""
+
+import importlib
+import sys
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bmesh
+import bpy
+import harness
+import numpy as np
+
+SIZE = 160  # faces a side: a run of some seconds
+MARGIN = 2  # rows at the border that are not selected
+PATIENCE = 300.0  # seconds until a run must have ended
+
+
+def module(name):
+    return importlib.import_module(f"{harness.EXTENSION}.{name}")
+
+
+def running():
+    """The extension's queue at work, or None."""
+    return module("queue").running()
+
+
+def positions(target):
+    edited = bmesh.from_edit_mesh(target.data)
+    return np.array([tuple(vertex.co) for vertex in edited.verts])
+
+
+def noisy_grid():
+    """In Edit Mode, all but its margin selected; a generator that returns it."""
+    for other in list(bpy.data.objects):
+        bpy.data.objects.remove(other)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIZE, y_subdivisions=SIZE, size=4)
+        target = bpy.context.object
+        points = np.empty(3 * len(target.data.vertices), np.float32)
+        target.data.vertices.foreach_get("co", points)
+        points[2::3] = np.random.default_rng(0).uniform(-0.02, 0.02, len(points) // 3)
+        target.data.vertices.foreach_set("co", points)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="FACE")
+        for face in bmesh.from_edit_mesh(target.data).faces:
+            x, y, _ = face.calc_center_median()
+            face.select_set(max(abs(x), abs(y)) < 2.0 - 4.0 * MARGIN / SIZE)
+        bmesh.update_edit_mesh(target.data)
+        bpy.ops.ed.undo_push(message="the grid is there")
+    yield 1.0
+    return target
+
+
+def start(**options):
+    with bpy.context.temp_override(**harness.view()):
+        return bpy.ops.object.fairing_in_place("INVOKE_DEFAULT", **options)
+
+
+def until_it_ends():
+    """Waits for the run; a generator that returns how often the window had its turn meanwhile."""
+    begun, turns = perf_counter(), 0
+    while running():
+        assert perf_counter() - begun < PATIENCE, "the run does not end"
+        turns += 1
+        yield 0.05
+    yield 0.5
+    return turns
+
+
+def test_a_long_run_leaves_the_window_alive_and_is_undone_in_one_step():
+    target = yield from noisy_grid()
+    before = positions(target)
+    assert start() == {"RUNNING_MODAL"}
+    yield 0.3
+    harness.photograph("in_place_progress")
+    turns = yield from until_it_ends()
+    assert turns > 5, f"the window had {turns} turns"
+    after = positions(target)
+    assert target.mode == "EDIT" and np.abs(after - before).max() > 0.01
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 0.5
+    assert np.array_equal(positions(bpy.context.object), before)
+
+
+def test_escape_and_the_button_cancel_change_nothing():
+    target = yield from noisy_grid()
+    before = positions(target)
+    for end in (lambda: harness.xdotool("key", "Escape"), bpy.ops.object.fairing_cancel):
+        assert start(energy="TOTAL_CURVATURE") == {"RUNNING_MODAL"}
+        yield 0.5
+        end()
+        yield from until_it_ends()
+        assert target.mode == "EDIT" and np.array_equal(positions(target), before)
+
+
+def test_an_edit_meanwhile_is_kept_and_the_run_refused():
+    target = yield from noisy_grid()
+    assert start() == {"RUNNING_MODAL"}
+    edited = bmesh.from_edit_mesh(target.data)
+    edited.verts.ensure_lookup_table()
+    edited.verts[0].co.z = 1.0
+    bmesh.update_edit_mesh(target.data)
+    before = positions(target)
+    yield from until_it_ends()
+    assert np.array_equal(positions(target), before)
+
+
+def test_a_short_run_is_done_at_once():
+    target = yield from noisy_grid()
+    for face in bmesh.from_edit_mesh(target.data).faces:
+        x, y, _ = face.calc_center_median()
+        face.select_set(max(abs(x), abs(y)) < 0.2)
+    bmesh.update_edit_mesh(target.data)
+    before = positions(target)
+    assert start() == {"FINISHED"}
+    assert not np.array_equal(positions(target), before)
+
+
+harness.run_in_window(globals())
