@@ -89,16 +89,34 @@ class Half:
                 values = np.asarray(values)
                 given[name] = np.concatenate([values, values[self._copied]])
         for name in ("crease_edges", "corner_vertices"):
-            ids = given.get(name)
-            if ids is not None and np.size(ids):
-                ids = np.asarray(ids)
-                if ids.dtype.kind in "iu" and ids.min() >= 0 and ids.max() < self.vertex_count:
-                    given[name] = np.concatenate([ids, self._image[ids]])
+            if given.get(name) is not None:
+                given[name] = self._with_images(name, given[name])
+        if given.get("boundary_edges") is not None:
+            given["boundary_edges"] = {
+                mode: self._with_images("boundary_edges", pairs)
+                for mode, pairs in given["boundary_edges"].items()
+            }
         region = given.get("region")
         if region is not None and np.ndim(region) == 1:
             region = np.asarray(region)
             given["region"] = np.concatenate([region, region + self.face_count])
         return given
+
+    def _with_images(self, name: str, ids: Any) -> np.ndarray:
+        """Vertices, and what they are in the other half. Refuses those that only the other half has."""
+        array = np.asarray(ids)
+        if not array.size:
+            return array
+        unknown = np.unique(array[(array < 0) | (array >= self.vertex_count)]).tolist()
+        if unknown:
+            raise fairing_error(
+                "INDEX_OUT_OF_RANGE",
+                f"Vertex {unknown[0]} is named among {name} but not in the mesh: ids run from 0 to "
+                f"{self.vertex_count - 1}.",
+                unknown,
+                "vertex",
+            )
+        return np.concatenate([array, self._image[array]])
 
     def cut(self, whole: dict[str, Any]) -> dict[str, Any]:
         """What the core made of the double → of the half."""
