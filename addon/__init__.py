@@ -13,6 +13,7 @@ from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch
 from .mesh import mesh_changes
 from .operators import (
+    boundary,
     cancel,
     check,
     compare,
@@ -48,6 +49,7 @@ _MODULES = (
     fill,
     cancel,
     in_place,
+    boundary,
     compare,
     live,
     check,

@@ -72,6 +72,14 @@ BOUNDARIES = (
     ("FREE", "Free", "Open borders go where the surface takes them, fixed only at their vertices"),
 )
 
+# of single border edges, numbered as their attribute has them (mesh/boundary_marks.py)
+EDGE_BOUNDARIES = (
+    ("CURVE", "Smooth", "Part of a smooth curve through the vertices of the border", 1),
+    ("LINEAR", "Straight", "The edge stays straight", 2),
+    ("FREE", "Free", "Between its vertices the edge goes where the surface takes it", 3),
+    ("SURFACE", "As the Surface", "As the setting Boundary says for the whole surface", 0),
+)
+
 # what the mesh is half of; its mirror image lies across the object's own plane
 SYMMETRY_PLANES = (
     ("NONE", "None", "The mesh is all there is"),

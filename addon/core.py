@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from .choices import EDGE_BOUNDARIES
+
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
 
@@ -49,6 +51,8 @@ class ControlArrays:
     edge_crease: np.ndarray | None  # (e,) float32
     vertex_crease: np.ndarray | None  # (n,) float32
     sharp_edge: np.ndarray | None  # (e,) bool
+    # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
+    boundary_edge: np.ndarray | None = None
 
     @property
     def face_sizes(self) -> np.ndarray:
@@ -92,6 +96,7 @@ def fair_arguments(
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
         "boundary": settings.boundary.lower(),
+        "boundary_edges": boundary_edges(arrays),
         "repair": settings.repair.lower(),
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
         "threads": preferences.threads,
@@ -155,6 +160,21 @@ def crease_edges(
         chosen |= arrays.sharp_edge
     chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
     return arrays.edges[chosen]
+
+
+def boundary_edges(arrays: ControlArrays) -> dict[str, np.ndarray]:
+    """Vertex pairs (k, 2) int32 of the edges that are marked with a boundary of their own, by its
+    name. Edges without a face are left out.
+    """
+    if arrays.boundary_edge is None:
+        return {}
+    used = _occurs(arrays.corner_edges, len(arrays.edges))
+    marked = {
+        key.lower(): arrays.edges[used & (arrays.boundary_edge == number)]
+        for key, *_, number in EDGE_BOUNDARIES
+        if number
+    }
+    return {name: edges for name, edges in marked.items() if len(edges)}
 
 
 def corner_vertices(arrays: ControlArrays, crease_threshold: float | None = None) -> np.ndarray:

@@ -33,6 +33,7 @@ class Variant:
     key: float = 0.0  # the value of the second shape key, if there is one
     as_it_is: bool = False  # the control mesh itself, not faired
     wires: bool = True  # on it
+    make: object = None  # another mesh than the figure's
 
 
 @dataclass(frozen=True)
@@ -105,6 +106,17 @@ FIGURES = {
             Variant("Smooth", {"boundary": "CURVE"}),
             Variant("Straight", {"boundary": "LINEAR"}),
             Variant("Free", {"boundary": "FREE"}),
+        ),
+        SMOOTH,
+    ),
+    "boundary_edges": Figure(
+        meshes.tent,
+        View(3.2, turn=20, elevation=30, height=0.85),
+        (
+            Variant("Control mesh", as_it_is=True),
+            Variant("Smooth all around"),
+            Variant("One side Straight", make=lambda: meshes.tent_with_side(2)),
+            Variant("One side Free", make=lambda: meshes.tent_with_side(3)),
         ),
         SMOOTH,
     ),
@@ -235,7 +247,7 @@ def draw(figure, path):
 
 def draw_variant(figure, variant, tile):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    control = figure.make()
+    control = (variant.make or figure.make)()
     surfaces = [control]
     wired = variant.as_it_is and variant.wires or figure.view.wires
     if not variant.as_it_is:

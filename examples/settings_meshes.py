@@ -115,6 +115,15 @@ def tent():
     return add(_lifted(vertices, 0.35), faces)
 
 
+def tent_with_side(boundary):
+    """The same with a boundary of its own along the side in front: 2 straight, 3 free."""
+    control = tent()
+    points = [v.co for v in control.data.vertices]
+    values = [boundary * all(points[v].y == -1 for v in e.vertices) for e in control.data.edges]
+    control.data.attributes.new("fair_boundary", "INT", "EDGE").data.foreach_set("value", values)
+    return control
+
+
 def _lifted(vertices, height):
     """One more vertex, of no face, which stands on the floor, so that what lies flat does not."""
     return [*vertices, (0, 0, -height)]

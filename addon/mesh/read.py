@@ -13,6 +13,7 @@ from ..blender import Context, Mesh, Object
 from ..core import ControlArrays
 from ..errors import JobError
 from ..settings import Settings, is_near
+from .boundary_marks import BOUNDARY
 from .layers import STORAGE, find_layer, layer_values
 
 
@@ -115,6 +116,7 @@ def read_mesh(mesh: Mesh) -> ControlArrays:
         edge_crease=_optional(mesh, "crease_edge", "EDGE", "FLOAT"),
         vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT"),
         sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
+        boundary_edge=_optional(mesh, BOUNDARY, "EDGE", "INT"),
     )
 
 

@@ -12,6 +12,7 @@ from ..core import ControlArrays
 from ..settings import Settings
 from ..transfer.carrier import Carrier
 from ..transfer.lattice import fine_edges, mark_pairs
+from .boundary_marks import BOUNDARY
 from .layers import SurfaceData, fill_layer, make_layer, write_data
 
 PAD_SIZES = "fair_pad_size"
@@ -81,7 +82,7 @@ def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    made = (PAD_SIZES, *FAULTS.values())
+    made = (PAD_SIZES, BOUNDARY, *FAULTS.values())
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 

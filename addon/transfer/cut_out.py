@@ -62,5 +62,14 @@ def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
         edge_crease=of(arrays.edge_crease, edges),
         vertex_crease=of(arrays.vertex_crease, vertices),
         sharp_edge=of(arrays.sharp_edge, edges),
+        boundary_edge=of(_on_border(arrays), edges),
     )
     return CutOut(part, vertices, faces)
+
+
+def _on_border(arrays: ControlArrays) -> np.ndarray | None:
+    """The marks of edges on the border: those inside, which a cut would lay bare, have no say."""
+    if arrays.boundary_edge is None:
+        return None
+    uses = np.bincount(arrays.corner_edges, minlength=len(arrays.edges))
+    return np.where(uses == 1, arrays.boundary_edge, 0)

@@ -33,10 +33,12 @@ def draw_shape(
     triangle_text: str = "",
     tolerance_text: str = "",
     missing_groups: dict[str, str] | None = None,
+    edges_text: str = "",
 ) -> None:
     """The few that everyone needs. What is known of the source stands below what it is about,
     since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
-    relative tolerance comes to, and which groups are not there.
+    relative tolerance comes to, which groups are not there, and `edges_text`, the border edges that
+    are other than the setting says.
     """
     layout.prop(settings, "levels")
     if triangle_text:
@@ -51,6 +53,8 @@ def draw_shape(
     row.active = settings.energy != "MINIMUM_VARIATION"
     row.prop(settings, "tension")
     layout.prop(settings, "boundary")
+    if edges_text:
+        _remark(layout, edges_text)
     layout.row().prop(settings, "symmetry_plane", expand=True)
 
 

@@ -12,6 +12,7 @@ from ..blender import Context, Object, registration
 from ..core import mean_edge_length, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
+from ..mesh import boundary_marks
 from ..mesh.mesh_changes import coarse_triangles
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
@@ -75,6 +76,9 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
             missing_groups(settings, sources),
+            boundary_marks.summary(
+                o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
+            ),
         )
         if triangles >= size.LARGE:
             draw_notice(

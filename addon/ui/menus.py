@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 
 from ..blender import Context
+from ..choices import EDGE_BOUNDARIES
 from ..inspection.settings import MODES
 
 
@@ -34,6 +35,20 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
             button.mode = mode
 
 
+class VIEW3D_MT_fairing_boundary(bpy.types.Menu):
+    bl_label = "Fairing Boundary"
+
+    def draw(self, _context: Context) -> None:
+        layout: Any = self.layout
+        for key, name, *_ in EDGE_BOUNDARIES:
+            layout.operator("object.fairing_boundary", text=name).boundary = key
+        layout.separator()
+        for key, name, *_, number in EDGE_BOUNDARIES:
+            if number:
+                button = layout.operator("object.fairing_select_boundary", text=f"Select {name}")
+                button.boundary = key
+
+
 def _draw_one(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
@@ -56,6 +71,11 @@ def _draw_faces(menu: Any, _context: Context) -> None:
     menu.layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
 
 
+def _draw_edges(menu: Any, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.menu(VIEW3D_MT_fairing_boundary.__name__)
+
+
 def _draw_export(menu: Any, _context: Context) -> None:
     menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
 
@@ -65,6 +85,7 @@ _ENTRIES = {
     "VIEW3D_MT_object_context_menu": _draw_one,
     "VIEW3D_MT_edit_mesh": _draw_all,
     "VIEW3D_MT_edit_mesh_context_menu": _draw_faces,
+    "VIEW3D_MT_edit_mesh_edges": _draw_edges,
     "VIEW3D_MT_edit_mesh_faces": _draw_faces,
     "TOPBAR_MT_file_export": _draw_export,
 }
@@ -72,6 +93,7 @@ _ENTRIES = {
 
 def register() -> None:
     bpy.utils.register_class(VIEW3D_MT_fairing)
+    bpy.utils.register_class(VIEW3D_MT_fairing_boundary)
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).append(draw)
 
@@ -79,4 +101,5 @@ def register() -> None:
 def unregister() -> None:
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).remove(draw)
+    bpy.utils.unregister_class(VIEW3D_MT_fairing_boundary)
     bpy.utils.unregister_class(VIEW3D_MT_fairing)

@@ -73,6 +73,7 @@ void bind_options(py::module_& m) {
   setting("crease_angle", &O::features, &FeatureOptions::crease_angle);
   setting("corner_angle", &O::features, &FeatureOptions::corner_angle);
   setting("boundary", &O::features, &FeatureOptions::boundary);
+  setting("boundary_edges", &O::features, &FeatureOptions::boundary_edges);
   // Once it is set there is a region, be it an empty one.
   options.def_property(
       "region", [](const O& o) { return o.features.region.faces; },

@@ -33,28 +33,33 @@ void sort_once(Ids& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-// Creases of the input as creases of the mended mesh.
-class Creases {
+// Edges of the input as edges of the mended mesh.
+class NamedEdges {
  public:
-  Creases(const PolygonMesh& input, const MendedMesh& mended)
+  NamedEdges(const PolygonMesh& input, const MendedMesh& mended)
       : mended_(mended), before_(edges_of(input)), after_(edges_of(mended.mesh.view())) {}
 
-  // Adds the edges that it is now: its pieces, or none where its faces have gone. What never was an
+  // edges <- what they are now: their pieces, or none where their faces have gone. What never was an
   // edge stays as it is, for the core to refuse.
-  void add(const Pair& crease, std::vector<Pair>& out) const {
-    const auto count = std::int64_t(mended_.vertex_origin.size());
-    const bool inside =
-        std::min(crease[0], crease[1]) >= 0 && std::max(crease[0], crease[1]) < count;
-    if (!inside || !has(before_, ascending(crease[0], crease[1])))
-      out.push_back(crease);
-    else
-      add_pieces(mended_.vertex_origin[std::size_t(crease[0])],
-                 mended_.vertex_origin[std::size_t(crease[1])], out);
+  void map(std::vector<Pair>& edges) const {
+    std::vector<Pair> now;
+    for (const Pair& edge : edges) add(edge, now);
+    edges = std::move(now);
   }
 
  private:
   static bool has(const std::vector<Pair>& edges, const Pair& edge) {
     return std::binary_search(edges.begin(), edges.end(), edge);
+  }
+
+  void add(const Pair& edge, std::vector<Pair>& out) const {
+    const auto count = std::int64_t(mended_.vertex_origin.size());
+    const bool inside = std::min(edge[0], edge[1]) >= 0 && std::max(edge[0], edge[1]) < count;
+    if (!inside || !has(before_, ascending(edge[0], edge[1])))
+      out.push_back(edge);
+    else
+      add_pieces(mended_.vertex_origin[std::size_t(edge[0])],
+                 mended_.vertex_origin[std::size_t(edge[1])], out);
   }
 
   void add_pieces(std::int64_t a, std::int64_t b, std::vector<Pair>& out) const {
@@ -100,7 +105,7 @@ Mending::Mending(const PolygonMesh& input, const FairOptions& options)
 }
 
 void Mending::map_options(const PolygonMesh& input) {
-  map_creases(input);
+  map_edges(input);
   map_region(input);
   map_vertex_values(input);
   for (std::int64_t& v : options_.features.corner_vertices)
@@ -113,12 +118,14 @@ void Mending::map_options(const PolygonMesh& input) {
   options_.shapes = shapes_;
 }
 
-void Mending::map_creases(const PolygonMesh& input) {
-  if (options_.features.crease_edges.empty()) return;
-  const Creases creases(input, mended_);
-  std::vector<Pair> now;
-  for (const Pair& crease : options_.features.crease_edges) creases.add(crease, now);
-  options_.features.crease_edges = std::move(now);
+void Mending::map_edges(const PolygonMesh& input) {
+  FeatureOptions& features = options_.features;
+  std::vector<std::vector<Pair>*> named{&features.crease_edges};
+  for (std::vector<Pair>& of_mode : features.boundary_edges) named.push_back(&of_mode);
+  std::erase_if(named, [](const std::vector<Pair>* edges) { return edges->empty(); });
+  if (named.empty()) return;
+  const NamedEdges edges(input, mended_);
+  for (std::vector<Pair>* of_kind : named) edges.map(*of_kind);
 }
 
 void Mending::map_region(const PolygonMesh& input) {

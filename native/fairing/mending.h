@@ -52,7 +52,7 @@ class Mending {
   std::vector<std::int64_t> faces_of_input(std::span<const std::int64_t> faces) const;
   void restore(std::vector<Warning>& warnings) const;
   void map_options(const PolygonMesh& input);
-  void map_creases(const PolygonMesh& input);
+  void map_edges(const PolygonMesh& input);
   void map_region(const PolygonMesh& input);
   void map_vertex_values(const PolygonMesh& input);
 

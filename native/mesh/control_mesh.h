@@ -20,6 +20,7 @@ enum class BoundaryMode {
   linear,  // the straight control edges
   free,    // natural boundary: the surface decides
 };
+constexpr std::size_t boundary_modes = 3;
 
 // How a faired region meets what is outside it.
 enum class RegionContinuity {
@@ -41,6 +42,9 @@ struct FeatureOptions {
   double crease_angle = -1.0;  // edges that fold by more are creases; radians; negative: none
   double corner_angle = -1.0;  // chains that turn by more are split there; radians; negative: none
   BoundaryMode boundary = BoundaryMode::curve;
+  // Single edges that differ from it: under each mode, vertex pairs in any order; the last mode that
+  // names an edge counts. Edges that are no boundary are left alone.
+  std::array<std::vector<std::array<std::int64_t, 2>>, boundary_modes> boundary_edges{};
   RegionOptions region{};
 };
 
@@ -80,7 +84,7 @@ struct Chain {
   std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
   std::vector<Index> edges;     // edges[k] joins vertices[k] and [k + 1] (cyclically in a loop)
   bool closed = false;
-  bool straight = false;  // BoundaryMode::linear: not smoothed
+  bool straight = false;  // of boundary edges under BoundaryMode::linear: not smoothed
 };
 
 enum class RegionPart : std::uint8_t { inside, joint, outside };
@@ -240,9 +244,9 @@ inline Index ring_size(const ControlMesh& mesh, Index v) {
 
 // `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons
 // of five and more sides, and quads too concave or warped, are split by shape (mesh/split.h).
-// Throws FairingError: bad_feature_edge, index_out_of_range for creases, corners and a region's
-// faces that are not in the mesh; bad_option for a region without faces; too_large for polygons
-// that cannot be split (mesh/split.h).
+// Throws FairingError: bad_feature_edge, index_out_of_range for creases, boundary edges, corners and
+// a region's faces that are not in the mesh; bad_option for a region without faces; too_large for
+// polygons that cannot be split (mesh/split.h).
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped = {});
 

@@ -46,6 +46,7 @@ class FeatureFinder {
   void find() {
     control_.feature_edge.assign(control_.edges.size(), 0);
     control_.feature_vertex.assign(std::size_t(control_.vertex_count()), 0);
+    choose_modes();
     mark_boundary();
     mark_meeting_edges();
     mark_given_creases();
@@ -72,10 +73,21 @@ class FeatureFinder {
     return control_.second_face(f) ? Vec3(-normal) : normal;
   }
 
+  void choose_modes() {
+    mode_.assign(std::size_t(control_.first_copied_edge()), options_.boundary);
+    for (std::size_t m = 0; m < boundary_modes; ++m)
+      for_each_edge(
+          options_.boundary_edges[m], "boundary edges", {"boundary edge", "boundary edges"},
+          [&](Index e) { mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m); });
+  }
+  BoundaryMode mode(Index e) const { return mode_[std::size_t(control_.original_edge(e))]; }
+  bool straight(Index e) const {
+    return edge(e).boundary() && !control_.nonmanifold(e) && mode(e) == BoundaryMode::linear;
+  }
+
   void mark_boundary() {
-    if (options_.boundary == BoundaryMode::free) return;
-    for (std::size_t e = 0; e < control_.edges.size(); ++e)
-      control_.feature_edge[e] = control_.edges[e].boundary();
+    for (Index e = 0; e < Index(control_.edges.size()); ++e)
+      control_.feature_edge[std::size_t(e)] = edge(e).boundary() && mode(e) != BoundaryMode::free;
   }
 
   // The edge between two input vertices, one of them where it is non-manifold; -1: none.
@@ -108,8 +120,16 @@ class FeatureFinder {
   }
 
   void mark_given_creases() {
+    for_each_edge(options_.crease_edges, "crease edges", {"crease", "creases"},
+                  [&](Index e) { control_.feature_edge[std::size_t(e)] = 1; });
+  }
+
+  // visit(e) for the edges that the caller has named; `where` and `noun` say what they are to be.
+  template <class Visit>
+  void for_each_edge(const std::vector<std::array<std::int64_t, 2>>& pairs, const char* where,
+                     const Words& noun, Visit&& visit) const {
     std::vector<std::int64_t> unknown_vertices, unknown_edges;
-    for (const auto& [a, b] : options_.crease_edges) {
+    for (const auto& [a, b] : pairs) {
       const auto outside = [&](std::int64_t v) { return v < 0 || v >= control_.input_vertices; };
       if (outside(a)) unknown_vertices.push_back(a);
       if (outside(b)) unknown_vertices.push_back(b);
@@ -118,12 +138,12 @@ class FeatureFinder {
       if (e < 0)
         unknown_edges.insert(unknown_edges.end(), {a, b});
       else
-        control_.feature_edge[std::size_t(e)] = 1;
+        visit(e);
     }
-    refuse_unknown(unknown_vertices, "crease edges");
+    refuse_unknown(unknown_vertices, where);
     if (!unknown_edges.empty())
       throw FairingError(ErrorCode::bad_feature_edge,
-                         listing_pairs({"crease", "creases"}, unknown_edges, {"joins", "join"}) +
+                         listing_pairs(noun, unknown_edges, {"joins", "join"}) +
                              " two vertices between which the mesh has no edge (vertex pairs).",
                          unknown_edges);
   }
@@ -177,9 +197,11 @@ class FeatureFinder {
     return angle_between(in, out) > options_.corner_angle;
   }
 
-  // A curve ends where no other one goes on, and where sheets begin or end to meet along it.
+  // A curve ends where no other one goes on, where sheets begin or end to meet along it, and where
+  // it becomes straight.
   bool ends(Index v, const std::vector<Index>& edges) const {
-    return edges.size() != 2 || control_.vertex_part(v) == RegionPart::joint ||
+    return edges.size() != 2 || straight(edges[0]) != straight(edges[1]) ||
+           control_.vertex_part(v) == RegionPart::joint ||
            control_.nonmanifold(edges[0]) != control_.nonmanifold(edges[1]) ||
            turns_sharply(v, edges[0], edges[1]);
   }
@@ -238,10 +260,7 @@ class FeatureFinder {
       const std::vector<Index>& edges = feature_edges_at(v);
       e = edges[0] == e ? edges[1] : edges[0];
     }
-    chain.straight = options_.boundary == BoundaryMode::linear &&
-                     std::all_of(chain.edges.begin(), chain.edges.end(), [&](Index k) {
-                       return edge(k).boundary() && !control_.nonmanifold(k);
-                     });
+    chain.straight = straight(first_edge);
     control_.chains.push_back(std::move(chain));
   }
 
@@ -249,6 +268,7 @@ class FeatureFinder {
   const FeatureOptions& options_;
   ControlMesh& control_;
   const JoinedVertices joined_;
+  std::vector<BoundaryMode> mode_;    // of edges that are no copies
   std::vector<std::uint8_t> corner_;  // of vertices that are joined, the first
   std::vector<Index> found_;
 };

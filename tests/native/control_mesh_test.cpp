@@ -141,6 +141,66 @@ TEST(Chains, MixedBoundaryAndCreaseInLinearMode) {
             2);
 }
 
+FeatureOptions with_edges(BoundaryMode all, BoundaryMode some,
+                          std::vector<std::array<std::int64_t, 2>> edges) {
+  FeatureOptions options{.boundary = all};
+  options.boundary_edges[std::size_t(some)] = std::move(edges);
+  return options;
+}
+
+// The border of grid(2, 2) is 0 1 2 5 8 7 6 3.
+TEST(Chains, EndWhereTheBoundaryChanges) {
+  for (const BoundaryMode all : {BoundaryMode::curve, BoundaryMode::linear}) {
+    const BoundaryMode other =
+        all == BoundaryMode::curve ? BoundaryMode::linear : BoundaryMode::curve;
+    const ControlMesh mesh = build(grid(2, 2), with_edges(all, other, {{2, 1}, {2, 5}}));
+    ASSERT_EQ(mesh.chains.size(), 2u);
+    for (const Chain& chain : mesh.chains) {
+      EXPECT_FALSE(chain.closed);
+      EXPECT_EQ(chain.straight, (all == BoundaryMode::linear) == (chain.edges.size() == 6));
+      EXPECT_EQ(std::min(chain.vertices.front(), chain.vertices.back()), 1);
+      EXPECT_EQ(std::max(chain.vertices.front(), chain.vertices.back()), 5);
+    }
+  }
+}
+
+TEST(Chains, FreeEdgesAreOnNone) {
+  const ControlMesh mesh =
+      build(grid(2, 2), with_edges(BoundaryMode::curve, BoundaryMode::free, {{0, 1}, {1, 2}}));
+  ASSERT_EQ(mesh.chains.size(), 1u);
+  EXPECT_FALSE(mesh.chains[0].closed);
+  EXPECT_EQ(mesh.chains[0].edges.size(), 6u);
+  EXPECT_FALSE(mesh.feature_vertex[1]);
+  EXPECT_TRUE(mesh.feature_vertex[0] && mesh.feature_vertex[2]);
+}
+
+TEST(Chains, EdgesUnderTheModeOfAllChangeNothing) {
+  for (const BoundaryMode all : {BoundaryMode::curve, BoundaryMode::linear, BoundaryMode::free}) {
+    const ControlMesh plain = build(grid(2, 2), {.boundary = all});
+    // 4-1 is inside: it has no boundary.
+    const ControlMesh named = build(grid(2, 2), with_edges(all, all, {{0, 1}, {5, 2}, {4, 1}}));
+    const ControlMesh inside = build(grid(2, 2), with_edges(all, BoundaryMode::linear, {{4, 1}}));
+    for (const ControlMesh* mesh : {&named, &inside}) {
+      ASSERT_EQ(mesh->chains.size(), plain.chains.size());
+      EXPECT_EQ(mesh->feature_edge, plain.feature_edge);
+      for (std::size_t c = 0; c < plain.chains.size(); ++c) {
+        EXPECT_EQ(mesh->chains[c].vertices, plain.chains[c].vertices);
+        EXPECT_EQ(mesh->chains[c].straight, plain.chains[c].straight);
+      }
+    }
+  }
+}
+
+TEST(Chains, RefuseBoundaryEdgesThatAreNotThere) {
+  const auto refused = [](std::array<std::int64_t, 2> pair) {
+    return thrown(
+        [&] { build(grid(2, 2), with_edges(BoundaryMode::curve, BoundaryMode::free, {pair})); });
+  };
+  EXPECT_EQ(refused({0, 8}).code, ErrorCode::bad_feature_edge);
+  EXPECT_EQ(refused({0, 8}).elements, (std::vector<std::int64_t>{0, 8}));
+  EXPECT_EQ(refused({0, 9}).code, ErrorCode::index_out_of_range);
+}
+
 TEST(Chains, ClosedCrease) {
   const ControlMesh mesh = build(cube(), {.crease_edges = {{4, 5}, {5, 6}, {6, 7}, {7, 4}}});
   ASSERT_EQ(mesh.chains.size(), 1u);

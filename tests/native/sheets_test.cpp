@@ -75,6 +75,19 @@ TEST(Sheets, AMobiusStripIsThereTwice) {
   }
 }
 
+TEST(Sheets, BothHalvesOfACoverHaveTheSameBoundary) {
+  const ControlMesh whole = build(mobius(5));
+  const Edge& some = whole.edges[std::size_t(whole.chains.at(0).edges[3])];
+  FeatureOptions options;
+  options.boundary_edges[std::size_t(BoundaryMode::free)] = {
+      {whole.original_vertex(some.vertex[1]), whole.original_vertex(some.vertex[0])}};
+  const ControlMesh mesh = build(mobius(5), options);
+  ASSERT_EQ(mesh.chains.size(), 1u);
+  EXPECT_EQ(mesh.chains[0].edges.size(), 9u);
+  EXPECT_EQ(std::count(whole.feature_edge.begin(), whole.feature_edge.end(), 1) - 2,
+            std::count(mesh.feature_edge.begin(), mesh.feature_edge.end(), 1));
+}
+
 TEST(Sheets, ConesThatTouchInAPoint) {
   const ControlMesh mesh = build(hourglass());
   EXPECT_EQ(mesh.copied_vertex, (Ids{0}));

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 
 from numpy.typing import ArrayLike
@@ -36,6 +36,7 @@ def fair(
     corner_vertices: ArrayLike | None = None,
     corner_angle: float | None = None,
     boundary: str = "curve",
+    boundary_edges: Mapping[str, ArrayLike] | None = None,
     region: ArrayLike | None = None,
     joint: str = "tangent",
     symmetry_plane: str | None = None,
@@ -114,6 +115,9 @@ def fair(
     boundary : "curve", "linear" or "free"
         A smooth curve through the boundary's own vertices, its straight edges, or fixed at its
         vertices only.
+    boundary_edges : mapping from "curve", "linear" or "free" to (k, 2) int
+        Vertex pairs of the boundary edges that are other than `boundary` says. Curves end where the
+        kind of boundary changes. Edges that are no boundary are left alone.
     region : (r,) int
         The faces to fair; all others are refined linearly, and stay. None: all faces.
     joint : "position", "tangent" or "curvature"

@@ -97,15 +97,23 @@ class Half:
                 values = np.asarray(values)
                 given[name] = np.concatenate([values, values[self._copied]])
         for name, kind in _IDS.items():
-            ids = given.get(name)
-            if ids is None or not np.size(ids):
-                continue
-            ids = np.asarray(ids)
-            of_vertices = kind == "vertex"
-            _refuse_unknown(name, kind, ids, self.vertex_count if of_vertices else self.face_count)
-            images = self._image[ids] if of_vertices else ids + self.face_count
-            given[name] = np.concatenate([ids, images])
+            if given.get(name) is not None:
+                given[name] = self._with_images(name, kind, given[name])
+        if given.get("boundary_edges") is not None:
+            given["boundary_edges"] = {
+                mode: self._with_images("boundary_edges", "vertex", pairs)
+                for mode, pairs in given["boundary_edges"].items()
+            }
         return given
+
+    def _with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
+        """Elements, and what they are in the other half. Refuses those that only the other half has."""
+        ids = np.asarray(ids)
+        if not ids.size:
+            return ids
+        of_vertices = kind == "vertex"
+        _refuse_unknown(name, kind, ids, self.vertex_count if of_vertices else self.face_count)
+        return np.concatenate([ids, self._image[ids] if of_vertices else ids + self.face_count])
 
     @contextmanager
     def named(self) -> Iterator[None]:

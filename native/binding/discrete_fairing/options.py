@@ -7,6 +7,7 @@ meaning; Solver takes the same. Ranges are the core's to check (native/fairing/o
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isfinite
 
 import numpy as np
@@ -35,14 +36,23 @@ def native_options(**settings: object) -> _native.Options:
 # Each converter takes the setting's name, for messages, and the caller's value.
 
 
-def crease_pairs(name: str, edges: ArrayLike) -> np.ndarray:
+def vertex_pairs(name: str, edges: ArrayLike) -> np.ndarray:
     """(k, 2) int64."""
     pairs = index_array(edges, name)
     if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
-        raise fairing_error(
-            "BAD_SHAPE", f"crease_edges has shape {pairs.shape}; it must be (k, 2)."
-        )
+        raise fairing_error("BAD_SHAPE", f"{name} has shape {pairs.shape}; it must be (k, 2).")
     return pairs.reshape(-1, 2)
+
+
+def pairs_by_boundary(name: str, edges: Mapping[str, ArrayLike]) -> list[np.ndarray]:
+    """Vertex pairs (k, 2) int64 for each of the core's boundaries, in its order."""
+    modes = _native.Boundary.__members__
+    if not isinstance(edges, Mapping) or not set(edges) <= set(modes):
+        listed = " or ".join(f'"{mode}"' for mode in modes)
+        raise fairing_error(
+            "BAD_OPTION", f"{name} is {edges!r}; it must give vertex pairs by {listed}."
+        )
+    return [vertex_pairs(f'{name}["{mode}"]', edges.get(mode, ())) for mode in modes]
 
 
 def corner_ids(name: str, vertices: ArrayLike) -> np.ndarray:
@@ -154,11 +164,12 @@ SETTINGS = {
     "epsilon": real,
     "pad_size": real,
     "tension": real,
-    "crease_edges": crease_pairs,
+    "crease_edges": vertex_pairs,
     "crease_angle": real,
     "corner_vertices": corner_ids,
     "corner_angle": real,
     "boundary": choice(_native.Boundary),
+    "boundary_edges": pairs_by_boundary,
     "region": region_faces,
     "joint": choice(_native.RegionContinuity),
     "repair": choice(_native.Repair),
@@ -181,6 +192,7 @@ OPTIONAL = (
     "crease_angle",
     "corner_vertices",
     "corner_angle",
+    "boundary_edges",
     "region",
     "weld",
 )

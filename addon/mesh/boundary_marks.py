@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Border edges with a boundary of their own: an integer attribute on edges, numbered as
+choices.EDGE_BOUNDARIES is. 0, and no attribute: as the surface's setting says.
+"""
+
+from collections.abc import Iterable
+
+import bmesh
+import numpy as np
+
+from ..blender import Mesh, Object
+from ..choices import EDGE_BOUNDARIES
+
+BOUNDARY = "fair_boundary"
+
+_NUMBERS = {key: number for key, _, _, number in EDGE_BOUNDARIES}
+
+
+def mark_selected(mesh: Mesh, boundary: str) -> int:
+    """Gives the selected border edges of `mesh`, which is in Edit Mode, a boundary of
+    EDGE_BOUNDARIES; returns how many there are.
+    """
+    edit = bmesh.from_edit_mesh(mesh)
+    layer = edit.edges.layers.int.get(BOUNDARY)
+    if layer is None and _NUMBERS[boundary] and _selected(edit):
+        layer = edit.edges.layers.int.new(BOUNDARY)
+    chosen = _selected(edit)
+    if layer is not None:
+        for edge in chosen:
+            edge[layer] = _NUMBERS[boundary]
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return len(chosen)
+
+
+def _selected(edit: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
+    """Its border edges that are selected. A new layer makes those from before invalid."""
+    return [edge for edge in edit.edges if edge.select and edge.is_boundary]
+
+
+def select_marked(mesh: Mesh, boundary: str) -> int:
+    """Adds the border edges of `mesh`, which is in Edit Mode, that are marked so to the selection;
+    returns how many there are.
+    """
+    edit = bmesh.from_edit_mesh(mesh)
+    layer = edit.edges.layers.int.get(BOUNDARY)
+    if layer is None:
+        return 0
+    number = _NUMBERS[boundary]
+    chosen = [e for e in edit.edges if e[layer] == number and e.is_boundary and not e.hide]
+    for edge in chosen:
+        edge.select = True
+    edit.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return len(chosen)
+
+
+def summary(sources: Iterable[Object]) -> str:
+    """`Edges: 8 Straight, 4 Free`; empty where no border edge has a boundary of its own."""
+    total = sum((_counts(source.data) for source in sources), np.zeros(len(_NUMBERS), int))
+    parts = [
+        f"{total[number]} {name}"
+        for _, name, _, number in EDGE_BOUNDARIES
+        if number and total[number]
+    ]
+    return "Edges: " + ", ".join(parts) if parts else ""
+
+
+def _counts(mesh: Mesh) -> np.ndarray:
+    """How many border edges have each number."""
+    marks = _border_marks(mesh)
+    return np.bincount(marks[(marks >= 0) & (marks < len(_NUMBERS))], minlength=len(_NUMBERS))
+
+
+def _border_marks(mesh: Mesh) -> np.ndarray:
+    if mesh.is_editmode:  # then the mesh lists no values
+        edit = bmesh.from_edit_mesh(mesh)
+        layer = edit.edges.layers.int.get(BOUNDARY)
+        found = [] if layer is None else [e[layer] for e in edit.edges if e.is_boundary]
+        return np.array(found, np.int32)
+    layer = mesh.attributes.get(BOUNDARY)
+    if layer is None or (layer.data_type, layer.domain) != ("INT", "EDGE"):
+        return np.empty(0, np.int32)
+    marks, edges = np.empty(len(mesh.edges), np.int32), np.empty(len(mesh.loops), np.int32)
+    layer.data.foreach_get("value", marks)
+    mesh.loops.foreach_get("edge_index", edges)
+    return marks[np.bincount(edges, minlength=len(marks)) == 1]

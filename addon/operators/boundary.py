@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Single border edges that are smooth, straight or free, whatever the surface's setting."""
+
+from typing import TYPE_CHECKING
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..blender import Answer, Context, registration
+from ..choices import EDGE_BOUNDARIES
+from ..mesh.boundary_marks import mark_selected, select_marked
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+_NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
+
+
+class _OfEdges(ExplainedPoll):
+    if TYPE_CHECKING:
+        boundary: str
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode != "EDIT_MESH":
+            return "Border edges are chosen in Edit Mode: press Tab first"
+        return mesh_poll_reason(context.objects_in_mode_unique_data)
+
+
+class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
+    """Make the selected edges of open borders smooth, straight or free, whatever the surface's setting says"""
+
+    bl_idname = "object.fairing_boundary"
+    bl_label = "Boundary of Edges"
+    bl_options = {"REGISTER", "UNDO"}
+
+    boundary: EnumProperty(
+        name="Boundary", description="What these edges become", items=EDGE_BOUNDARIES
+    )
+
+    def execute(self, context: Context) -> Answer:
+        meshes = [o.data for o in context.objects_in_mode_unique_data]
+        count = sum(mark_selected(mesh, self.boundary) for mesh in meshes)
+        if not count:
+            self.report({"ERROR"}, "No border edge is selected. Select edges that have one face")
+            return {"CANCELLED"}
+        edges = "1 border edge" if count == 1 else f"{count} border edges"
+        self.report({"INFO"}, f"{edges}: {_NAMES[self.boundary]}")
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
+    """Select the border edges that were made so by Boundary of Edges"""
+
+    bl_idname = "object.fairing_select_boundary"
+    bl_label = "Select Boundary of Edges"
+    bl_options = {"REGISTER", "UNDO"}
+
+    boundary: EnumProperty(
+        name="Boundary",
+        description="Which edges are selected",
+        items=[choice for choice in EDGE_BOUNDARIES if choice[-1]],
+    )
+
+    def execute(self, context: Context) -> Answer:
+        meshes = [o.data for o in context.objects_in_mode_unique_data]
+        count = sum(select_marked(mesh, self.boundary) for mesh in meshes)
+        if not count:
+            self.report({"INFO"}, f"No border edge is marked {_NAMES[self.boundary]}")
+        return {"FINISHED"}
+
+
+register, unregister = registration(OBJECT_OT_fairing_boundary, OBJECT_OT_fairing_select_boundary)

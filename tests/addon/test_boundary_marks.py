@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Border edges with a boundary of their own: marked in Edit Mode, read, shown and carried on."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from live_scenes import live, session
+from scenes import activate, add, add_attribute, fair, positions
+
+from addon.core import boundary_edges
+from addon.freshness import why_stale
+from addon.mesh.boundary_marks import BOUNDARY, summary
+from addon.mesh.read import control_mesh, read_mesh
+from addon.transfer.cut_out import cut_out
+from addon.ui import main
+
+SIDE = 3  # faces; vertex (i, j) is number 4 i + j
+BOTTOM = [(0, 1), (1, 2), (2, 3)]
+
+
+def sheet(name="Sheet"):
+    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(4), np.arange(4), indexing="ij"))
+    points = np.stack([i, j, 0.4 * np.sin(1.7 * i + j)], axis=1)
+    faces = [
+        (4 * a + b, 4 * a + 4 + b, 4 * a + 5 + b, 4 * a + 1 + b)
+        for a in range(SIDE)
+        for b in range(SIDE)
+    ]
+    return add(name, points.tolist(), faces)
+
+
+def edit(target, *pairs):
+    """Edit Mode, with the edges selected that join these vertices."""
+    activate(target)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="EDGE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    wanted = {tuple(sorted(pair)) for pair in pairs}
+    for edge in target.data.edges:
+        edge.select = tuple(sorted(edge.vertices)) in wanted
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def mark(target, boundary, *pairs):
+    edit(target, *pairs)
+    answer = bpy.ops.object.fairing_boundary(boundary=boundary)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return answer
+
+
+def marks(target):
+    """{pair: number} of the edges that have one."""
+    layer = target.data.attributes.get(BOUNDARY)
+    if layer is None:
+        return {}
+    pairs = (tuple(sorted(edge.vertices)) for edge in target.data.edges)
+    return {pair: item.value for pair, item in zip(pairs, layer.data) if item.value}
+
+
+def straight(target, source, a, b):
+    """How many points of the surface's border lie on the straight line between two vertices."""
+    start, end = positions(source.data)[[a, b]].astype(float)
+    way = end - start
+    border = np.bincount([loop.edge_index for loop in target.data.loops])
+    ids = {v for e in target.data.edges if border[e.index] == 1 for v in e.vertices}
+    points = positions(target.data)[sorted(ids)].astype(float) - start
+    share = points @ way / (way @ way)
+    off = np.linalg.norm(points - share[:, None] * way, axis=1)
+    return int(((share > 0.01) & (share < 0.99) & (off < 1e-6)).sum())
+
+
+def test_only_selected_border_edges_are_marked():
+    source = sheet()
+    assert mark(source, "LINEAR", *BOTTOM[:2], (5, 6)) == {"FINISHED"}
+    assert marks(source) == {(0, 1): 2, (1, 2): 2}
+    assert mark(source, "FREE", (1, 2)) == {"FINISHED"}
+    assert marks(source) == {(0, 1): 2, (1, 2): 3}
+    assert mark(source, "SURFACE", (0, 1), (1, 2)) == {"FINISHED"}
+    assert marks(source) == {}
+
+
+def test_without_a_border_edge_nothing_is_marked():
+    source = sheet()
+    with pytest.raises(RuntimeError, match="No border edge is selected"):
+        mark(source, "FREE", (5, 6))
+    assert bpy.ops.object.fairing_boundary.poll()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert BOUNDARY not in source.data.attributes
+    assert not bpy.ops.object.fairing_boundary.poll()
+
+
+def test_marked_edges_are_selected_again():
+    source = sheet()
+    mark(source, "LINEAR", *BOTTOM[:2])
+    mark(source, "FREE", (12, 13))
+    edit(source)
+    assert bpy.ops.object.fairing_select_boundary(boundary="LINEAR") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    chosen = {tuple(sorted(e.vertices)) for e in source.data.edges if e.select}
+    assert chosen == {(0, 1), (1, 2)}
+
+
+def test_the_surface_has_straight_edges_where_they_are_marked():
+    source = sheet()
+    mark(source, "LINEAR", *BOTTOM[:2])
+    surface = fair(levels=3)
+    assert [straight(surface, source, a, b) for a, b in BOTTOM] == [7, 7, 0]
+    assert BOUNDARY not in surface.data.attributes
+    plain = sheet("Plain")
+    assert straight(fair(levels=3), plain, *BOTTOM[0]) == 0
+
+
+def test_marks_of_another_kind_or_number_count_for_nothing():
+    source = sheet()
+    add_attribute(source, np.ones(len(source.data.vertices)), BOUNDARY)
+    assert read_mesh(source.data).boundary_edge is None
+    source.data.attributes.remove(source.data.attributes[BOUNDARY])
+    layer = source.data.attributes.new(BOUNDARY, "INT", "EDGE")
+    layer.data.foreach_set("value", np.full(len(source.data.edges), 7, np.int32))
+    assert boundary_edges(read_mesh(source.data)) == {} and summary([source]) == ""
+
+
+def test_a_surface_is_out_of_date_when_marks_change():
+    source = sheet()
+    surface = fair(levels=1)
+    assert why_stale(surface) == ""
+    source.hide_set(False)
+    mark(source, "FREE", *BOTTOM)
+    assert why_stale(surface) == "The source has changed"
+
+
+def test_live_follows_marks():
+    source = sheet()
+    surface = fair(levels=2)
+    source.hide_set(False)
+    live(surface)
+    before = positions(surface.data)
+    mark(source, "LINEAR", *BOTTOM)
+    bpy.context.view_layer.update()
+    assert session(surface) is not None
+    assert np.abs(positions(surface.data) - before).max() > 1e-3
+    assert straight(surface, source, *BOTTOM[1]) == 3
+
+
+def test_the_panel_counts_them():
+    source = sheet()
+    assert not [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("Edges:")]
+    mark(source, "LINEAR", *BOTTOM[:2])
+    mark(source, "FREE", (12, 13))
+    assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing)
+    edit(source, *BOTTOM)
+    assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing), "in Edit Mode too"
+
+
+def test_a_cut_lays_no_mark_bare():
+    source = sheet()
+    mark(source, "LINEAR", *BOTTOM)
+    with control_mesh(bpy.context, source) as mesh:
+        arrays = read_mesh(mesh)
+    inner = [k for k, e in enumerate(arrays.edges.tolist()) if sorted(e) == [1, 5]]
+    arrays.boundary_edge[inner] = 3
+    part = cut_out(arrays, np.arange(9) % SIDE == 0).arrays
+    assert {key: len(pairs) for key, pairs in boundary_edges(part).items()} == {"linear": 1}
