@@ -22,7 +22,7 @@ from ..job import Job
 from . import report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
-from .places import BadPlaces, Place, is_step, places
+from .places import BadPlaces, Place, is_cad, places
 from .report import Progress
 
 ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 130
@@ -62,8 +62,8 @@ def _run_all(
     records = [report.new_record(way, shown(settings)) for way in ways]
     width = max(len(record["input"]) for record in records)
     if not arguments.quiet:
-        to_step = arguments.patches is not None
-        _say(step.table_head(width) if to_step else report.table_head(width, settings.energy))
+        to_cad = arguments.patches is not None
+        _say(step.table_head(width) if to_cad else report.table_head(width, settings.energy))
     for way, record in zip(ways, records):
         try:
             _run_one(way, record, arguments, settings)
@@ -73,7 +73,7 @@ def _run_all(
             _say(f"{way.source}: interrupted")
             return records, INTERRUPTED
         if record["status"] == report.DONE and not arguments.quiet:
-            _say((step if is_step(way.target) else report).table_line(record, width))
+            _say((step if is_cad(way.target) else report).table_line(record, width))
     failed = any(record["status"] == report.FAILED for record in records)
     return records, SOME_FAILED if failed else ALL_DONE
 
@@ -106,7 +106,7 @@ def _fair_file(
 ) -> None:
     sources = read_file(way.source, arguments.merge)
     progress = Progress(sys.stderr, str(way.source), len(sources))
-    patches = arguments.patches if is_step(way.target) else None
+    patches = arguments.patches if is_cad(way.target) else None
     jobs = [_job(source, settings, patches) for source in sources]
     is_read = not arguments.quiet or arguments.json is not None
     try:

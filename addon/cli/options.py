@@ -55,7 +55,8 @@ _TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
 Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
-names; OUT may also be a STEP file of spline patches for CAD. Coordinates stay what they are: no axes are swapped, no units converted, whatever the formats."""
+names; OUT may also be a file of spline patches for CAD, STEP or Rhino's. Coordinates stay what they are: no axes are
+swapped, no units converted, whatever the formats."""
 _EXAMPLES = f"""\
 examples:
   {_PROGRAM} in.obj out.obj --levels 4
@@ -228,9 +229,9 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--format",
-        choices=(*FORMATS, "step"),
+        choices=(*FORMATS, "step", "3dm"),
         help="type of the files in an output folder [each like its input]",
-        metavar="obj|ply|stl|step",
+        metavar="obj|ply|stl|step|3dm",
     )
     made.add_argument(
         "--overwrite",

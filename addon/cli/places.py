@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FORMATS = ("obj", "ply", "stl")
-STEP_FORMATS = ("step", "stp")  # for outputs only
+CAD_FORMATS = ("step", "stp", "3dm")  # for outputs only
 _NAME = "{name}"
 
 
@@ -35,12 +35,13 @@ def places(inputs: Sequence[str], output: str, chosen_format: str | None = None)
 
 
 def file_format(path: Path) -> str:
-    """`obj`, `ply`, `stl` or `step`, by the name alone."""
+    """`obj`, `ply`, `stl`, `step` and so on, by the name alone."""
     return Path(path).suffix.lower().removeprefix(".")
 
 
-def is_step(path: Path) -> bool:
-    return file_format(path) in STEP_FORMATS
+def is_cad(path: Path) -> bool:
+    """Whether spline patches are written there."""
+    return file_format(path) in CAD_FORMATS
 
 
 def _expanded(name: str) -> list[str]:
@@ -64,7 +65,7 @@ def _target(source: Path, output: str, chosen_format: str | None, count: int) ->
             f"{count} inputs need a folder, with / at its end, or a name with {_NAME} as output, not {output}."
         )
     target = Path(output.replace(_NAME, source.stem))
-    _supported(target, (*FORMATS, *STEP_FORMATS))
+    _supported(target, (*FORMATS, *CAD_FORMATS))
     return target
 
 

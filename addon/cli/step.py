@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""STEP files of the command line: its options, the jobs' file, what the report says of them."""
+"""Files for CAD of the command line: its options, the jobs' file, what the report says of them."""
 
 import argparse
 from collections.abc import Sequence
@@ -10,17 +10,17 @@ from typing import Any
 from ..cad import words
 from ..cad.fit import PatchJob, refused
 from ..cad.settings import METRES
-from ..cad.step import write_jobs
+from ..cad.step import why_not, write_jobs
 from ..errors import JobError
 from .files import write_whole
-from .places import Place, is_step
+from .places import Place, is_cad
 
 _TOLERANCE, _ANGLE, _UNIT = 1e-4, 0.05, "mm"
 _ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "insist")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("STEP files (OUT ends in .step or .stp)")
+    group = parser.add_argument_group("files for CAD (OUT ends in .step, .stp or .3dm)")
     group.add_argument(
         "--fit-tolerance",
         type=_positive,
@@ -52,10 +52,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def wanted_of(
     arguments: argparse.Namespace, settings: SimpleNamespace, ways: Sequence[Place]
 ) -> SimpleNamespace | None:
-    """What is asked of STEP files; None where none is written. Raises ValueError if that is said all
-    the same.
+    """What is asked of files for CAD; None where none is written. Raises ValueError if that is said
+    all the same, or if such a file cannot be written.
     """
-    if not any(is_step(way.target) for way in ways):
+    for way in ways:
+        if why_not(str(way.target)):
+            raise ValueError(why_not(str(way.target)))
+    if not any(is_cad(way.target) for way in ways):
         for name in _ONLY_HERE:
             if getattr(arguments, name) is not None:
                 raise ValueError(f"--{name.replace('_', '-')} needs an output that ends in .step")

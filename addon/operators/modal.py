@@ -20,6 +20,7 @@ class ModalRun(OperatorBase):
 
     # whether others may end the run
     gives_way = False
+    cancelled_text = "Fairing was cancelled: nothing has changed"
 
     def finish(self, context: Context, jobs: list[Job]) -> Answer:
         """For the operator to say."""
@@ -59,7 +60,7 @@ class ModalRun(OperatorBase):
         if queue.error:
             self.report({"ERROR"}, queue.error)
         elif queue.cancelled and not self.gives_way:
-            self.report({"INFO"}, "Fairing was cancelled: nothing has changed")
+            self.report({"INFO"}, self.cancelled_text)
         elif not queue.cancelled:
             return self.finish(context, list(queue.jobs))
         return {"CANCELLED"}

@@ -51,3 +51,59 @@ def side_curve(patches, p: int, side: int, t: np.ndarray) -> np.ndarray:
     one, zero = np.ones(1), np.zeros(1)
     u, v = [(t, zero), (one, t), (1 - t, one), (zero, 1 - t)][side]
     return evaluate(patches, p, u, v)[0].reshape(-1, 3)
+
+
+def lattice_volume(result, levels: int) -> float:
+    """Inside the smooth surface that a refined mesh's points lie on: extrapolated from the volumes
+    within all points, every second and every fourth one each way, whose errors are powers of 4.
+    """
+    fine, middle, coarse = (
+        sum(_grid_volume(result.vertices, grid, step) for grid in _grids(result, levels))
+        for step in (1, 2, 4)
+    )
+    better, good = fine + (fine - middle) / 3, middle + (middle - coarse) / 3
+    return better + (better - good) / 15
+
+
+def _grids(result, levels: int):
+    """(corners, (F, n + 1, n + 1) point ids by row and column) of triangles and of quads; -1 beyond
+    a triangle's long side.
+    """
+    n = 2**levels
+    for corners, faces in zip((3, 4), result.faces):
+        cells = faces.reshape(-1, n * n, corners)
+        grid = np.full((len(cells), n + 1, n + 1), -1)
+        j, i = np.divmod(np.arange(n * n), n)
+        if corners == 3:
+            kept = i + j < n
+            j, i = j[kept], i[kept]
+            cells = cells[:, n * n - (n - j) ** 2 + 2 * i]
+        for k, (right, up) in enumerate(_CORNERS[corners]):
+            grid[:, j + up, i + right] = cells[:, :, k]
+        yield corners, grid
+
+
+_CORNERS = {3: ((0, 0), (1, 0), (0, 1)), 4: ((0, 0), (1, 0), (1, 1), (0, 1))}
+
+
+def _grid_volume(points: np.ndarray, found, step: int) -> float:
+    """Of the cone from the origin over a grid's cells, `step` points wide."""
+    corners, grid = found
+    grid = grid[:, ::step, ::step]
+    a, b, c, d = (
+        grid[:, :-1, :-1],
+        grid[:, :-1, 1:],
+        grid[:, 1:, 1:],
+        grid[:, 1:, :-1],
+    )
+    if corners == 3:
+        return _cones(points, a, b, d) + _cones(points, b, c, d)
+    # the mean of both ways to cut a quad is its bilinear surface
+    ways = ((a, b, c), (a, c, d), (a, b, d), (b, c, d))
+    return sum(_cones(points, *way) for way in ways) / 2
+
+
+def _cones(points: np.ndarray, *corners: np.ndarray) -> float:
+    there = np.all([corner >= 0 for corner in corners], axis=0)
+    a, b, c = (points[corner[there]] for corner in corners)
+    return float(np.einsum("ij,ij->", np.cross(a, b), c) / 6)

@@ -9,7 +9,17 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 
-PHASES = ["check", "hierarchy", "curves", "solve", "constrain", "measure", "output", "done"]
+PHASES = [
+    "check",
+    "hierarchy",
+    "curves",
+    "solve",
+    "constrain",
+    "measure",
+    "output",
+    "patches",
+    "done",
+]
 
 
 def long_run():
@@ -55,6 +65,36 @@ def test_returning_false_cancels():
 
 def test_cancelling_midway():
     assert cancelled(progress=lambda fraction, phase: phase != "solve") < 10
+
+
+def test_phases_of_patches():
+    """Those of the surface first, then their own, to the end."""
+    seen = []
+    df.fit_patches(
+        *meshes.random_hull(), levels=5, insist=True, progress=lambda *heard: seen.append(heard)
+    )
+    fractions, phases = zip(*seen)
+    assert set(phases) <= set(PHASES) and phases[-2:] == ("patches", "done")
+    assert phases.index("solve") < phases.index("patches")
+    assert fractions == tuple(sorted(fractions)) and fractions[-1] == 1
+
+
+@pytest.mark.parametrize("reports", [1, 4])
+def test_cancelling_while_patches_are_fitted(reports):
+    """At once, and the same call goes through afterwards, with the same bits."""
+    mesh, options = meshes.random_hull(), {"levels": 5, "insist": True, "energy": "total_curvature"}
+    before, began = df.fit_patches(*mesh, **options), []
+
+    def stop(fraction, phase):
+        if phase == "patches":
+            began.append(time.monotonic())
+        return len(began) < reports
+
+    with pytest.raises(df.FairingError) as caught:
+        df.fit_patches(*mesh, **options, progress=stop)
+    assert caught.value.code == "CANCELLED" and time.monotonic() - began[-1] < 5
+    again = df.fit_patches(*mesh, **options)
+    assert again.patch_points.tobytes() == before.patch_points.tobytes()
 
 
 def test_an_exception_in_progress_comes_out():

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -14,18 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .errors import fairing_error
-from .options import real
+from .cad_files import UNITS, Part, cad_parts, checked_scale, whole_file
 from .patches import SplinePatches
 
-# How a unit is written, and how many metres it has.
-UNITS = {
-    "m": ("$", 1.0),
-    "cm": (".CENTI.", 0.01),
-    "mm": (".MILLI.", 0.001),
-    "in": ("INCH", 0.0254),
-    "ft": ("FOOT", 0.3048),
-}
+# How a unit is written.
+_WRITTEN = {"m": "$", "cm": ".CENTI.", "mm": ".MILLI.", "in": "INCH", "ft": "FOOT"}
 
 
 def write_step(
@@ -56,62 +48,17 @@ def write_step(
 
     Raises FairingError BAD_OPTION, and OSError where the file cannot be written.
     """
-    parts = [patches] if isinstance(patches, SplinePatches) else list(patches)
-    if unit not in UNITS:
-        raise fairing_error("BAD_OPTION", f"unit is {unit!r}; it must be {_listed(UNITS)}.")
-    factor = real("scale", scale)
-    if factor <= 0:
-        raise fairing_error("BAD_OPTION", f"scale is {factor}; it must be greater than 0.")
-    titles = _one_a_part("names", names, len(parts), isinstance(names, str))
-    single = colours is not None and isinstance(patches, SplinePatches)
-    shades = _one_a_part("colours", colours, len(parts), single)
-    shades = [_part_colours(shade, len(part)) for shade, part in zip(shades, parts)]
-    target = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="ascii", newline="\n") as file:
-            writer = _Writer(file, unit, factor)
-            writer.header(target.name)
-            for k, part in enumerate(parts):
-                writer.part(part, titles[k] or f"surface {k + 1}", shades[k])
-            writer.end()
-        _keep_mode(target, temporary)
-        temporary.replace(target)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-
-
-def _keep_mode(target: Path, temporary: Path) -> None:
-    """Temporary files are private; the new file may be read by whom an ordinary one may."""
-    mask = os.umask(0)
-    os.umask(mask)
-    temporary.chmod(target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~mask)
-
-
-def _listed(names: Iterable[str]) -> str:
-    return " or ".join(f'"{name}"' for name in names)
-
-
-def _one_a_part(name: str, values, count: int, single: bool) -> list:
-    found = [None] * count if values is None else [values] if single else list(values)
-    if len(found) != count:
-        raise fairing_error("BAD_OPTION", f"{name} has {len(found)} entries for {count} parts.")
-    return found
-
-
-def _part_colours(colours: ArrayLike | None, count: int) -> np.ndarray | None:
-    """(3,) or (count, 3) float64."""
-    if colours is None:
-        return None
-    array = np.asarray(colours, float)
-    if array.shape not in ((3,), (count, 3)) or not ((array >= 0) & (array <= 1)).all():
-        raise fairing_error(
-            "BAD_OPTION",
-            f"colours has shape {array.shape}; it must be (3,) or ({count}, 3), from 0 to 1.",
-        )
-    return array
+    factor = checked_scale(unit, scale)
+    parts = cad_parts(patches, names, colours)
+    with (
+        whole_file(path) as place,
+        place.open("w", encoding="ascii", newline="\n") as file,
+    ):
+        writer = _Writer(file, unit, factor)
+        writer.header(Path(path).name)
+        for part in parts:
+            writer.part(part)
+        writer.end()
 
 
 def step_text(text: str) -> str:
@@ -186,8 +133,9 @@ class _Writer:
     def end(self) -> None:
         self._file.write("ENDSEC;\nEND-ISO-10303-21;\n")
 
-    def part(self, patches: SplinePatches, name: str, colours: np.ndarray | None) -> None:
-        title = step_text(name)
+    def part(self, part: Part) -> None:
+        patches, colours = part.patches, part.colours
+        title = step_text(part.name)
         context = self._context(patches)
         points = [self._add(f"VERTEX_POINT('',#{self._point(at)})") for at in patches.vertices]
         edges = self._edges(patches, points)
@@ -213,7 +161,7 @@ class _Writer:
         return self._last
 
     def _length_unit(self) -> int:
-        prefix, metres = UNITS[self._unit]
+        prefix, metres = _WRITTEN[self._unit], UNITS[self._unit]
         if not prefix.isalpha():
             return self._add(f"(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({prefix},.METRE.))")
         metre = self._add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.))")
