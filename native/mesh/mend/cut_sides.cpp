@@ -27,6 +27,23 @@ CornerOrigin origin_between(const CornerOrigin& a, const CornerOrigin& b, double
 
 }  // namespace
 
+CutSide cut_side(std::span<const double> coordinates, Index a, Index b,
+                 std::span<const Index> vertices) {
+  const auto point = [&](Index v) {
+    return Eigen::Map<const Vec3>(&coordinates[3 * std::size_t(v)]);
+  };
+  CutSide side{std::min(a, b), std::max(a, b), {}};
+  const Vec3 begin = point(side.low), end = point(side.high), way = end - begin;
+  for (const Index v : vertices) {
+    if (v == a || v == b) continue;
+    const double share = way.dot(point(v) - begin) / way.squaredNorm();
+    const double farther = std::max((point(v) - begin).norm(), (point(v) - end).norm());
+    if (share > 0 && share < 1 && farther < way.norm()) side.between.push_back({share, v});
+  }
+  std::sort(side.between.begin(), side.between.end());
+  return side;
+}
+
 Loop corners_between(const CutSide& side, const MendCorner& here, const MendCorner& next) {
   Loop corners;
   const bool ahead = here.vertex == side.low;

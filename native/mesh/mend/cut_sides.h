@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct CutSide {
   Index low, high;
   std::vector<Between> between;
 };
+
+// The side between vertices a and b, with all of `vertices` that lie strictly inside it: nearer to
+// either end than these are to each other.
+CutSide cut_side(std::span<const double> coordinates, Index a, Index b,
+                 std::span<const Index> vertices);
 
 // The corners inside a side from `here` to `next`, in this order, if that is `side` whichever way
 // round.

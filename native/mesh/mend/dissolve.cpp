@@ -9,6 +9,7 @@
 
 #include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
+#include "mesh/mend/flat_stack.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -69,10 +70,12 @@ class Dissolver {
       const Loop loop(face(f).begin(), face(f).end());
       if (loop.empty() || !is_flat(coordinates_, loop, ids_)) continue;
       done_.faces.push_back(origin(f));
-      if (on_a_line(loop))
-        dissolve(f, loop);
-      else
+      if (!on_a_line(loop))
         cut(f, loop);
+      else if (const std::vector<Index> stack = stack_at(f, loop); stack.size() > 1)
+        dissolve_together(stack);
+      else
+        dissolve(f, loop);
     }
     finish();
     return std::move(done_);
@@ -159,17 +162,54 @@ class Dissolver {
 
   void dissolve(Index f, const Loop& loop) {
     set(f, {});
+    const std::vector<Index> vertices = vertices_of(loop);
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      CutSide side = cut_side(loop, loop[i].vertex, loop[(i + 1) % loop.size()].vertex);
+      CutSide side = cut_side(coordinates_, vertices[i], vertices[(i + 1) % loop.size()], vertices);
       if (side.between.empty()) continue;
       for (const Index other : edges_.around(side.low, side.high)) {
-        State& state = state_[std::size_t(other)];
-        if (state == State::flat)
+        if (state_[std::size_t(other)] == State::flat)
           insert(other, side);
-        else if (std::exchange(state, State::to_cut) == State::sound)
-          to_cut_.push_back(other);
+        else
+          cut_later(other);
       }
       cut_.add(std::move(side));
+    }
+  }
+  void cut_later(Index f) {
+    if (std::exchange(state_[std::size_t(f)], State::to_cut) == State::sound) to_cut_.push_back(f);
+  }
+
+  // A face on a line and all others that span the same side.
+  std::vector<Index> stack_at(Index f, const Loop& loop) const {
+    const CutSide side = longest_side(coordinates_, loop);
+    std::vector<Index> stack;
+    if (!spans(coordinates_, loop, side)) return stack;
+    for (const Index other : edges_.around(side.low, side.high)) {
+      if (state_[std::size_t(other)] != State::flat && other != f) continue;
+      const Loop one(face(other).begin(), face(other).end());
+      if (spans(coordinates_, one, side) && on_a_line(one)) stack.push_back(other);
+    }
+    return stack;
+  }
+
+  // One by one, each would get the vertices of all before it.
+  void dissolve_together(const std::vector<Index>& stack) {
+    std::vector<Loop> loops;
+    for (const Index f : stack) {
+      loops.emplace_back(face(f).begin(), face(f).end());
+      done_.faces.push_back(origin(f));
+      set(f, {});
+    }
+    const std::vector<CutSide> sides = cuts_of_stack(coordinates_, loops);
+    for (const CutSide& side : sides) cut_.add(side);
+    for (const CutSide& side : sides) {
+      for (const Index other : edges_.around(side.low, side.high)) {
+        stop_if_cancelled(++steps_);
+        if (state_[std::size_t(other)] == State::flat)
+          expand(other);
+        else
+          cut_later(other);
+      }
     }
   }
 
@@ -182,35 +222,20 @@ class Dissolver {
     for (const Index f : faces) {
       if (state_[std::size_t(f)] != State::to_cut) continue;
       state_[std::size_t(f)] = State::sound;
-      Loop longer = cut_.expanded(face(f));
-      if (longer.size() > face(f).size()) replace(f, without_repeats(std::move(longer)));
+      expand(f);
     }
+  }
+  void expand(Index f) {
+    Loop longer = cut_.expanded(face(f));
+    if (longer.size() > face(f).size()) replace(f, without_repeats(std::move(longer)));
   }
 
   static std::vector<Loop> without_repeats(Loop loop) {
-    std::vector<Index> vertices;
-    for (const MendCorner& corner : loop) vertices.push_back(corner.vertex);
+    std::vector<Index> vertices = vertices_of(loop);
     std::sort(vertices.begin(), vertices.end());
     if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end())
       return simple_loops(loop);
     return {std::move(loop)};
-  }
-
-  // The side between two corners, with all others that lie strictly inside it: nearer to either end
-  // than these are to each other.
-  CutSide cut_side(const Loop& loop, Index a, Index b) const {
-    CutSide side{std::min(a, b), std::max(a, b), {}};
-    const Vec3 begin = point(side.low), end = point(side.high), way = end - begin;
-    for (const MendCorner& corner : loop) {
-      if (corner.vertex == a || corner.vertex == b) continue;
-      const double share = way.dot(point(corner.vertex) - begin) / way.squaredNorm();
-      const double farther =
-          std::max((point(corner.vertex) - begin).norm(), (point(corner.vertex) - end).norm());
-      if (share > 0 && share < 1 && farther < way.norm())
-        side.between.push_back({share, corner.vertex});
-    }
-    std::sort(side.between.begin(), side.between.end());
-    return side;
   }
 
   // Gives a flat face, if it still has this side whichever way round, the vertices inside it.

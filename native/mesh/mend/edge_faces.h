@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which faces have a side between two vertices, while faces change. For mesh/mend/ only.
+// mesh/half_edges.h cannot serve: it is of faces that stay, and names the other face of a pair only.
 #pragma once
 
 #include <algorithm>

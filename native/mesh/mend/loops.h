@@ -16,6 +16,12 @@ struct MendCorner {
 
 using Loop = std::vector<MendCorner>;
 
+inline std::vector<Index> vertices_of(std::span<const MendCorner> loop) {
+  std::vector<Index> vertices;
+  for (const MendCorner& corner : loop) vertices.push_back(corner.vertex);
+  return vertices;
+}
+
 // Faces, one after another, each with the input face that it comes from.
 struct Loops {
   std::vector<MendCorner> corners;
