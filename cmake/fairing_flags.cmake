@@ -12,6 +12,14 @@ else()
   # a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
   target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
 endif()
+# Eigen's blocks, and so the order of its sums, depend on the machine's caches: on all machines as for these.
+target_compile_definitions(
+  fairing_flags INTERFACE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768 EIGEN_DEFAULT_L2_CACHE_SIZE=262144
+                          EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$" AND NOT MSVC) # fused operations and larger blocks otherwise
+  target_compile_options(fairing_flags INTERFACE "SHELL:-include \"${CMAKE_CURRENT_LIST_DIR}/unfused_neon.h\"")
+  target_compile_definitions(fairing_flags INTERFACE EIGEN_DENSEBASE_PLUGIN="${CMAKE_CURRENT_LIST_DIR}/eigen_blocks.h")
+endif()
 if(WIN32) # whatever the compiler: M_PI, and std::min beside Windows' own headers
   target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
 endif()

@@ -121,7 +121,6 @@ def without(points: np.ndarray, *gone: int) -> np.ndarray:
 
 
 JOHNSON = {
-    1: lambda: without(np.concatenate([np.eye(3), -np.eye(3)]), 5),
     2: lambda: upright_icosahedron()[:6],
     3: lambda: cupola(3),
     4: lambda: cupola(4),
@@ -141,6 +140,13 @@ def johnson(number: int, cut: bool = False):
     """Johnson's solid of that number; `cut`: larger faces than quads into triangles, without a
     vertex in the middle."""
     return inscribed(JOHNSON[number](), cut)
+
+
+def pyramid():
+    """Johnson's first solid, half an octahedron, in numbers: the same on every machine to the last
+    bit, which least squares and hulls are not."""
+    points = np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0]])
+    return points, [[4, 2, 3], [4, 0, 2], [2, 1, 3], [2, 0, 1], [3, 1, 0, 4]]
 
 
 def dodecahedron():
@@ -172,10 +178,11 @@ NAMED = {
     "cube_cut_evenly": lambda: cube(2),
     "dodecahedron": meshes.dodecahedron,
     "dodecahedron_cut": dodecahedron,
+    "J1": pyramid,
 }
 NAMED |= {f"J{number}": lambda number=number: johnson(number) for number in JOHNSON}
 NAMED |= {
     f"J{number}_cut": lambda number=number: johnson(number, True)
     for number in JOHNSON
-    if number not in (1, 3, 27, 37)
+    if number not in (3, 27, 37)
 }
