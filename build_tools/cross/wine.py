@@ -11,11 +11,14 @@ from layout import ROOT, VENV_PYTHON
 from shell import run, say
 from stamp import fingerprint, is_fresh, leave
 
+from cross import wine_complex
 from cross.sources import FOLDER, WINDOWS_PYTHONS
 
 WINE = DebianRoot("trixie", "", purpose="wine", base_packages=("wine", "wine64"))
-# what the tests import. NumPy for Python 3.13 wants functions of Windows' C library that Wine's 10 has not.
-REQUIREMENTS = {"cp311": ROOT / "build_tools" / "cross" / "windows_cp311.txt"}
+# what the tests import
+REQUIREMENTS = {
+    python: ROOT / "build_tools" / "cross" / f"windows_{python}.txt" for python in WINDOWS_PYTHONS
+}
 
 
 def windows_path(inside: Path) -> str:
@@ -49,15 +52,18 @@ def install_packages(python: str, folder: Path) -> None:
     version = f"{python[2]}.{python[3:]}"
     words = ["--platform", "win_amd64", "--python-version", version, "--only-binary", ":all:"]
     words += ["--require-hashes", "--no-deps", "--requirement", REQUIREMENTS[python]]
+    words.append("--ignore-requires-python")  # which pip asks of its own Python
     target = folder / "Lib" / "site-packages"
     run(VENV_PYTHON, "-m", "pip", "--quiet", "install", *words, "--target", target)
+    wine_complex.install(target, folder)
 
 
 def python_folder(python: str) -> Path:
     """A Python for Windows with the tests' packages, as we see it; made once."""
     WINE.make()
     folder, stamp = WINE.outside / python, WINE.outside / f"{python}.stamp"
-    value = fingerprint([REQUIREMENTS[python]], WINDOWS_PYTHONS[python].sha256)
+    parts = [REQUIREMENTS[python], wine_complex.SOURCE, Path(wine_complex.__file__)]
+    value = fingerprint(parts, WINDOWS_PYTHONS[python].sha256)
     if not (is_fresh(stamp, value) and folder.is_dir()):
         say(f"Python for Windows, {python}, in {folder.relative_to(ROOT)}")
         shutil.rmtree(folder, ignore_errors=True)
