@@ -48,11 +48,11 @@ MODELS = {
     "hull": (modelled(control_meshes.hull), View(8.4, turn=-132, elevation=16, height=0.85)),
     "fender": (
         modelled(modelling_meshes.fender),
-        View(2.9, turn=-28, elevation=14, height=0.58, aside=-0.27),
+        View(2.9, turn=-28, elevation=14, height=0.58),
     ),
     "mug": (
         modelled(modelling_meshes.mug),
-        View(3.4, turn=-40, elevation=22, height=1.0, aside=0.26),
+        View(3.4, turn=-40, elevation=22, height=1.0),
     ),
     "suzanne": (settings_meshes.suzanne, View(3.1, turn=20, height=0.85)),
 }

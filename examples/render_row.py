@@ -33,7 +33,6 @@ class View:
     turn: float = 25.0  # degrees about the vertical
     elevation: float = 17.0  # degrees, of the camera
     height: float = 0.5  # of the middle of what is seen over the floor, in the mesh's units
-    aside: float = 0.0  # of that middle to the right of the mesh's own
     look: str = "clay"
     stripes: int = 10
     wires: bool = False  # on the surfaces; a control mesh has them anyway
@@ -110,8 +109,7 @@ def _aim(view):
     camera.data.ortho_scale = WIDTH
     elevation = radians(view.elevation)
     direction = Vector((0, -cos(elevation), sin(elevation)))
-    scale = WIDTH / view.span
-    middle = Vector((view.aside * scale, 0, view.height * WIDTH / view.span - LABEL / 2))
+    middle = Vector((0, 0, view.height * WIDTH / view.span - LABEL / 2))
     camera.location = middle + DISTANCE * direction
     camera.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
 
