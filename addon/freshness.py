@@ -26,8 +26,8 @@ from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
 from .settings import NAMES, Settings, is_evaluated
 
-SOURCE_CHANGED = "The source has changed"
-SETTINGS_CHANGED = "The settings have changed"
+SOURCE_CHANGED = "Source changed"
+SETTINGS_CHANGED = "Settings changed"
 # settings that change nothing about a surface that is there
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
 _SOON = 0.3  # seconds

@@ -28,7 +28,7 @@ from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_
 from .preferences import preferences
 from .settings import Settings, halves, is_evaluated, snapshot, wants_modifiers
 from .transfer.carrier import Carrier
-from .transfer.lattice import fine_edges
+from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
 
 NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
@@ -99,6 +99,7 @@ class Job:
         with errors.explained(self.name):
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        self._edges = edge_table(self.result.faces)
         world = self.shape.of_arrays(self.arrays)
         self.faults = find_faults(self.result, self.carrier, world)
         self._to_object()
@@ -182,12 +183,13 @@ class Job:
         sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
         carried = carried_names(self.data, self.keys)
         if old is None:
-            mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, source.data.materials)
+            materials = source.data.materials
+            mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, materials, self._edges)
             target = new_object(context, source, mesh)
         else:
             target = old
             own = own or read_own(target, carried, memory.recall(target, "carried") or {})
-            refill_mesh(target, result, sharp_pairs)
+            refill_mesh(target, result, sharp_pairs, self._edges)
         write_data(target, self.data, self.carrier, attributes_left_out(settings))
         write_pad_sizes(target.data, result, self.carrier)
         if self.keys:

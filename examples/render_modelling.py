@@ -9,8 +9,8 @@ Rendered by Cycles on the processor, some ten seconds a tile.
 
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import bpy
 
@@ -20,9 +20,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 import control_meshes  # noqa: E402
 import modelling_meshes  # noqa: E402
 import settings_meshes  # noqa: E402
-from render_row import View, compose_row, render_tile  # noqa: E402
-
-import addon  # noqa: E402
+from render_row import View, draw_rows, render_tile  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "modelling"
 LEVELS = 3
@@ -48,8 +46,14 @@ def modelled(make):
 
 MODELS = {
     "hull": (modelled(control_meshes.hull), View(8.4, turn=-132, elevation=16, height=0.85)),
-    "fender": (modelled(modelling_meshes.fender), View(2.9, turn=-28, elevation=14, height=0.58)),
-    "mug": (modelled(modelling_meshes.mug), View(3.4, turn=-40, elevation=22, height=1.0)),
+    "fender": (
+        modelled(modelling_meshes.fender),
+        View(2.9, turn=-28, elevation=14, height=0.58),
+    ),
+    "mug": (
+        modelled(modelling_meshes.mug),
+        View(3.4, turn=-40, elevation=22, height=1.0),
+    ),
     "suzanne": (settings_meshes.suzanne, View(3.1, turn=20, height=0.85)),
 }
 
@@ -76,31 +80,14 @@ TILES = (
 )
 
 
-def main(names):
-    unknown = {*names} - {*MODELS}
-    if unknown:
-        sys.exit(f"No such picture: {', '.join(sorted(unknown))}. There are {', '.join(MODELS)}.")
-    OUT.mkdir(parents=True, exist_ok=True)
-    addon.register()
-    try:
-        for name in names or MODELS:
-            draw(*MODELS[name], OUT / f"{name}.png")
-    finally:
-        addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
+def draw_tile(name, label, look, finish, path):
+    make, view = MODELS[name]
+    control = make()
+    surface = finish(control) if finish else control
+    render_tile(path, label, replace(view, look=look), control, [surface], finish is None)
 
 
-def draw(make, view, path):
-    with TemporaryDirectory() as folder:
-        tiles = [Path(folder) / f"{i}.png" for i in range(len(TILES))]
-        for tile, (label, look, finish) in zip(tiles, TILES, strict=True):
-            bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-            control = make()
-            surface = finish(control) if finish else control
-            seen = replace(view, look=look)
-            render_tile(tile, label, seen, control, [surface], finish is None)
-        compose_row(tiles, path)
-    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
-
+ROWS = {name: [partial(draw_tile, name, *tile) for tile in TILES] for name in MODELS}
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    draw_rows(sys.argv[1:], ROWS, OUT)

@@ -3,6 +3,8 @@
 
 from dataclasses import dataclass
 from math import cos, radians, sin
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import bpy
 import numpy as np
@@ -12,6 +14,8 @@ from render_clay import CREASE, WIRE, add_wire, clay, creased_edges
 from render_picture import PAPER, load_pixels
 from render_studio import DISTANCE, build_studio, dress, render
 from render_zebra import dress_in_zebra
+
+import addon
 
 TILE = (260, 270)  # pixels in the picture; rendered twice as large
 WIDTH = 2.4  # of a tile, in the studio's units
@@ -32,6 +36,34 @@ class View:
     look: str = "clay"
     stripes: int = 10
     wires: bool = False  # on the surfaces; a control mesh has them anyway
+
+
+def draw_rows(names, rows, folder):
+    """PNGs in `folder` of those `rows` that `names` has, of all if it is empty. Each is a list of
+    functions that render one tile to a path.
+    """
+    unknown = {*names} - {*rows}
+    if unknown:
+        raise SystemExit(
+            f"No such picture: {', '.join(sorted(unknown))}. There are {', '.join(rows)}."
+        )
+    folder.mkdir(parents=True, exist_ok=True)
+    addon.register()
+    try:
+        for name in names or rows:
+            _draw_row(rows[name], folder / f"{name}.png")
+    finally:
+        addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
+
+
+def _draw_row(row, path):
+    with TemporaryDirectory() as folder:
+        tiles = [Path(folder) / f"{i}.png" for i in range(len(row))]
+        for tile, draw in zip(tiles, row, strict=True):
+            bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+            draw(tile)
+        compose_row(tiles, path)
+    print(f"{path.name}: {path.stat().st_size // 1000} kB", flush=True)
 
 
 def render_tile(path, label, view, control, surfaces, wired):

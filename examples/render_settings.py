@@ -10,8 +10,8 @@ the processor, one after the other: some ten seconds a tile.
 
 import sys
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import bpy
 
@@ -19,9 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 import settings_meshes as meshes  # noqa: E402
-from render_row import View, compose_row, render_tile  # noqa: E402
-
-import addon  # noqa: E402
+from render_row import View, draw_rows, render_tile  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "settings"
 
@@ -223,30 +221,7 @@ FIGURES = {
 }
 
 
-def main(names):
-    unknown = {*names} - {*FIGURES}
-    if unknown:
-        sys.exit(f"No such picture: {', '.join(sorted(unknown))}. There are {', '.join(FIGURES)}.")
-    OUT.mkdir(parents=True, exist_ok=True)
-    addon.register()
-    try:
-        for name in names or FIGURES:
-            draw(FIGURES[name], OUT / f"{name}.png")
-    finally:
-        addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
-
-
-def draw(figure, path):
-    with TemporaryDirectory() as folder:
-        tiles = [Path(folder) / f"{i}.png" for i in range(len(figure.variants))]
-        for tile, variant in zip(tiles, figure.variants, strict=True):
-            draw_variant(figure, variant, tile)
-        compose_row(tiles, path)
-    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", flush=True)
-
-
 def draw_variant(figure, variant, tile):
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     control = (variant.make or figure.make)()
     surfaces = [control]
     wired = variant.as_it_is and variant.wires or figure.view.wires
@@ -261,5 +236,10 @@ def draw_variant(figure, variant, tile):
     render_tile(tile, variant.label, figure.view, control, surfaces, wired)
 
 
+ROWS = {
+    name: [partial(draw_variant, figure, variant) for variant in figure.variants]
+    for name, figure in FIGURES.items()
+}
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    draw_rows(sys.argv[1:], ROWS, OUT)

@@ -2,7 +2,7 @@
 """A result of the core as a new Blender mesh, in bulk."""
 
 from collections.abc import Iterable
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 import bpy
 import numpy as np
@@ -14,6 +14,8 @@ from ..transfer.carrier import Carrier
 from ..transfer.lattice import fine_edges, mark_pairs
 from .boundary_marks import BOUNDARY
 from .layers import SurfaceData, fill_layer, make_layer, write_data
+
+Edges: TypeAlias = tuple[np.ndarray, np.ndarray]  # (e, 2) vertices; the one that leaves each corner
 
 PAD_SIZES = "fair_pad_size"
 # attributes on points: where something is wrong with the surface, by kind
@@ -29,6 +31,7 @@ def write_mesh(
     result: Any,
     sharp_pairs: np.ndarray,
     materials: Iterable[bpy.types.Material | None] = (),
+    edges: Edges | None = None,
 ) -> Mesh:
     """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices
     come first.
@@ -38,14 +41,18 @@ def write_mesh(
     mesh = cast(Mesh, bpy.data.meshes.new(name))
     for material in materials:
         mesh.materials.append(material)
-    fill_mesh(mesh, result, sharp_pairs)
+    fill_mesh(mesh, result, sharp_pairs, edges)
     return mesh
 
 
-def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray) -> None:
-    """The same into a `mesh` that has no geometry. Its materials stay."""
+def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None) -> None:
+    """The same into a `mesh` that has no geometry. Its materials stay. `edges`: as `edge_table` has
+    them, so that a large surface does not make the window wait for them; None: Blender finds them.
+    """
     _write_faces(mesh, result.vertices, *result.faces)
-    mesh.update(calc_edges=True)
+    if edges is not None:
+        _write_edges(mesh, *edges)
+    mesh.update(calc_edges=edges is None)
     if len(sharp_pairs):
         _mark_sharp(mesh, sharp_pairs)
 
@@ -69,7 +76,9 @@ def rebuild_mesh(
     write_pad_sizes(target.data, result, carrier)
 
 
-def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
+def refill_mesh(
+    target: Object, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None
+) -> None:
     """Gives the mesh of `target`, for all objects that share it, the geometry of `result`.
 
     Its materials, custom properties and name stay; all that lay on the old geometry is gone.
@@ -77,7 +86,7 @@ def refill_mesh(target: Object, result: Any, sharp_pairs: np.ndarray) -> None:
     if target.data.shape_keys is not None:
         target.shape_key_clear()
     target.data.clear_geometry()
-    fill_mesh(target.data, result, sharp_pairs)
+    fill_mesh(target.data, result, sharp_pairs, edges)
 
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
@@ -127,6 +136,12 @@ def _write_faces(
     mesh.attributes["position"].data.foreach_set("vector", vertices.astype(np.float32).ravel())
     mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
     mesh.polygons.foreach_set("loop_start", starts)
+
+
+def _write_edges(mesh: Mesh, edges: np.ndarray, corner_edges: np.ndarray) -> None:
+    mesh.edges.add(len(edges))
+    mesh.attributes[".edge_verts"].data.foreach_set("value", edges.ravel())
+    mesh.attributes[".corner_edge"].data.foreach_set("value", corner_edges)
 
 
 def _mark_sharp(mesh: Mesh, pairs: np.ndarray) -> None:

@@ -36,6 +36,16 @@ def fine_edges(
     return np.concatenate(found)
 
 
+def edge_table(faces: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """(e, 2) int32: the edges of the core's (triangles (T, 3), quads (Q, 4)), and (corners,) int32:
+    the edge that leaves each corner.
+    """
+    ends = [np.stack([fine, np.roll(fine, -1, axis=1)], axis=2).reshape(-1, 2) for fine in faces]
+    keys, corner_edges = np.unique(pair_keys(np.concatenate(ends)), return_inverse=True)
+    edges = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1).astype(np.int32)
+    return edges, corner_edges.ravel().astype(np.int32)
+
+
 def mark_pairs(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
     """(e,) bool: which of the `edges` (e, 2) are among the vertex `pairs` (k, 2), whichever way
     round.

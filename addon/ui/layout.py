@@ -52,10 +52,12 @@ def draw_shape(
     row = layout.row()
     row.active = settings.energy != "MINIMUM_VARIATION"
     row.prop(settings, "tension")
+    if not row.active:
+        _reason(layout, "Not with this energy")
     layout.prop(settings, "boundary")
     if edges_text:
         _remark(layout, edges_text)
-    layout.row().prop(settings, "symmetry_plane", expand=True)
+    layout.prop(settings, "symmetry_plane")
 
 
 def _draw_tolerance(
@@ -71,11 +73,11 @@ def _draw_tolerance(
     )
     if relative and length:
         _remark(layout, length)
-    for name, label in (("tolerance_group", "Group"), ("pull_group", "Pulls")):
+    for name in ("tolerance_group", "pull_group"):
         missing = missing_groups.get(name, "")
         row = layout.row()
         row.alert = bool(missing)
-        row.prop(settings, name, text=label, icon="GROUP_VERTEX")
+        row.prop(settings, name, icon="GROUP_VERTEX")
         if missing:
             _remark(layout, missing, icon="ERROR")
 

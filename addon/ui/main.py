@@ -95,6 +95,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+            if not sources:
+                layout.label(text="Select a mesh object first", icon="INFO")
             if context.mode == "EDIT_MESH" and settings.use_selection:
                 layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
             draw_stale_surfaces(layout, context.active_object)

@@ -28,7 +28,7 @@ def test_a_source_that_has_changed():
     assert why_stale(target) == "" and not badges()
     change(source)
     assert why_stale(target) == SOURCE_CHANGED
-    assert badges() == ["Out of date: the source has changed"]
+    assert badges() == ["Out of date: source changed"]
     move(source, by=-0.5)
     follow()
     assert why_stale(target) == "", "changed back"

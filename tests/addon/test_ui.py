@@ -11,6 +11,7 @@ from scenes import CUBE, add, add_suzanne, face_values
 import addon
 from addon import core, size
 from addon.choices import ENERGIES, ENERGY_MEANINGS
+from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, notice
@@ -195,3 +196,21 @@ def test_layout_draws_operator_properties_too():
     settings_layout.draw_creases(log, properties)
     settings_layout.draw_advanced(log, properties)
     assert "levels" in log.log
+
+
+def test_a_grey_button_says_what_to_do():
+    assert "Select a mesh object first" in draw(main.VIEW3D_PT_fairing)
+    add("Box", *CUBE)
+    assert "Select a mesh object first" not in draw(main.VIEW3D_PT_fairing)
+
+
+def test_what_is_grey_says_why():
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
+    said = draw(main.VIEW3D_PT_fairing)
+    assert "It helps the start only" in said and "Not with this energy" in said
+
+
+@pytest.mark.parametrize("reason", [SOURCE_CHANGED, SETTINGS_CHANGED])
+def test_the_badge_fits_a_sidebar(reason):
+    assert len(f"Out of date: {reason}") < notice.WIDTH

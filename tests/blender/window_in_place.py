@@ -13,7 +13,7 @@ import bpy
 import harness
 import numpy as np
 
-SIZE = 160  # faces a side: a run of some seconds
+SIZE = 100  # faces a side: a run of a second at least
 MARGIN = 2  # rows at the border that are not selected
 PATIENCE = 300.0  # seconds until a run must have ended
 
@@ -107,17 +107,6 @@ def test_an_edit_meanwhile_is_kept_and_the_run_refused():
     before = positions(target)
     yield from until_it_ends()
     assert np.array_equal(positions(target), before)
-
-
-def test_a_short_run_is_done_at_once():
-    target = yield from noisy_grid()
-    for face in bmesh.from_edit_mesh(target.data).faces:
-        x, y, _ = face.calc_center_median()
-        face.select_set(max(abs(x), abs(y)) < 0.2)
-    bmesh.update_edit_mesh(target.data)
-    before = positions(target)
-    assert start() == {"FINISHED"}
-    assert not np.array_equal(positions(target), before)
 
 
 harness.run_in_window(globals())
