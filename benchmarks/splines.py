@@ -21,8 +21,9 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "python"))
 
 import control_meshes as shapes
+import example_meshes
 import step_files
-from mesh_files import read_mesh
+from mesh_files import SUFFIXES, read_mesh
 from pads import fender
 from shared_data import SHARED
 from spline_measures import volume
@@ -38,12 +39,18 @@ def surfaces():
     yield "octahedron, 1e-5", shapes.octahedron(), {"tolerance": 1e-5, **CURVED}
     yield "random hull", shapes.random_hull(), CURVED
     yield "Clifford torus", shapes.torus(), CURVED
-    yield "fender", fender(), {"boundary": "linear", **CURVED}
+    yield "genus 2", example_meshes.branching(), CURVED
+    for name, (mesh, creases) in (
+        ("box with creases", shapes.box_with_creases()),
+        ("hull with creases", example_meshes.hull()),
+    ):
+        yield name, mesh, {"crease_edges": creases}
+    yield "fender", fender(), CURVED
+    yield "fender, straight border", fender(), {"boundary": "linear", **CURVED}
     yield "three handles", shapes.three_handles(), CURVED
     yield "triangles and quads", shapes.mixed_house(), {}
-    yield "box with creases", shapes.box_with_creases()[:2], {"crease_angle": 0.6}
     folder = SHARED / "good"
-    for path in sorted(folder.rglob("*.obj")) if folder.is_dir() else []:
+    for path in sorted(path for path in folder.rglob("*") if path.suffix.lower() in SUFFIXES):
         yield path.stem, read_mesh(path), {}
 
 

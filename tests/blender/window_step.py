@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Export to CAD in a real window: the file browser, the progress, ESC, several objects, a refusal."""
+
+import importlib
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+
+PATIENCE = 240.0  # seconds
+LONG = 7  # levels that take long enough to be cancelled
+LEAF = (
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)],
+    [(0, 1, 2, 3), (1, 4, 5, 2)],
+)
+FOLDER = tempfile.mkdtemp()
+
+
+def running():
+    """The extension's queue at work, or None."""
+    return importlib.import_module(f"{harness.EXTENSION}.queue").running()
+
+
+def alone(*targets):
+    """These objects are all that is left, and selected; seen whole."""
+    for other in list(bpy.data.objects):
+        if other not in targets:
+            bpy.data.objects.remove(other)
+    for target in targets:
+        target.select_set(True)
+    bpy.context.view_layer.objects.active = targets[0]
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.view3d.view_selected()
+
+
+def add_balls(*places):
+    """A cube at each place, whose surface is a sphere."""
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    found = []
+    for x in places:
+        bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+        found.append(bpy.context.active_object)
+        found[-1].name = f"Ball {len(found)}"
+    alone(*found)
+    return found
+
+
+def browse(path, **settings):
+    """Opens the file browser as the menu does, photographs it and presses Export; a generator."""
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.export_scene.fairing_step("INVOKE_DEFAULT", filepath=str(path), **settings)
+    yield 2.0
+    harness.photograph("step_browser")
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "FILE_BROWSER":
+                region = next(region for region in area.regions if region.type == "WINDOW")
+                with bpy.context.temp_override(window=window, area=area, region=region):
+                    bpy.ops.file.execute()
+    yield 0.3
+
+
+def wait_for_the_end():
+    """Until the run is over; a generator. The phases and fractions that were seen."""
+    seen, begun = [], perf_counter()
+    while running():
+        seen.append((running().fraction, running().phase))
+        assert perf_counter() - begun < PATIENCE, "the run does not end"
+        yield 0.1
+    yield 0.5
+    return seen
+
+
+def parts(path):
+    """Names of the parts of a STEP file."""
+    lines = path.read_text(encoding="ascii").splitlines()
+    assert lines[-1] == "END-ISO-10303-21;"
+    return sorted(line.split("'")[1] for line in lines if "=PRODUCT('" in line)
+
+
+def left_over(path):
+    return [other.name for other in path.parent.iterdir() if other.name.startswith(f".{path.name}")]
+
+
+def test_several_objects_by_the_file_browser():
+    path = Path(FOLDER) / "balls.step"
+    add_balls(0, 4)
+    yield from harness.open_sidebar("Fairing")
+    yield from browse(path, fit_levels=6)
+    assert running(), "a long run does not block"
+    assert running().position[1] == 2
+    seen = yield from wait_for_the_end()
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and len(set(fractions)) > 2
+    assert parts(path) == ["Ball 1", "Ball 2"] and not left_over(path)
+    harness.photograph("step_written")
+
+
+def test_escape_leaves_the_old_file():
+    path = Path(FOLDER) / "old.step"
+    path.write_text("old")
+    sources = add_balls(0, 4, 8)
+    yield from browse(path, fit_levels=LONG)
+    assert running()
+    yield 0.5
+    harness.photograph("step_progress")
+    harness.xdotool("key", "Escape")
+    yield from wait_for_the_end()
+    assert path.read_text() == "old" and not left_over(path)
+    assert list(bpy.data.objects) == sources and all(o.select_get() for o in sources)
+
+
+def test_a_refusal_writes_nothing_and_lists_the_faces():
+    path = Path(FOLDER) / "leaf.step"
+    mesh = bpy.data.meshes.new("Leaf")
+    mesh.from_pydata(LEAF[0], [], LEAF[1])
+    leaf = bpy.data.objects.new("Leaf", mesh)
+    bpy.context.collection.objects.link(leaf)
+    alone(leaf)
+    yield from harness.open_sidebar("Fairing")
+    yield from browse(path)
+    yield from wait_for_the_end()
+    assert not path.exists() and not left_over(path)
+    assert "UNRESOLVED" in leaf.discrete_fairing.defects
+    yield 1.0
+    harness.photograph("step_refused")
+
+
+def test_the_button_and_the_patches_of_a_surface():
+    add_balls(0)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_surface(levels=3, energy="TOTAL_CURVATURE")
+    yield from harness.open_sidebar("Fairing")
+    harness.photograph("step_button")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_show_patches("INVOKE_DEFAULT")
+    yield from wait_for_the_end()
+    patches = bpy.context.view_layer.objects.active
+    assert patches.type == "SURFACE" and len(patches.data.splines) == 6
+    bpy.data.objects["Ball 1 Fair"].hide_set(True)
+    yield 1.0
+    harness.photograph("step_patches")
+
+
+harness.run_in_window(globals())
