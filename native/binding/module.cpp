@@ -58,7 +58,12 @@ void bind_errors(py::module_& m) {
 void bind_monitor(py::module_& m) {
   py::class_<Monitor>(m, "Monitor", "Watches a run, and cancels it, from any thread.")
       .def(py::init<>())
-      .def("_enter_part", &Monitor::enter_part)  // for the package's calls of several runs
+      // for the package's calls of several runs, each with a monitor of its own
+      .def("_report",
+           [](Monitor& self, const std::string& phase, double fraction) {
+             for (Phase known = Phase::check; known <= Phase::done; known = Phase(int(known) + 1))
+               if (name(known) == phase) self.report(known, fraction);
+           })
       .def("cancel", &Monitor::cancel, "Makes the run stop soon, with the error CANCELLED.")
       .def_property_readonly("fraction", &Monitor::fraction,
                              "How much of the work is done, from 0 to 1; never decreases.")

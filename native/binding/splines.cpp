@@ -102,10 +102,11 @@ py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::in
 
 py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::int32_t>& triangles,
                       const Contiguous<std::int32_t>& quads,
-                      const Contiguous<std::int32_t>& crease_edges, int levels, int threads) {
+                      const Contiguous<std::int32_t>& crease_edges, int levels, double least,
+                      int threads) {
   const Lattice lattice({levels, view(vertices), view(triangles), view(quads), view(crease_edges)});
   Workers workers(threads);
-  return to_numpy(lattice_turns(lattice, make_topology(lattice), workers));
+  return to_numpy(lattice_turns(lattice, make_topology(lattice), least, workers));
 }
 
 }  // namespace
@@ -113,8 +114,10 @@ py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::
 void bind_splines(py::module_& m) {
   m.def("lattice_turns", &turns_array, py::arg("vertices").noconvert(),
         py::arg("triangles").noconvert(), py::arg("quads").noconvert(),
-        py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("threads"),
-        "By control faces, radians: the sharpest turn between two cells of a refined surface.");
+        py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("least"),
+        py::arg("threads"),
+        "By control faces, radians: the sharpest turn between two cells of a refined surface, of "
+        "those at least `least` high.");
   m.def("fit_splines", &fit_arrays, py::arg("vertices").noconvert(),
         py::arg("triangles").noconvert(), py::arg("quads").noconvert(),
         py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("tolerance"),

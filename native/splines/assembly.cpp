@@ -160,13 +160,12 @@ std::vector<double> edge_angles(const Topology& topology, const std::vector<Fitt
   return angles_of(topology, patches, EdgeNumbers(topology, curves), workers);
 }
 
-std::vector<std::uint8_t> patches_to_refine(const Topology& topology,
-                                            const std::vector<FittedPatch>& patches,
-                                            std::size_t curves, double tolerance,
-                                            Workers& workers) {
+std::vector<Directions> patches_to_refine(const Topology& topology,
+                                          const std::vector<FittedPatch>& patches,
+                                          std::size_t curves, double tolerance, Workers& workers) {
   const EdgeNumbers numbers(topology, curves);
   const std::vector<double> angles = angles_of(topology, patches, numbers, workers);
-  std::vector<std::uint8_t> wanted(patches.size(), 0);
+  std::vector<Directions> wanted(patches.size());
   for (std::size_t e = 0; e < numbers.uses.size(); ++e) {
     stop_if_cancelled(e);
     double worst = 0;
@@ -178,7 +177,8 @@ std::vector<std::uint8_t> patches_to_refine(const Topology& topology,
     };
     const double larger = std::max(own(numbers.uses[e][0]), own(numbers.uses[e][1]));
     for (const EdgeUse& use : numbers.uses[e])
-      if (own(use) >= std::min(larger, tolerance / 2)) wanted[std::size_t(use.patch)] = 1;
+      if (own(use) >= std::min(larger, tolerance / 2))
+        (use.side % 2 ? wanted[std::size_t(use.patch)].v : wanted[std::size_t(use.patch)].u) = true;
   }
   return wanted;
 }

@@ -16,9 +16,16 @@ void assemble(const Lattice& lattice, const Topology& topology,
 std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
                                 std::size_t curves, Workers& workers);
 
-// By patches: whether one has an edge with too sharp an angle, and is off by a half of it.
-std::vector<std::uint8_t> patches_to_refine(const Topology& topology,
-                                            const std::vector<FittedPatch>& patches,
-                                            std::size_t curves, double tolerance, Workers& workers);
+// Of a patch: where it needs more spans.
+struct Directions {
+  bool u = false, v = false;
+
+  bool any() const { return u || v; }
+};
+
+// By patches: along which of its edges with too sharp an angle one is off by a half of it.
+std::vector<Directions> patches_to_refine(const Topology& topology,
+                                          const std::vector<FittedPatch>& patches,
+                                          std::size_t curves, double tolerance, Workers& workers);
 
 }  // namespace fairing

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "splines/lattice.h"
+
 namespace fairing {
 namespace {
 
-// What sliding along the curve counts, and what a tangent out of the surface's tangent plane does.
-constexpr double slide = 0.1, tilt = 0.03;
+// What sliding along the curve counts, what leaving the lattice's line within the surface does, and
+// what a tangent out of the surface's tangent plane does.
+constexpr double slide = 0.1, aside = 0.2, tilt = 0.03;
 // What the middle of a halved curve counts, which other curves start from.
 constexpr double middle_weight = 10;
 constexpr int refits = 3;
@@ -27,12 +30,14 @@ double length_of(const std::vector<Vec3>& points) {
   return length;
 }
 
-// Two unit vectors across n.
-Eigen::Matrix<double, 3, 2> plane_of(const Vec3& n) {
-  const Vec3 t = n.unitOrthogonal();
-  Eigen::Matrix<double, 3, 2> out;
-  out << t, n.cross(t);
-  return out;
+// What a distance from point k counts. A smooth curve has to lie on the surface; where in it, is
+// almost its own affair.
+Eigen::Matrix3d off_surface(const CurveData& data, std::size_t k) {
+  const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
+  if (data.strict || data.normals.empty() || data.normals[k].isZero() || data.is_middle(k))
+    return all;
+  const Vec3& n = data.normals[k];
+  return aside * all + (1 - aside) * n * n.transpose();
 }
 
 class CurveSystem {
@@ -52,7 +57,7 @@ class CurveSystem {
       const bool first = i == 1 && at_start, last = i + 2 == count && at_end;
       if (first || last) {
         basis_.block<3, 2>(3 * i, column) =
-            plane_of(first ? data.normals.front() : data.normals.back());
+            tangents_of(first ? data.normals.front() : data.normals.back());
         set_fixed(i, first ? data.points.front() : data.points.back());
         column += 2;
       } else {
@@ -75,7 +80,8 @@ class CurveSystem {
       if (data_.is_middle(at))
         weight *= middle_weight;
       else if (!along.empty())
-        weight -= (1 - slide) * along[at] * along[at].transpose();
+        weight =
+            off_surface(data_, at) * (weight - (1 - slide) * along[at] * along[at].transpose());
       for (int i = 0; i < 4; ++i) {
         const Eigen::Index column = 3 * (b.first + i);
         rows.block<3, 3>(height * k, column) = b.value[std::size_t(i)] * weight;
@@ -117,11 +123,10 @@ double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
   return t;
 }
 
-double farthest(const SplineCurve& curve, const std::vector<Vec3>& points,
-                const std::vector<double>& t) {
+double farthest(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
   double error = 0;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    error = std::max(error, (curve.at(t[k]).at - points[k]).norm());
+  for (std::size_t k = 0; k < data.points.size(); ++k)
+    error = std::max(error, (off_surface(data, k) * (curve.at(t[k]).at - data.points[k])).norm());
   return error;
 }
 
@@ -163,7 +168,7 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   out.normals = data.normals;
   out.parameters = even_parameters(data.points.size());
   out.curve = system.solve(out.parameters, {});
-  out.error = farthest(out.curve, data.points, out.parameters);
+  out.error = farthest(out.curve, data, out.parameters);
   return out;
 }
 
@@ -184,7 +189,7 @@ FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool
     }
     if (round < refits) out.curve = system.solve(out.parameters, along);
   }
-  out.error = farthest(out.curve, data.points, out.parameters);
+  out.error = farthest(out.curve, data, out.parameters);
   return out;
 }
 

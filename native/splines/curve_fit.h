@@ -14,6 +14,7 @@ namespace fairing {
 struct CurveData {
   std::vector<Vec3> points, normals;
   bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
+  bool strict = false;  // along the lattice's line; or anywhere near it on the surface
 
   bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
 };
@@ -22,7 +23,7 @@ struct FittedCurve {
   SplineCurve curve;
   std::vector<double> parameters;  // of the data's points: where the curve is closest
   std::vector<Vec3> normals;       // the data's, turned to stand on the curve
-  double error = 0;                // the farthest that a point is from the curve
+  double error = 0;  // the farthest that a point is from the curve, across the surface mostly
 };
 
 // Between those of the data; of smooth curves only.
@@ -33,7 +34,8 @@ struct SpanLimits {
   double tolerance;
 };
 
-// Minimizes the distances of the points from the curve, to slide along it costing little. Its ends
+// Minimizes the distances of the points from the curve. To slide along it costs little; to leave the
+// line within the surface not much, unless the data are strict. Its ends
 // are the data's, with tangents in the planes of their normals. The spans are doubled until the
 // error is within the tolerance.
 FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits);

@@ -37,14 +37,6 @@ double extent(std::span<const double> vertices) {
   return largest;
 }
 
-// Two unit vectors that make a right-handed frame with n.
-Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
-  const Vec3 t = n.unitOrthogonal();
-  Eigen::Matrix<double, 3, 2> out;
-  out << t, n.cross(t);
-  return out;
-}
-
 }  // namespace
 
 Lattice::Lattice(const RefinedSurface& surface) : surface_(surface), n_(1) {
@@ -82,6 +74,13 @@ Index Lattice::point(Index f, GridPoint p) const {
   const std::size_t left = n - std::size_t(cell.j);
   const std::size_t at = std::size_t(f) * n * n + n * n - left * left + 2 * std::size_t(cell.i);
   return surface_.triangles[3 * at + corner];
+}
+
+Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
+  const Vec3 t = n.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> out;
+  out << t, n.cross(t);
+  return out;
 }
 
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess) {

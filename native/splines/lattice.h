@@ -55,6 +55,9 @@ class Lattice {
   double size_ = 0;
 };
 
+// Two unit vectors that make a right-handed frame with n.
+Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n);
+
 // The normal at `centre` of the surface through these points nearby: that of a height function,
 // cubic as far as their number allows, over the plane of `guess`. Refitted once.
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);

@@ -2,14 +2,16 @@
 #include "splines/net_system.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 
 namespace fairing {
 
 NetSystem::NetSystem(const SplinePatch& known)
     : known_(known), rows_(control_points(known.spans_u)), columns_(control_points(known.spans_v)) {
-  const Eigen::Index size = 3 * Eigen::Index(rows_ - 2) * (columns_ - 2);
-  matrix_ = Eigen::MatrixXd::Zero(size, size);
+  width_ = 3 * Eigen::Index(std::min(rows_, columns_) - 2);
+  const Eigen::Index size = width_ * (std::max(rows_, columns_) - 2);
+  band_ = Eigen::MatrixXd::Zero(size, (reach + 1) * width_);
   right_ = Eigen::VectorXd::Zero(size);
 }
 
@@ -32,9 +34,11 @@ void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weigh
   const Vec3 load = weight * rest;
   for (std::size_t a = 0; a < count; ++a) {
     right_.segment<3>(of[a].at) += of[a].factor * load;
-    for (std::size_t b = 0; b <= a; ++b) {  // terms come in ascending order
+    for (std::size_t b = 0; b <= a; ++b) {
       const double both = of[a].factor * of[b].factor;
-      matrix_.block<3, 3>(of[a].at, of[b].at) += both * weight;
+      const auto [column, row] = std::minmax(of[a].at, of[b].at);
+      const Eigen::Index shift = (reach - row / width_) * width_;
+      band_.block<3, 3>(row, column + shift) += both * weight;
     }
   }
 }
@@ -55,14 +59,47 @@ void NetSystem::add_third_differences(double scale) {
     }
 }
 
-bool NetSystem::solve(SplinePatch& patch) const {
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factored(matrix_);
-  if (factored.info() != Eigen::Success) return false;
-  const Eigen::VectorXd found = factored.solve(right_);
-  if (!found.allFinite()) return false;
+// Cholesky's factors, row of blocks by row of blocks.
+bool NetSystem::factor() {
+  const Eigen::Index blocks = band_.rows() / width_;
+  for (Eigen::Index i = 0; i < blocks; ++i) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - reach);
+    for (Eigen::Index k = first; k < i; ++k) {
+      auto below = block(i, k);
+      for (Eigen::Index m = first; m < k; ++m)
+        below.noalias() -= block(i, m) * block(k, m).transpose();
+      block(k, k).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+    }
+    Eigen::MatrixXd own = block(i, i);
+    for (Eigen::Index m = first; m < i; ++m)
+      own.selfadjointView<Eigen::Lower>().rankUpdate(block(i, m), -1);
+    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factored(own);
+    if (factored.info() != Eigen::Success) return false;
+    block(i, i) = factored.matrixLLT();
+  }
+  return true;
+}
+
+bool NetSystem::solve(SplinePatch& patch) {
+  if (!factor()) return false;
+  const Eigen::Index blocks = band_.rows() / width_;
+  const auto part = [&](Eigen::Index i) { return right_.segment(i * width_, width_); };
+  for (Eigen::Index i = 0; i < blocks; ++i) {
+    auto own = part(i);
+    for (Eigen::Index m = std::max<Eigen::Index>(0, i - reach); m < i; ++m)
+      own.noalias() -= block(i, m) * part(m);
+    block(i, i).triangularView<Eigen::Lower>().solveInPlace(own);
+  }
+  for (Eigen::Index i = blocks; i-- > 0;) {
+    auto own = part(i);
+    for (Eigen::Index m = i + 1; m <= std::min(blocks - 1, i + reach); ++m)
+      own.noalias() -= block(m, i).transpose() * part(m);
+    block(i, i).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+  }
+  if (!right_.allFinite()) return false;
   for (int i = 1; i + 1 < rows_; ++i)
     for (int j = 1; j + 1 < columns_; ++j)
-      patch.net[patch.index(i, j)] = found.segment<3>(3 * unknown(i, j));
+      patch.net[patch.index(i, j)] = right_.segment<3>(3 * unknown(i, j));
   return true;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The normal equations of a patch's inside, with its outermost control points known.
+// The normal equations of a patch's inside, with its outermost control points known: a band of
+// blocks.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,19 +23,28 @@ class NetSystem {
   void add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weight, const Vec3& target);
   // Adds scale² |third differences of the net|².
   void add_third_differences(double scale);
-  // False where the equations have no solution; the patch stays then.
-  bool solve(SplinePatch& patch) const;
+  // False where the equations have no solution; the patch stays then. Call it once: it factors the
+  // equations in their place.
+  bool solve(SplinePatch& patch);
 
  private:
-  // Of the unknowns, by control points; -1: known.
+  // Of the unknowns, by control points; -1: known. The shorter rows make the narrower band.
   Eigen::Index unknown(int i, int j) const {
     if (i == 0 || j == 0 || i == rows_ - 1 || j == columns_ - 1) return -1;
-    return Eigen::Index(i - 1) * (columns_ - 2) + j - 1;
+    return columns_ <= rows_ ? Eigen::Index(i - 1) * (columns_ - 2) + j - 1
+                             : Eigen::Index(j - 1) * (rows_ - 2) + i - 1;
   }
+  // Blocks are rows of control points; each meets itself and three before it.
+  auto block(Eigen::Index row, Eigen::Index column) {
+    return band_.block(row * width_, (reach + column - row) * width_, width_, width_);
+  }
+  bool factor();
 
+  static constexpr Eigen::Index reach = 3;
   const SplinePatch& known_;
   int rows_, columns_;
-  Eigen::MatrixXd matrix_;  // its lower half
+  Eigen::Index width_;    // of a block
+  Eigen::MatrixXd band_;  // the lower half, block beside block
   Eigen::VectorXd right_;
 };
 

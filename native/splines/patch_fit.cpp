@@ -199,7 +199,7 @@ SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
   }
 }
 
-FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
+FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last) {
   SplinePatch start = with_sides(data, spans_u, spans_v);
   fit_once(data, start, nullptr);
   FittedPatch best = fitted_by(ways[0], data, start);
@@ -210,7 +210,7 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v) {
       if (next.misses < best.misses) best = std::move(next);
     }
   };
-  try_all(std::span(ways).subspan(1), 1);
+  try_all(std::span(ways).subspan(1), last ? 1 : fold_misses);
   if (!data.may_fold) try_all(unfolding, fold_misses);
   return best;
 }

@@ -42,8 +42,9 @@ struct FittedPatch {
   bool folds() const { return !(turned < 0.5); }
 };
 
-// The sides are refined to the patch's spans, exactly.
-FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v);
+// The sides are refined to the patch's spans, exactly. `last`: no patch with more spans is going to
+// be tried, so that what misses a tolerance is fitted in other ways, too.
+FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last);
 
 // The point of a patch at t along a side.
 SurfacePoint on_side(const SplinePatch& patch, int side, double t);

@@ -8,8 +8,9 @@
 namespace fairing {
 
 // By control faces, radians: the sharpest angle between the normals of two neighbouring cells, at
-// least one of which is the face's; creases do not count.
-std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topology,
+// least one of which is the face's. Creases do not count, nor turns that are lower than `least`: at
+// some control vertices the last cells turn at every level, ever smaller ones.
+std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topology, double least,
                                   Workers& workers);
 
 }  // namespace fairing

@@ -81,6 +81,25 @@ def test_patches_in_narrow_corners_do_not_fold():
     assert np.degrees(patches.largest_angle) < 20
 
 
+def test_a_tip_lower_than_the_tolerance_is_no_fold():
+    """A thin plate's last cells around a vertex of three triangles turn by 105 degrees at any level,
+    ever smaller ones.
+    """
+    points, faces = control_meshes.tetrahedron()
+    coarse = df.fit_patches(points, faces, levels=3, insist=True)
+    assert coarse.unresolved.tolist() == [0, 1, 2, 3]
+    patches = df.fit_patches(points, faces, levels=7)
+    assert np.degrees(patches.turned.max()) < 10
+
+
+def test_edges_may_leave_the_lattices_lines_within_the_surface():
+    """These lines wind; curves that follow them need many spans."""
+    patches = df.fit_patches(*control_meshes.random_hull(12), levels=5, **CURVED)
+    assert not len(patches.unmet)
+    assert np.abs(radii(patches) / radii(patches).mean() - 1).max() < 1e-4
+    assert patches.patch_spans.prod(axis=1).mean() <= 16
+
+
 def test_torus(fitted):
     """The Clifford torus: its distance from the circle through the middle of the tube is 1."""
     patches, t = fitted("torus"), np.linspace(0, 1, 17)
@@ -197,6 +216,18 @@ def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
     assert levels == [fitting.FIRST_LEVEL - 1]
 
 
+def test_a_fold_that_stays_is_not_refined(monkeypatch):
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]
+    levels = []
+    fair = fitting.fair
+    monkeypatch.setattr(
+        fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
+    )
+    patches = df.fit_patches(points, [(0, 1, 2, 3), (1, 4, 5, 2)], insist=True)
+    assert len(patches.unresolved)
+    assert levels == [fitting.FIRST_LEVEL - 1, fitting.FIRST_LEVEL]
+
+
 def test_cancel_and_progress():
     seen = []
 
@@ -213,6 +244,8 @@ def test_cancel_and_progress():
     assert fractions == tuple(sorted(fractions))
     assert seen[-1] == (1, "done")
     assert "patches" in phases
+    assert "done" not in phases[:-1]
+    assert all(fraction < 1 for fraction in fractions[:-1])
 
 
 @pytest.mark.parametrize("options", [{"tolerance": 0}, {"normal_tolerance": -1}, {"levels": 1}])

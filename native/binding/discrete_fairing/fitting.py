@@ -17,11 +17,12 @@ from .fairing import fair
 from .options import real, switch, whole
 from .patches import SplinePatches, control_polygons
 from .result import Result
-from .watching import Progress, check_watchers
+from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
-# Points of a surface that is begun with, and of a finer one that a tolerance asks for.
-MOST_POINTS, MOST_FINER_POINTS = 6_000_000, 300_000
+# Points of a surface that is begun with, of a finer one that converges better, and of one whose
+# patches are to meet a tolerance.
+MOST_POINTS, MOST_FINER_POINTS, MOST_POINTS_FOR_FACES = 6_000_000, 300_000, 1_200_000
 TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
 HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that stays
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
@@ -56,7 +57,8 @@ def fit_patches(
         The sharpest angle between the normals of two patches along an edge that is no crease.
     levels : int
         How often the mesh is refined before patches are fitted. None: 5, or more where a tolerance
-        asks for it and the surface stays below 300 000 points; less for very large meshes.
+        asks for it and the surface stays below 300 000 points, or 1 200 000 where faces miss the
+        tolerance; less for very large meshes.
     insist : bool
         Return patches also where the refined surface folds or is not resolved. Their input faces
         are in patches.unresolved then.
@@ -80,23 +82,20 @@ def fit_patches(
     check_watchers(progress, monitor)
     if fair_tolerance is not None:
         options["tolerance"] = fair_tolerance
-    watched = {
-        "threads": threads,
-        "monitor": monitor if monitor is not None else _native.Monitor(),
-        "progress": progress,
-    }
+    runs = SeveralRuns(progress, monitor, whole("threads", threads))
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
-    if levels is not None:
+    if levels is None:
+        found = _at_own_level(run, points, polygons, options, runs)
+    else:
         level = whole("levels", levels)
-        watched["monitor"]._enter_part(0.0, 0.6)
-        result = fair(points, polygons, level, **options, **watched)
-        watched["monitor"]._enter_part(0.6, 1.0)
-        return run.checked(run.fitted(result, level, nan, watched))
-    return _at_own_level(run, points, polygons, options, watched)
+        result = fair(points, polygons, level, **options, **runs.run(0.0, 0.6))
+        found = run.checked(run.fitted(result, level, nan, runs.run(0.6, 1.0)))
+    runs.finish()
+    return found
 
 
-def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
+def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
     """Finer and finer surfaces, until one serves or the next is too large."""
     energy = options.get("energy", "thin_plate")
 
@@ -108,33 +107,40 @@ def _at_own_level(run, points, polygons, options, watched) -> SplinePatches:
     level = FIRST_LEVEL
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:
         level -= 1
-    done = 0.0
-    coarser = None
+    done, folds = 0.0, False
+    coarser = best = None
     for at in range(level - 1, LAST_LEVEL + 1):
-        watched["monitor"]._enter_part(done, done + 0.4 * (1 - done))
-        result = fair(points, polygons, at, **options, **watched)
-        done += 0.4 * (1 - done)
+        part = done + 0.4 * (1 - done)
+        result = fair(points, polygons, at, **options, **runs.run(done, part))
+        done = part
         if at < level:
             coarser = result
-            run.refuse_hopeless(result, at, _finest(count, level) - at, watched["threads"])
+            folds = run.stays_folded(result, at, _finest(count, level) - at, runs.threads)
             continue
-        last = at == LAST_LEVEL or count(at + 1) > MOST_FINER_POINTS
+        next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
         error = change_between(coarser, result, at) / 3  # of second order
         coarser = result
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
-        if error > LATTICE_SHARE * run.tolerance * size and not last:
+        if error > LATTICE_SHARE * run.tolerance * size and next_count <= MOST_FINER_POINTS:
             continue
-        watched["monitor"]._enter_part(done, 1.0 if last else done + 0.5 * (1 - done))
-        found = run.fitted(result, at, error, watched)
-        done += 0.5 * (1 - done)
-        if last or not (len(found.unmet) or len(found.unresolved)):
+        last = next_count > MOST_POINTS_FOR_FACES
+        part = 1.0 if last else done + 0.5 * (1 - done)
+        found = run.fitted(result, at, error, runs.run(done, part))
+        done = part
+        if best is None or _faults(found) <= _faults(best):
+            best = found
+        if last or not any(_faults(found)):
             break
-    return run.checked(found)
+    return run.checked(best)
+
+
+def _faults(patches: SplinePatches) -> tuple[int, int]:
+    return len(patches.unresolved), len(patches.unmet)
 
 
 def _finest(count, level: int) -> int:
     """The last level that `_at_own_level` may come to."""
-    while level < LAST_LEVEL and count(level + 1) <= MOST_FINER_POINTS:
+    while level < LAST_LEVEL and count(level + 1) <= MOST_POINTS_FOR_FACES:
         level += 1
     return level
 
@@ -162,7 +168,7 @@ class _Run:
             level,
             self.tolerance,
             self.normal_tolerance,
-            whole("threads", watched["threads"]),
+            watched["threads"],
             watched["monitor"],
             watched["progress"],
         )
@@ -180,15 +186,16 @@ class _Run:
         )
         return SplinePatches(arrays, result, level)
 
-    def refuse_hopeless(self, result: Result, level: int, finer: int, threads: object) -> None:
-        """Refuses what no finer level mends: turns about halve from one to the next."""
-        if self.insist:
-            return
+    def stays_folded(self, result: Result, level: int, finer: int, threads: int) -> bool:
+        """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
+        refused then, unless the caller insists.
+        """
         turns = _native.lattice_turns(
-            result.vertices, *result.faces, result.crease_edges, level, whole("threads", threads)
+            result.vertices, *result.faces, result.crease_edges, level, 0.0, threads
         )
         bad = turns > min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         self._refuse(np.unique(control_polygons(result, level)[bad]).tolist())
+        return bool(bad.any())
 
     def checked(self, patches: SplinePatches) -> SplinePatches:
         self._refuse(patches.unresolved.tolist())

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from . import _native
 from .errors import fairing_error
@@ -22,3 +23,30 @@ def check_watchers(progress: Progress | None, monitor: _native.Monitor | None) -
         raise fairing_error(
             "BAD_OPTION", f"monitor is {monitor!r}; it must be a discrete_fairing.Monitor."
         )
+
+
+class SeveralRuns:
+    """Who watches a call of several runs hears of them as of one: progress never goes back, and
+    nothing is done before the last run is.
+    """
+
+    def __init__(self, progress: Progress | None, monitor: _native.Monitor | None, threads: int):
+        self.threads = threads
+        self._progress = progress
+        self._monitor = monitor if monitor is not None else _native.Monitor()
+
+    def run(self, begin: float, end: float) -> dict[str, Any]:
+        """Watchers and threads of the run that is [begin, end] of the whole."""
+
+        def told(fraction: float, phase: str) -> bool | None:
+            whole = begin + (end - begin) * fraction
+            return self._tell(min(whole, end), self._monitor.phase if phase == "done" else phase)
+
+        return {"threads": self.threads, "monitor": _native.Monitor(), "progress": told}
+
+    def finish(self) -> None:
+        self._tell(1.0, "done")
+
+    def _tell(self, fraction: float, phase: str) -> bool | None:
+        self._monitor._report(phase, fraction)  # raises CANCELLED
+        return None if self._progress is None else self._progress(self._monitor.fraction, phase)
