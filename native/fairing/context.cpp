@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -72,6 +73,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
                                Monitor& monitor, Stopwatch& watch, Report& report)
     : options_(options), monitor_(monitor) {
   const CancelScope scope(&monitor);
+  const auto mended_bytes = std::int64_t(MemoryLedger::held());
   watch.enter(Phase::check, 0);
   check_options(input, options_);
   check(input, watch, report);
@@ -83,10 +85,11 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   report.threads = workers_->count();
   mesh_ = make_control_mesh(input, options_.features, report.flipped_faces);
   report.sheets = sheets_of(mesh_);
-  const RunSize size =
+  RunSize size =
       predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
                    options_.energy, options_.tension > 0, options_.method == Method::back_leg,
                    options_.interpolation == Interpolation::approximate);
+  size.bytes += std::min(mended_bytes, std::numeric_limits<std::int64_t>::max() - size.bytes);
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);

@@ -77,8 +77,8 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
   }
 }
 
-FairResult fair_all(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
-  MemoryLedger ledger(options.bytes_allowed());
+FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
+                    const MemoryLedger& ledger, Monitor& monitor) {
   const CancelScope scope(&monitor);
   FairResult result;
   Report& report = result.report;
@@ -133,11 +133,12 @@ FairingError out_of_memory() {
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
   return with_named_errors([&] {
+    const MemoryLedger ledger(options.bytes_allowed());
     const auto begun = std::chrono::steady_clock::now();
     const Mending mending = mending_of(mesh, options, monitor);
     const std::chrono::duration<double> mended_in = std::chrono::steady_clock::now() - begun;
-    FairResult result =
-        mending.in_input_ids([&] { return fair_all(mending.mesh(), mending.options(), monitor); });
+    FairResult result = mending.in_input_ids(
+        [&] { return fair_all(mending.mesh(), mending.options(), ledger, monitor); });
     mending.restore_points(result.vertices.data());
     for (Array<double>& shape : result.shapes) mending.restore_points(shape.data());
     mending.restore(result.faces);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/memory_plan.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -9,6 +11,10 @@
 #include "base/error.h"
 #include "curvature/normal_matrix.h"
 #include "grid/grid_level.h"
+#include "mesh/double_cover.h"
+#include "mesh/half_edges.h"
+#include "mesh/sheets.h"
+#include "mesh/validate/check.h"
 #include "multigrid/hierarchy.h"
 #include "sparse/matrix.h"
 
@@ -23,6 +29,7 @@ struct Counts {
   std::int64_t vertices = 0, edges = 0, triangles = 0, quads = 0;
   // Of these, where sheets meet or have only one side.
   std::int64_t copied_vertices = 0, copied_edges = 0, copied_triangles = 0, copied_quads = 0;
+  bool thin = false;  // so many thin faces that the smoother will take blocks
   std::int64_t welded_triangles() const { return triangles - copied_triangles; }
   std::int64_t welded_quads() const { return quads - copied_quads; }
   std::int64_t sides() const { return 3 * triangles + 4 * quads; }
@@ -42,16 +49,21 @@ std::int64_t mixed(const Counts& c, double triangle, double quad) {
   return std::int64_t(triangle + (all > 0 ? quads / all : 0) * (quad - triangle)) + 1;
 }
 
+// Bytes a point of the smoother's blocks, where faces are thin (multigrid/block_jacobi.h).
+std::int64_t block_bytes(const Counts& c) { return c.thin ? mixed(c, 190, 110) : 0; }
+
 // The assembled matrices of the thin plate, on levels with small faces, and those of the transfers
 // between them. Bytes a point, measured: equal rows along edges and inside faces share their numbers,
 // so that they fall with the pieces of an edge.
 std::int64_t matrix_bytes(const Counts& c, int levels) {
   constexpr double row[2][4] = {{90, 140, 102, 72}, {120, 162, 124, 90}},
                    transfer[2][4] = {{90, 98, 108, 66}, {110, 127, 120, 70}};
+  const std::int64_t blocks = block_bytes(c);
   std::int64_t bytes = 0;
   for (int l = 1; l <= std::min(levels, 4); ++l)
     if (has_rows(1 << l, std::size_t(c.points(l))))
-      bytes += mixed(c, row[0][l - 1] + transfer[0][l - 1], row[1][l - 1] + transfer[1][l - 1]) *
+      bytes += (mixed(c, row[0][l - 1] + transfer[0][l - 1], row[1][l - 1] + transfer[1][l - 1]) +
+                blocks) *
                c.points(l);
   return bytes;
 }
@@ -60,7 +72,7 @@ std::int64_t matrix_bytes(const Counts& c, int levels) {
 // rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
 // points an edge the normal matrix; on the finest level surfaces, steps, and what steps are
 // accelerated with. Minimum variation often proves hard: its finest level that may count
-// as cheap to factor is counted so.
+// as cheap to factor is counted so. Its rows reach farther than a plate's, and fill grows the faster.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, std::int64_t factor,
                         Energy energy, bool tense) {
   constexpr std::int64_t moments = 112, surfaces = 480;
@@ -71,9 +83,12 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, st
     if (c.points(l) <= std::int64_t(direct_limit_of_steps)) factored = c.points(l);
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.points(l);
   }
-  const auto hard = std::int64_t(factor_bytes(std::size_t(factored)));
-  return ((varies ? 2 * row + moments : row) + (tense ? row / 3 : 0)) * all_points +
-         surfaces * c.points(levels) + normal_matrices + (varies ? 5 * hard : factor);
+  const std::int64_t entries = 55 * std::bit_width(std::uint64_t(factored)) - 480;  // a column
+  const std::int64_t hard =
+      std::int64_t(factor_entry) * factored * std::max<std::int64_t>(entries, 70);
+  return ((varies ? 2 * row + moments : row) + (tense ? row / 3 : 0) + block_bytes(c)) *
+             all_points +
+         surfaces * c.points(levels) + normal_matrices + (varies ? hard : factor);
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
@@ -148,44 +163,82 @@ RunSize run_size(const Counts& c, int levels, std::size_t shapes, Energy energy,
   return size;
 }
 
+// Whether more than a twentieth of the faces are longer than eight times their area by length, as quads
+// of 1 to 8 are.
+bool has_thin_faces(const ControlMesh& mesh) {
+  std::size_t thin = 0;
+  for (const Face& face : mesh.faces) {
+    const auto corner = [&](std::size_t i) { return mesh.positions[std::size_t(face.vertex[i])]; };
+    const std::size_t size = face.quad() ? 4 : 3;
+    double longest = 0, twice_area = 0;
+    for (std::size_t i = 0; i < size; ++i)
+      longest = std::max(longest, (corner((i + 1) % size) - corner(i)).squaredNorm());
+    for (std::size_t i = 2; i < size; ++i)
+      twice_area += (corner(i - 1) - corner(0)).cross(corner(i) - corner(0)).norm();
+    thin += longest > 4 * twice_area;
+  }
+  return 20 * thin > mesh.faces.size();
+}
+
+// Faces with the vertices that they have, numbered in order. Their places are nobody's concern.
+OwnedPolygonMesh with_its_own_vertices(std::span<const std::int64_t> corners,
+                                       std::span<const std::int64_t> offsets) {
+  std::vector<std::int64_t> used(corners.begin(), corners.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  OwnedPolygonMesh mesh{std::vector<double>(3 * used.size()), {}, {offsets.begin(), offsets.end()}};
+  mesh.corners.reserve(corners.size());
+  for (const std::int64_t v : corners)
+    mesh.corners.push_back(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  return mesh;
+}
+
+// With polygons split around their centres, and one-sided sheets twice (mesh/double_cover.h).
+void count_faces(const PolygonMesh& mesh, const DoubleCover& cover, Counts& c) {
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    const auto size = std::int64_t(mesh.face(f).size());
+    const std::int64_t times = cover.has(std::int32_t(f)) ? 2 : 1;
+    (size == 4 ? c.quads : c.triangles) += times * (size > 4 ? size : 1);
+    if (size == 4) c.copied_quads += times - 1;
+    if (size != 4) c.copied_triangles += (times - 1) * (size > 4 ? size : 1);
+    if (size <= 4) continue;
+    c.edges += times * size;
+    c.copied_edges += (times - 1) * size;
+    c.vertices += times;
+    c.copied_vertices += times - 1;
+  }
+}
+
+// Those between corners. Where more than two faces meet, each has an edge of its own.
+void count_edges(const HalfEdges& half_edges, const DoubleCover& cover, Counts& c) {
+  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
+    if (half_edges.twin(k) > k) continue;
+    const std::int64_t times = cover.has(half_edges.face(k)) ? 2 : 1;
+    c.edges += times;
+    c.copied_edges += times - 1;
+  }
+  c.copied_edges += half_edges.sides_at_nonmanifold_edges() -
+                    std::int64_t(half_edges.nonmanifold_edges().size()) / 2;
+}
+
 }  // namespace
 
 RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corners,
                      std::span<const std::int64_t> offsets, int levels, std::size_t shapes,
                      Energy energy, bool tense) {
-  const PolygonMesh mesh{{}, corners, offsets};
+  const OwnedPolygonMesh renumbered = with_its_own_vertices(corners, offsets);
+  const PolygonMesh mesh = renumbered.view();
+  const HalfEdges half_edges(mesh);
+  const DoubleCover cover = begin_double_cover(mesh, half_edges);
   Counts c;
   c.vertices = vertices;
-  std::vector<std::uint64_t> keys;
-  keys.reserve(mesh.corners.size());
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    const auto size = std::int64_t(face.size());
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
-      keys.push_back(std::uint64_t(low) << 32 | std::uint64_t(high & 0xffffffff));
-    }
-    if (size <= 3) {
-      ++c.triangles;
-    } else if (size == 4) {
-      ++c.quads;
-    } else {
-      c.triangles += size;
-      c.edges += size;
-      ++c.vertices;
-    }
-  }
-  std::sort(keys.begin(), keys.end());
-  for (auto first = keys.begin(); first != keys.end();) {
-    const auto last = std::find_if(first, keys.end(), [&](auto key) { return key != *first; });
-    // Sheets are counted as if they met along one line: a vertex an edge.
-    const std::int64_t copies = last - first > 2 ? last - first - 1 : 0;
-    c.edges += 1 + copies;
-    c.copied_edges += copies;
-    c.vertices += copies;
-    c.copied_vertices += copies;
-    first = last;
-  }
+  count_faces(mesh, cover, c);
+  count_edges(half_edges, cover, c);
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f)  // refused, or mended before
+    if (repeats_a_vertex(mesh.face(f))) return run_size(c, levels, shapes, energy, tense);
+  const auto copies = std::int64_t(count_copies(mesh, half_edges, cover));
+  c.vertices += copies;
+  c.copied_vertices += copies;
   return run_size(c, levels, shapes, energy, tense);
 }
 
@@ -199,6 +252,7 @@ RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes, En
   for (const Face& face : mesh.faces) ++(face.quad() ? c.quads : c.triangles);
   for (const Index f : mesh.copied_face)
     ++(mesh.faces[std::size_t(f)].quad() ? c.copied_quads : c.copied_triangles);
+  c.thin = has_thin_faces(mesh);
   return run_size(c, levels, shapes, energy, tense, back_leg, moves);
 }
 

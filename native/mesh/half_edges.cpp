@@ -64,6 +64,7 @@ void HalfEdges::find_twins() {
         twin_[std::size_t(first[1].half_edge)] = first[0].half_edge;
       } else if (last - first > 2) {
         nonmanifold_edges_.insert(nonmanifold_edges_.end(), {std::int64_t(v), first->high});
+        nonmanifold_sides_ += last - first;
       }
       first = last;
     }

@@ -47,6 +47,7 @@ class HalfEdges {
 
   // Vertex pairs, laid end to end, of the edges with more than two faces.
   const std::vector<std::int64_t>& nonmanifold_edges() const { return nonmanifold_edges_; }
+  std::int64_t sides_at_nonmanifold_edges() const { return nonmanifold_sides_; }
 
  private:
   void find_twins();
@@ -54,6 +55,7 @@ class HalfEdges {
   PolygonMesh mesh_;
   std::vector<std::int32_t> face_, twin_;
   std::vector<std::int64_t> nonmanifold_edges_;
+  std::int64_t nonmanifold_sides_ = 0;
 };
 
 }  // namespace fairing

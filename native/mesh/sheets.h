@@ -26,6 +26,9 @@ struct SheetCopies {
 // for the others are added behind all vertices. So are vertices over those of one-sided sheets; no
 // face has these yet. `mesh` must have passed check().
 SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh);
+// How many vertices that adds. No face may have a vertex twice.
+std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                         const DoubleCover& cover);
 
 // Fills copied_edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
 // become the last edges and run as their originals do.

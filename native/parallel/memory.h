@@ -24,6 +24,8 @@ class MemoryLedger {
 
   static void add(std::size_t bytes);
   static void remove(std::size_t bytes);
+  // By the open ledger.
+  static std::size_t held();
   // Whether so many more are within the open ledger's limit.
   static bool fits(std::size_t bytes);
 

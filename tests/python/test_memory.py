@@ -74,18 +74,48 @@ def poles():
     return vertices, np.concatenate([faces + k * 362 for k, (_, faces) in enumerate(parts)])
 
 
+@pytest.mark.parametrize(
+    "mesh, levels, energy",
+    [
+        (poles(), 2, "thin_plate"),
+        (meshes.torus(), 3, "minimum_variation"),
+        (meshes.torus(), 4, "minimum_variation"),
+    ],
+    ids=["thin faces", "minimum variation, 3", "minimum variation, 4"],
+)
+def test_what_proves_hard_is_expected(mesh, levels, energy):
+    """Blocks on thin faces, and the factor of a level of minimum variation."""
+    report = df.fair(*mesh, levels, energy, threads=1).report
+    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.3
+
+
+def test_the_mended_mesh_is_counted():
+    points, faces = meshes.torus(96, 48)
+    clean = df.fair(points, faces, 1, threads=1).report
+    mended = df.fair(points, np.concatenate([faces, faces[:1]]), 1, threads=1, repair="mend").report
+    corners = 4 * len(faces)
+    for key in ("predicted_bytes", "peak_bytes"):
+        # an id and an origin a corner, a position and an origin a vertex
+        assert 24 * corners <= mended[key] - clean[key] <= 60 * corners
+
+
+def hard():
+    """A run on a level that is factored on the way, which nobody knows before."""
+    return *meshes.random_hull(), 5, "minimum_variation"
+
+
 def test_a_run_that_takes_more_says_so_before():
     with pytest.warns(df.MemoryWarning, match=r"at least .* MB, more than the .* MB predicted"):
-        report = df.fair(*poles(), 2, threads=1).report
+        report = df.fair(*hard(), threads=1).report
     assert report["peak_bytes"] > 1.1 * report["predicted_bytes"]
     assert [w["code"] for w in report["warnings"]] == ["MEMORY_EXCEEDED"]
     # an error in its place ends the run
     with warnings.catch_warnings():
         warnings.simplefilter("error", df.MemoryWarning)
         with pytest.raises(df.MemoryWarning):
-            df.fair(*poles(), 2, threads=1)
+            df.fair(*hard(), threads=1)
         with pytest.raises(df.MemoryWarning):
-            df.Solver(*poles(), 2, threads=1).solve()
+            df.Solver(*hard(), threads=1).solve()
 
 
 def test_what_goes_as_predicted_says_nothing():

@@ -172,6 +172,15 @@ class Mender {
 
 }  // namespace
 
+std::size_t MendedMesh::bytes() const {
+  const auto of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+  std::size_t bytes = of(mesh.coordinates) + of(mesh.corners) + of(mesh.offsets) +
+                      of(vertex_origin) + of(face_origin) + of(corner_origin) + of(cut_edges);
+  for (const CutEdge& edge : cut_edges) bytes += of(edge.between);
+  for (const Warning& act : acts) bytes += of(act.elements);
+  return bytes;
+}
+
 std::vector<double> MendedMesh::placed(std::span<const double> coordinates) const {
   std::vector<double> out(coordinates.begin(), coordinates.end());
   for (std::size_t v = 0; v < vertex_origin.size(); ++v) {

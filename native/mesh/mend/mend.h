@@ -49,6 +49,8 @@ struct MendedMesh {
   // What was done, each with all elements of the input concerned, in words.
   std::vector<Warning> acts;
 
+  std::size_t bytes() const;
+
   // Other positions of the input's vertices, 3 numbers each, with those vertices moved along.
   std::vector<double> placed(std::span<const double> coordinates) const;
 };

@@ -77,6 +77,8 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 // nor counts of corners are looked at.
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets);
 
+bool repeats_a_vertex(std::span<const std::int64_t> face);
+
 // The warning of vertices without a face.
 Defect isolated_vertices(std::vector<std::int64_t> ids);
 

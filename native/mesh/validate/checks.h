@@ -22,8 +22,6 @@ struct Readable {
 // Adds empty_mesh, no_faces, bad_shape, too_large, non_finite, index_out_of_range, repeated_vertex.
 Readable check_arrays(const PolygonMesh& mesh, Defects& found);
 
-bool repeats_a_vertex(std::span<const std::int64_t> face);
-
 // For every vertex 1 if a face names it. Ids out of range are passed over.
 std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh);
 
