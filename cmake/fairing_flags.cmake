@@ -3,6 +3,10 @@
 add_library(fairing_flags INTERFACE)
 target_compile_features(fairing_flags INTERFACE cxx_std_20)
 
+if(WIN32 AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  message(FATAL_ERROR "GCC spills packs of 32 bytes to a stack of 16 on Windows (its bug 54412): compile with Clang.")
+endif()
+
 # Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count; the
 # mathematical library that this takes too is third_party/musl_libm.
 if(MSVC) # its Clang, which takes the options in Microsoft's spelling
