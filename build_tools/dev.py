@@ -114,7 +114,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "names",
         nargs="*",
-        help="bench, demo, test: only these; test blender:TEXT: its scripts named so",
+        help="bench, demo, test: only these; test blender:TEXT or windows:TEXT: its parts named so",
     )
     parser.add_argument(
         "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"

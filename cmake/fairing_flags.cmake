@@ -3,6 +3,10 @@
 add_library(fairing_flags INTERFACE)
 target_compile_features(fairing_flags INTERFACE cxx_std_20)
 
+if(WIN32 AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  message(FATAL_ERROR "GCC spills packs of 32 bytes to a stack of 16 on Windows (its bug 54412): compile with Clang.")
+endif()
+
 # Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count; the
 # mathematical library that this takes too is third_party/musl_libm.
 if(MSVC) # its Clang, which takes the options in Microsoft's spelling
@@ -25,6 +29,8 @@ if(WIN32) # whatever the compiler: M_PI, and std::min beside Windows' own header
 endif()
 if(APPLE) # whose threads have stacks of 512 KB: what Eigen would lay there goes to the heap sooner than by default
   target_compile_definitions(fairing_flags INTERFACE EIGEN_STACK_ALLOCATION_LIMIT=32768)
+  # or Clang makes of a sine and a cosine of one angle a call of a function that only Apple has
+  target_compile_options(fairing_flags INTERFACE -fno-builtin-sin -fno-builtin-cos)
 endif()
 # these look into inlined library code, and GCC 12 to 14 find there what cannot happen
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -2,11 +2,13 @@
 """The native suite and the Python suite as programs for Windows, under Wine."""
 
 import shutil
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from debian_root import INSIDE
 from layout import ROOT
-from shell import run
+from shell import DevError, run
 from suites import read_junit
 from tally import Tally, with_exit_code
 
@@ -34,10 +36,15 @@ def native() -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
-def python_suite(python: str) -> Tally:
-    """pytest in Windows' own Python."""
+def install(python: str) -> None:
+    """Puts the wheel of the present sources into a Windows Python."""
     (wheel,) = (path for path in wheels.build(TARGET) if f"-{python}-" in path.name)
     wine.install_wheel(wheel, wine.python_folder(python))
+
+
+def python_suite(python: str) -> Tally:
+    """pytest in Windows' own Python."""
+    install(python)
     report, seen = fresh(f"python-{python}.xml")
     tests = wine.windows_path(Path("/project/tests/python"))
     options = ["-q", "-p", "no:cacheprovider", f"--junitxml={seen}", tests]
@@ -47,16 +54,25 @@ def python_suite(python: str) -> Tally:
 
 def surfaces(python: str) -> Tally:
     """The surfaces of Windows' Python and those of .venv."""
+    install(python)
     hashes = same_bits.make_here(wine.WINE.outside)
     script = Path("/project", same_bits.SCRIPT.relative_to(ROOT))
     words = [wine.windows_path(script), "compare", wine.windows_path(INSIDE / hashes.name)]
     return same_bits.compare(wine.python_command(python, *words, "--arrays"))
 
 
-def run_suite() -> dict[str, Tally]:
-    """The tallies by what was run."""
-    found = {"native": native()}
+def parts() -> dict[str, Callable[[], Tally]]:
+    """What is run, by its name."""
+    found: dict[str, Callable[[], Tally]] = {"native": native}
     for python in wine.REQUIREMENTS:
-        found[python] = python_suite(python)
-        found[f"{python} bits"] = surfaces(python)
+        found[python] = partial(python_suite, python)
+        found[f"{python} bits"] = partial(surfaces, python)
     return found
+
+
+def run_suite(wanted: str = "") -> dict[str, Tally]:
+    """The tallies of the parts whose names contain `wanted`."""
+    chosen = {name: part for name, part in parts().items() if wanted in name}
+    if not chosen:
+        raise DevError(f"no part '{wanted}' of the suite windows: there are {', '.join(parts())}.")
+    return {name: part() for name, part in chosen.items()}

@@ -3,6 +3,7 @@
 
 import base64
 import hashlib
+import shutil
 import zipfile
 
 import extension
@@ -10,7 +11,8 @@ import pytest
 from cross import python_parts, sources, wheels
 from cross.sources import Source
 from cross.targets import PYTHONS, TARGETS, target_named
-from shell import DevError
+from layout import ROOT
+from shell import DevError, output
 
 INFO = {
     "discrete_fairing-1.2.3.dist-info/METADATA": b"Metadata-Version: 2.2\nVersion: 1.2.3\n",
@@ -169,3 +171,13 @@ def test_the_same_files_make_the_same_wheel(packed, tmp_path):
         tmp_path / "_native.cp311-win_amd64.pyd", dict(INFO), "cp311-cp311-win_amd64", tmp_path
     )
     assert packed.read_bytes() == first
+
+
+def test_gcc_is_refused_for_windows(tmp_path):
+    """It lays the packs of the inner loops where the instructions fault."""
+    if shutil.which("g++") is None:
+        pytest.skip("no GCC here")
+    windows = ["-DCMAKE_SYSTEM_NAME=Windows", "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY"]
+    compilers = ["-DCMAKE_C_COMPILER=gcc", "-DCMAKE_CXX_COMPILER=g++"]
+    code, text = output("cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path, *windows, *compilers)
+    assert code == 1 and "compile with Clang" in " ".join(text.split())

@@ -5,7 +5,9 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from cross import arm_suite, same_bits, windows_suite, wine
+import suites
+from cross import arm_suite, same_bits, windows_suite, wine, wine_complex
+from shell import DevError
 from tally import Tally
 
 REPORT = '<testsuites><testcase name="a"/><testcase name="b"><failure/></testcase></testsuites>'
@@ -68,3 +70,48 @@ def test_arm_programs_find_their_libraries_and_packages():
 )
 def test_tally_of_surfaces(text, found):
     assert same_bits.tally(text) == found
+
+
+@pytest.mark.parametrize(
+    ("name", "run"),
+    [
+        ("windows", ["native", "cp311", "cp311 bits", "cp313", "cp313 bits"]),
+        ("windows:cp313", ["cp313", "cp313 bits"]),
+        ("windows:native", ["native"]),
+    ],
+)
+def test_parts_of_the_suite_for_windows(monkeypatch, name, run):
+    one = Tally(passed=1)
+    monkeypatch.setattr(windows_suite, "native", lambda: one)
+    monkeypatch.setattr(windows_suite, "python_suite", lambda python: one)
+    monkeypatch.setattr(windows_suite, "surfaces", lambda python: one)
+    assert suites.suite_named(name)() == dict.fromkeys(run, one)
+
+
+@pytest.mark.parametrize("name", ["windows:cp99", "native:stencil"])
+def test_other_parts_are_refused(name):
+    with pytest.raises(DevError, match="part"):
+        suites.suite_named(name)()
+
+
+def test_every_windows_python_has_its_packages():
+    for python, path in wine.REQUIREMENTS.items():
+        lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+        assert {"numpy", "scipy", "pytest"} <= {line.partition("==")[0] for line in lines}, python
+        assert all(" --hash=sha256:" in line for line in lines), python
+
+
+def test_the_library_for_wine_has_complex_functions_and_passes_others_on():
+    lines = wine_complex.definition({"sin", "creal", "cexpl"}).splitlines()
+    exports = dict(line.strip().split("=") for line in lines[2:])
+    assert exports["sin"] == "ucrtbase.sin"
+    assert exports["creal"] == "df_creal" and exports["creall"] == "df_creal"
+    assert exports["cexpl"] == "df_cexp" and exports["cpowf"] == "df_cpowf"
+
+
+def test_a_module_is_sent_to_the_library_for_wine(tmp_path):
+    module = tmp_path / "module.pyd"
+    module.write_bytes(b"MZ " + wine_complex.THEIRS.encode() + b"\0 tail")
+    wine_complex.redirect(module)
+    assert module.read_bytes() == b"MZ " + wine_complex.OURS.encode() + b"\0 tail"
+    assert len(wine_complex.OURS) == len(wine_complex.THEIRS)
