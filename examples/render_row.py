@@ -20,7 +20,7 @@ import addon
 TILE = (260, 270)  # pixels in the picture; rendered twice as large
 WIDTH = 2.4  # of a tile, in the studio's units
 LABEL = 0.2  # that the label takes of its height
-SAMPLES = {"clay": 12, "zebra": 8}
+SAMPLES = {"clay": 12, "zebra": 8, "own": 12}  # own: with the materials that it has
 INK = (0.012, 0.013, 0.016)
 MARKED = (0.0, 0.30, 0.62)  # edges that are marked sharp
 

@@ -107,7 +107,7 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
             self.report(
                 {"ERROR"},
                 f"Nothing was written: the surface of {names} folds or turns too sharply for patches. "
-                "Show Source, and Check in the panel selects the faces; Write Faulty Faces writes them red.",
+                "Check in the panel of its source selects the faces; Write Faulty Faces writes them red.",
             )
             return {"CANCELLED"}
         scale = scale_to(self.unit, context.scene)

@@ -105,9 +105,13 @@ def test_escape_leaves_the_old_file():
     path = Path(FOLDER) / "old.step"
     path.write_text("old")
     sources = add_balls(0, 4, 8)
+    yield from harness.open_sidebar("Fairing")
     yield from browse(path, fit_levels=LONG)
     assert running()
-    yield 0.5
+    while not running().fraction:
+        yield 0.1
+    yield 1.0
+    assert running(), "too short to be photographed"
     harness.photograph("step_progress")
     harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
