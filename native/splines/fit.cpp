@@ -62,8 +62,11 @@ class Fitting {
 
  private:
   double tolerance() const { return options_.tolerance * lattice_.size(); }
+  // A curve that is off leans as well, and patches cannot mend that either.
   double curve_tolerance(std::size_t c) const {
-    return (sharper_[c] ? sharper_share : curve_share) * tolerance();
+    constexpr double a_radian = 0.125;
+    return (sharper_[c] ? sharper_share : curve_share) * lattice_.size() *
+           std::min(options_.tolerance, a_radian * options_.normal_tolerance);
   }
   int most_on(bool part) const {
     return std::clamp(lattice_.n() / (part ? 2 * steps_a_span : steps_a_span), 1, most_spans);

@@ -86,17 +86,18 @@ def test_a_tip_lower_than_the_tolerance_is_no_fold():
     ever smaller ones.
     """
     points, faces = control_meshes.tetrahedron()
-    coarse = df.fit_patches(points, faces, levels=3, insist=True)
-    assert coarse.unresolved.tolist() == [0, 1, 2, 3]
-    patches = df.fit_patches(points, faces, levels=7)
+    exact = df.fit_patches(points, faces, levels=7, insist=True)
+    assert exact.unresolved.tolist() == [0, 1, 2, 3]
+    patches = df.fit_patches(points, faces, levels=7, tolerance=5e-4)
+    assert not len(patches.unmet)
     assert np.degrees(patches.turned.max()) < 10
 
 
 def test_edges_may_leave_the_lattices_lines_within_the_surface():
     """These lines wind; curves that follow them need many spans."""
-    patches = df.fit_patches(*control_meshes.random_hull(12), levels=5, **CURVED)
+    patches = df.fit_patches(*control_meshes.random_hull(), levels=5, **CURVED)
     assert not len(patches.unmet)
-    assert np.abs(radii(patches) / radii(patches).mean() - 1).max() < 1e-4
+    assert np.abs(radii(patches) - 1).max() < 1e-4 * patches.size
     assert patches.patch_spans.prod(axis=1).mean() <= 16
 
 
