@@ -109,12 +109,16 @@ std::vector<CutSide> cuts_of_stack(std::span<const double> coordinates,
     for (const MendCorner& corner : face) vertices.push_back(corner.vertex);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const Line line(coordinates, longest_side(coordinates, faces[0]), vertices);
+  const CutSide whole = longest_side(coordinates, faces[0]);
+  const Line line(coordinates, whole, vertices);
   std::vector<CutSide> sides{line.whole()};
   line.add_chains(sides);
-  for (const Loop& face : faces)
-    for (std::size_t i = 0; i < face.size(); ++i)
-      sides.push_back(line.side(face[i].vertex, face[(i + 1) % face.size()].vertex));
+  for (const Loop& face : faces) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      CutSide side = line.side(face[i].vertex, face[(i + 1) % face.size()].vertex);
+      if (side.low != whole.low || side.high != whole.high) sides.push_back(std::move(side));
+    }
+  }
   std::erase_if(sides, [](const CutSide& side) { return side.between.empty(); });
   return sides;
 }
