@@ -18,6 +18,10 @@ constexpr double most_away = 10, farthest_away = 2;
 constexpr double few = 0.1;
 // By how much one step changes a weight at most: the surface has yet to follow.
 constexpr double largest_weight_change = 10;
+// Multipliers that are so many times the surface's stiffness hold a vertex on its ball: so small a
+// tolerance is that only directions are to be found. How many vertices may be others.
+constexpr double stiffer = 50, few_soft = 0.2;
+constexpr double caution = 2;       // of their turns, in stiffnesses: neighbours turn as well
 constexpr double pin_factor = 1e4;  // stiffer than any surface: holds what is left over on the ball
 
 }  // namespace
@@ -105,18 +109,64 @@ void HoldInSpace::change(std::vector<double>& by) {
   }
 }
 
-void HoldInSpace::start_level() {
-  if (aims_.empty()) return;
+bool HoldInSpace::is_stiff() const {
+  if (multiplier_.empty()) return false;
+  std::size_t count = 0, soft = 0;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    ++count;
+    soft += multiplier_[v] - base_[v] < stiffer * of_surface_[v];
+  }
+  return double(soft) <= few_soft * double(count);
+}
+
+void HoldInSpace::place(const double* x) {
+  aims_.assign(targets_.begin(), targets_.end());
+  for (std::size_t v = 0; v < tolerance_.size(); ++v) {
+    if (!bound(v)) continue;
+    aims_[v] = on_ball(Eigen::Map<const Vec3>(x + 3 * v), v);
+    weights_[v] = pin_factor * std::max(weights_[v], of_surface_[v]);
+  }
+  is_placed_ = true;
+}
+
+void HoldInSpace::put_placed(double* x) const {
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (placed(v)) Eigen::Map<Vec3>(x + 3 * v) = aims_[v];
+}
+
+void HoldInSpace::take_pulls(const std::vector<Vec3>& forces) {
+  pulls_ = forces;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    pulls_[v] -= base_[v] * (targets_[v] - aims_[v]);
+}
+
+// A step down the energy, and back to the ball.
+bool HoldInSpace::turn(double energy, double wanted) {
+  double gap = 0;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v))
+      gap += 2 * (tolerance_[v] * pulls_[v].norm() - pulls_[v].dot(targets_[v] - aims_[v]));
+  take_gap(gap, energy, 1);
+  if (gap_ <= wanted) return true;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v) && of_surface_[v] > 0)
+      aims_[v] = on_ball(aims_[v] - pulls_[v] / (caution * of_surface_[v]), v);
+  return false;
+}
+
+void HoldInSpace::leave_places() {
   aims_.clear();
-  weights_ = unpinned_;
+  is_placed_ = false;
+  for (std::size_t v = 0; v < tolerance_.size(); ++v)
+    if (bound(v)) weights_[v] = std::max({base_[v], multiplier_[v], least_weight * unit_});
 }
 
 void HoldInSpace::pin(const double* x) {
-  unpinned_ = weights_;
   aims_.assign(targets_.begin(), targets_.end());
   for (std::size_t v = 0; v < tolerance_.size(); ++v) {
     if (!bound(v) || distance(x, v) <= tolerance_[v]) continue;
-    aims_[v] = nearest_allowed(x, v);
+    aims_[v] = on_ball(Eigen::Map<const Vec3>(x + 3 * v), v);
     weights_[v] *= pin_factor;
   }
 }
@@ -127,21 +177,20 @@ void HoldInSpace::finish(double energy, double* x) {
   double gap = 0, farthest = 0;
   for (std::size_t v = 0; v < tolerance_.size(); ++v) {
     if (!bound(v)) continue;
-    const Eigen::Map<Vec3> p(x + 3 * v);
-    const Vec3 pull = weights_[v] * (aims()[v] - p) - base_[v] * (targets_[v] - p);
-    if (distance(x, v) > tolerance_[v]) {
-      const Vec3 allowed = nearest_allowed(x, v);
-      for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = allowed[Eigen::Index(a)];
-    }
+    Eigen::Map<Vec3> p(x + 3 * v);
+    const Vec3 pull =
+        is_placed_ ? pulls_[v] : Vec3(weights_[v] * (aims()[v] - p) - base_[v] * (targets_[v] - p));
+    if (distance(x, v) > tolerance_[v]) p = on_ball(p, v);
     gap += 2 * (tolerance_[v] * pull.norm() - pull.dot(targets_[v] - p));
     farthest = std::max(farthest, distance(x, v) / tolerance_[v]);
   }
   take_gap(gap, energy, farthest);
 }
 
-Vec3 HoldInSpace::nearest_allowed(const double* x, std::size_t v) const {
+Vec3 HoldInSpace::on_ball(const Vec3& p, std::size_t v) const {
   const Vec3& target = targets_[v];
-  return target + (tolerance_[v] / distance(x, v)) * (Eigen::Map<const Vec3>(x + 3 * v) - target);
+  const double length = (p - target).norm();
+  return length > 0 ? Vec3(target + (tolerance_[v] / length) * (p - target)) : target;
 }
 
 std::vector<double> HoldInSpace::comparable(const Pads* pads) const {

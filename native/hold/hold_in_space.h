@@ -23,8 +23,6 @@ class HoldInSpace : public ControlHold {
   // What the weights draw control vertices to.
   std::span<const Vec3> aims() const { return aims_.empty() ? targets_ : aims_; }
 
-  // A new level, on which nothing is pinned.
-  void start_level();
   // The first weights, from the forces that hold this surface; false where there are weights
   // already.
   bool begin(const double* x);
@@ -36,6 +34,20 @@ class HoldInSpace : public ControlHold {
   std::vector<double> correction(const double* x);
   // Adds so much to them, within bounds; `by` becomes what has been added.
   void change(std::vector<double>& by);
+
+  // Whether tolerances are so small that nearly all vertices stand on their balls, and hardly move
+  // there. Then each is *placed*, which holds it as if it were fixed, until leave_places() goes back
+  // to the weights before.
+  bool is_stiff() const;
+  void place(const double* x);
+  bool placed(std::size_t v) const { return is_placed_ && v < size() && bound(v); }
+  // x <- placed vertices where they are to be.
+  void put_placed(double* x) const;
+  // Of placed vertices: by which forces each is held. Call before turn() and finish().
+  void take_pulls(const std::vector<Vec3>& forces);
+  // Whether the gap is as `wanted`; otherwise they are placed where their pulls say.
+  bool turn(double energy, double wanted);
+  void leave_places();
 
   // For the last solve: vertices that the multipliers have left outside by their last digits are
   // held on the ball.
@@ -50,15 +62,16 @@ class HoldInSpace : public ControlHold {
 
  private:
   double distance(const double* x, std::size_t v) const;
-  Vec3 nearest_allowed(const double* x, std::size_t v) const;
+  Vec3 on_ball(const Vec3& p, std::size_t v) const;
   void choose_stiffness();
 
   bool far_ = true;
   std::vector<double> stiffness_;   // s of the steps
   std::vector<double> around_;      // the mean weight of a vertex and its neighbours
   std::vector<double> multiplier_;  // below zero where the vertex stands well within its ball
-  VertexWeights unpinned_;
-  std::vector<Vec3> aims_;  // empty: the targets
+  std::vector<Vec3> aims_;          // empty: the targets
+  bool is_placed_ = false;
+  std::vector<Vec3> pulls_;  // of placed vertices, without the caller's weights
 };
 
 }  // namespace fairing

@@ -9,8 +9,9 @@
 namespace fairing {
 namespace {
 
-// How far the solves go that only judge.
-constexpr double tolerance = 1e-4;
+// How far the solves go that only judge: point forces need no more for energies to a few
+// thousandths, and pads read forces from what is left.
+constexpr double needle_tolerance = 1e-2, tolerance = 1e-4;
 
 }  // namespace
 
@@ -26,9 +27,11 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
   {
     Array<double> needles(3 * grid(level).size());
     for_each_index(workers_, needles.size(), [&](std::size_t i) { needles[i] = x[i]; });
+    PcgLimits rougher = limits;
+    rougher.tolerance = std::max(limits.tolerance, needle_tolerance);
     std::unique_ptr<Pads> pads;
     std::swap(pads, pads_);
-    solve_level(level, targets, rough, needles.data());
+    solve_level(level, targets, rougher, needles.data());
     std::swap(pads, pads_);
     of_needles = options_.star_energies(grid(level), needles.data());
   }

@@ -34,6 +34,12 @@ constexpr double coarse_force_tolerance = 2e-2;
 constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
 constexpr int most_corrections = 16;
 // For tolerances, and where a round costs little: below the finest level, or with a factor.
+// The duality gap that will do below the finest level: the next level changes as much.
+constexpr double coarse_plate_gap = 1e-2;
+// Of placed vertices, and a gap that they do not close.
+constexpr int most_turns = 6;
+constexpr double hopeless_gap = 1e-2;
+constexpr double telling_force = 0.03;  // where so much is left of the loads, the gap is known
 constexpr int most_rounds = 16, most_cheap_rounds = 60;
 
 // What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
@@ -48,15 +54,30 @@ double force_tolerance(double relative_residual) {
 // r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
 void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets, const double* x,
                                        double* r) {
-  if (!pads_) return residual(level, targets, x, r);
-  apply_thin_plate(grid(level), shared_.double_rows, pads_->rows(), {}, workers_,
-                   shared_.double_slots, x, r);
+  if (!pads_ && !is_placed_) return residual(level, targets, x, r);
+  apply_thin_plate(grid(level), shared_.double_rows, pads_ ? pads_->rows() : shared_.unknowns, {},
+                   workers_, shared_.double_slots, x, r);
   for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
-  pads_->add_loads(loads_, r);
+  if (pads_) pads_->add_loads(loads_, r);
+  if (is_placed_) take_pulls(r);
   take_point_forces<3>(
       shared_.unknowns, shared_.weights, pads_.get(), loads_,
-      [&](std::size_t v) -> Vec3 { return targets[v] - Eigen::Map<const Vec3>(x + 3 * v); },
+      [&](std::size_t v) -> Vec3 {
+        return is_placed_ && constraint_->placed(v)
+                   ? Vec3(pulls_[v] / shared_.weights[v])
+                   : Vec3(targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
+      },
       forces_, r);
+}
+
+// Placed vertices do not give way: what their rows ask for is the force that holds them there.
+void ThinPlateSolver::take_pulls(const double* r) {
+  pulls_.assign(std::size_t(mesh_.vertex_count()), Vec3::Zero());
+  for (std::size_t v = 0; v < pulls_.size(); ++v) {
+    if (!constraint_->placed(v)) continue;
+    pulls_[v] = -Eigen::Map<const Vec3>(r + 3 * v);
+    if (pads_ && pads_->under(v)) pulls_[v] += pads_->total(v) * loads_[v];
+  }
 }
 
 // Loads are densities and hardly change from level to level; what does is the hats' samples. The
@@ -100,10 +121,10 @@ struct ThinPlateSolver::Rounds {
 
   double* residual() { return solver.hierarchy_.state().residual.data(); }
   bool top() const { return level == solver.top() && !solver.judges_; }
-  double wanted_gap() const { return top() ? gap_wanted : coarse_gap; }
+  double wanted_gap() const { return top() ? gap_wanted : coarse_plate_gap; }
 
   double gain_wanted() const {
-    if (constraint) return solve_gain_of_bounds;
+    if (constraint && !solver.is_placed_) return solve_gain_of_bounds;
     const bool first = report.pad_corrections == 0 && solver.grid(level).n() >= fine;
     return first ? first_gain_of_fine : solve_gain;
   }
@@ -129,7 +150,7 @@ struct ThinPlateSolver::Rounds {
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     const LevelOperator& op = *solver.operators_[std::size_t(level - solver.base_)];
-    if (pads && !solve.direct && !op.single_precision_suffices())
+    if (pads && !solver.is_placed_ && !solve.direct && !op.single_precision_suffices())
       solver.residual_on_pads(level, targets, x, residual());
   }
 
@@ -195,22 +216,19 @@ struct ThinPlateSolver::Rounds {
     solver.set_weights(constraint->weights(), level);
   }
 
-  LevelReport run() {
-    if (constraint) {
-      constraint->start_level();
-      targets = constraint->aims();
-    }
+  void run_rounds() {
     for (;;) {
       solver.residual_on_pads(level, targets, x, residual());
       solve();
       const bool loads = loads_settled();
       if ((whole || report.enough) && (loads || corrections_left() <= 0)) {
         report.converged = report.converged && loads;
-        break;
+        return;
       }
-      if (loads && is_start_only()) break;
+      if (loads && is_start_only()) return;
       const bool nearly = loads_nearly_settled(), was_whole = whole;
       const bool bounds = was_whole || bounds_settled();
+      if (constraint && !top() && pads && bounds && loads) return;
       const bool may_adapt = constraint && !was_whole && rounds_left() > 0;
       // A correction after the last solve may ask for less than that leaves: then nothing would move,
       // and forces be read that say nothing. Loads go on with solves that gain.
@@ -226,7 +244,58 @@ struct ThinPlateSolver::Rounds {
         take_weights();
       }
     }
-    if (constraint && top()) constraint->finish(solver.energy(level, x), x);
+  }
+
+  // With vertices placed on their balls, as if they were fixed, but for where. False where the gap
+  // does not close.
+  bool run_placed() {
+    constraint->place(x);
+    targets = constraint->aims();
+    solver.is_placed_ = true;
+    take_weights();
+    bool settled = false;  // where vertices are; from then on loads alone change
+    for (int turns = 0;; ++turns) {
+      solver.residual_on_pads(level, targets, x, residual());
+      solve();
+      constraint->put_placed(x);
+      solver.residual_on_pads(level, targets, x, residual());
+      constraint->take_pulls(solver.pulls_);
+      const double energy = solver.energy(level, x);
+      const bool loads = loads_settled();
+      if (whole && (loads || corrections_left() <= 0)) {
+        report.converged = report.converged && loads;
+        constraint->finish(energy, x);
+        return loads && constraint->gap() <= gap_wanted;
+      }
+      const bool nearly = loads_nearly_settled();
+      settled = settled || (constraint->turn(energy, aim * gap_wanted) &&
+                            (loads || report.pad_force < telling_force));
+      if (turns > 0 && constraint->gap() > hopeless_gap) return false;
+      if (turns >= most_turns && !whole) return false;
+      whole = settled && (loads || nearly);
+      constraint->put_placed(x);
+      if (!settled) steps.forget();
+      if (!loads) change(true, false);
+    }
+  }
+
+  // Weights as they were.
+  void leave_places() {
+    constraint->leave_places();
+    targets = constraint->aims();
+    solver.is_placed_ = whole = false;
+    take_weights();
+    steps.forget();
+  }
+
+  LevelReport run() {
+    const bool places = constraint && top() && constraint->is_stiff();
+    if (!places || !run_placed()) {
+      if (places) leave_places();
+      run_rounds();
+      if (constraint && top()) constraint->finish(solver.energy(level, x), x);
+    }
+    solver.is_placed_ = false;
     if (constraint) {
       report.constraint_gap = constraint->gap();
       report.converged = report.converged && report.constraint_gap <= wanted_gap();

@@ -114,6 +114,7 @@ class ThinPlateSolver {
   struct Rounds;
   LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                               double* x);
+  void take_pulls(const double* r);
   void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
@@ -144,6 +145,8 @@ class ThinPlateSolver {
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;
   Loads loads_, forces_;     // on the pads; left at the control vertices on them
+  bool is_placed_ = false;   // whether the constraint has placed vertices
+  std::vector<Vec3> pulls_;  // by which these are held
   LevelSolve pace_;          // what one solve in place of a level's many would have taken
   Array<double> below_;      // the level below a start
   PcgLimits finest_limits_;  // of the last surface that was solved from nothing

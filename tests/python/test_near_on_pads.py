@@ -58,6 +58,18 @@ def test_near_costs_little_more_than_through(name, tolerance):
     assert near(mesh, 4, tolerance=tolerance).report["levels"][-1]["iterations"] <= 1.5 * through
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 3e-3])
+@pytest.mark.parametrize("name", ["creature", "torus_quads"])
+def test_small_tolerances_only_turn_vertices_on_their_balls(name, tolerance):
+    """No weights are looked for on the finest level; with them it took ten rounds."""
+    report = df.fair(
+        *meshes.ALL[name](), 3, interpolation="approximate", tolerance=tolerance
+    ).report
+    finest = report["levels"][-1]
+    assert finest["constraint_rounds"] == 1 and finest["iterations"] <= 20
+    assert report["constraint_gap"] <= 1e-4 and report["converged"]
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_more_weight_is_closer(name):
     vertices, faces = meshes.ALL[name]()
