@@ -38,6 +38,16 @@ py::dict to_python(const LevelReport& l) {
   return d;
 }
 
+py::dict to_python(const StepWork& w) {
+  py::dict d;
+  d["steps"] = w.steps;
+  d["linearizations"] = w.linearizations;
+  d["iterations"] = w.iterations;
+  d["pad_corrections"] = w.pad_corrections;
+  d["factors"] = w.factors;
+  return d;
+}
+
 py::dict to_python(const CurvatureLevelReport& l) {
   py::dict d;
   d["level"] = l.level;
@@ -52,6 +62,7 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["constraint_gap"] = l.constraint_gap;
   d["converged"] = l.converged;
   d["accurate"] = l.accurate;
+  d["work"] = to_python(l.work);
   py::list steps;
   for (const StepReport& s : l.steps) {
     py::dict step;

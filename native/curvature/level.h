@@ -72,6 +72,8 @@ class CurvatureLevel final : public LevelOperator {
   double fairness() const { return bending_ + tension_; }
   double bending() const { return bending_; }
 
+  int linearizations() const { return linearizations_; }
+
   // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what
   // apply() and assemble() look up.
   void update_diagonal();
@@ -120,6 +122,7 @@ class CurvatureLevel final : public LevelOperator {
   CurvatureShared& shared_;
   const GridLevel& grid_;
   double bending_ = 0, tension_ = 0;
+  int linearizations_ = 0;
   RingJacobian rows_;                          // sqrt(w) J
   std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
   std::vector<std::uint8_t> square_vertices_;  // that were unknowns then

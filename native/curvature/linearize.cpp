@@ -172,6 +172,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
         grid_.size(), vector_grain / 8,
         [&](std::size_t begin, std::size_t end) { clear_points(begin, end - begin); });
 
+  ++linearizations_;
   square_is_old_ = true;
   const auto body = [&](const Run& run, double* const* force, Gather& gather) {
     if (!has_fit(mesh, run)) return clear_points(run.first, run.count);

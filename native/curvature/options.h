@@ -22,6 +22,8 @@ struct GaussNewtonOptions {
   double tension = 0;
   // Steps end where less is left to move, in working units (the mesh's size is about one).
   double step_tolerance = 1e-6;
+  // How exact the loads on pads have to be: what is left of the force, relative.
+  double load_tolerance = 1e-4;
   int max_steps = 20;        // on each level, for each way of stepping that is tried there
   int max_iterations = 200;  // of each linear solve
   int smoother_degree = 0;   // Chebyshev's; 0: chosen from how the solves go
@@ -46,6 +48,18 @@ struct StepReport {
   double constraint_gap = 0;
 };
 
+// What a level took, all that was tried and left included.
+struct StepWork {
+  int steps = 0, linearizations = 0;  // of the level itself
+  int iterations = 0, pad_corrections = 0;
+  int factors = 0;  // of all levels
+
+  StepWork operator-(const StepWork& o) const {
+    return {steps - o.steps, linearizations - o.linearizations, iterations - o.iterations,
+            pad_corrections - o.pad_corrections, factors - o.factors};
+  }
+};
+
 // Energies are of curvature alone where the solver returns; steps judge by tension's part too.
 struct CurvatureLevelReport {
   int level = 0;
@@ -58,6 +72,7 @@ struct CurvatureLevelReport {
   // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
   std::size_t folds_before = 0, folds = 0;
   std::vector<StepReport> steps;
+  StepWork work;
   // The steps came to their end, at a decrement of 3e-2 at most: what a full step could still gain
   // is below a thousandth of the energy.
   bool converged = false;

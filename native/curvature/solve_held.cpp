@@ -11,12 +11,13 @@
 namespace fairing {
 namespace {
 
-// Each solve but the last leaves so much of the residual that it finds. The last one is to leave as
-// much of what the first one found as a step without pads does, and gains so much at the least.
+// Each solve leaves so much of what it finds. Where control vertices may move, a last one is to leave
+// as much of what the first one found as a step without pads does, and gains so much at the least.
 constexpr double solve_gain = 0.1, least_gain = 0.5;
-// A step's loads are corrected until so much of the force is left that it began with, or of the
-// loads; the next step begins with other loads anyway. Likewise the multipliers, by their gap.
-constexpr double force_gain = 0.1, force_tolerance = 1e-4, gap_gain = 0.1;
+// A step's loads are corrected until so much of the force is left that it began with, or, below the
+// finest level, of the loads; the next step begins with other loads anyway. Likewise the
+// multipliers, by their gap.
+constexpr double force_gain = 0.3, coarse_force_tolerance = 2e-2, gap_gain = 0.1;
 constexpr int most_corrections = 6;
 // Solves with other multipliers; and where a solve is a factor's.
 // Loads that have been corrected so often, or have settled, tell which ends are right.
@@ -145,7 +146,9 @@ struct GaussNewtonSystem::HeldSolve {
     const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
                  size = std::sqrt(std::max(0.0, dot<1>(held.loads, product)));
     if (first_force == 0) first_force = left;
-    return left <= force_gain * first_force || left <= force_tolerance * size;
+    const double tolerance =
+        level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
+    return left <= force_gain * first_force || left <= tolerance * size;
   }
 
   bool bounds_settled() {
@@ -211,8 +214,7 @@ struct GaussNewtonSystem::HeldSolve {
                  turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
       if (turned) corrections = 0;
       last = !turned && (loads || report.pad_corrections >= most_corrections);
-      if (last && solved.direct) return end(solved);
-      if (last) continue;
+      if (last) return end(solved);
       correct(steps);
       if (turned) steps.forget();
       load();

@@ -15,6 +15,10 @@ namespace {
 // Plain steps until plain_decrement, where nothing is known of how they go.
 constexpr int long_patience = 14;
 
+// Plain steps below the finest level end here on pads: what is left is less than what the next level
+// changes.
+constexpr double start_decrement = 1e-2;
+
 // After control vertices have moved: a change of the energy, relative, at which what only
 // preconditions may stay as it is.
 constexpr double nearby = 0.02;
@@ -74,36 +78,45 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   CurvatureLevelReport report;
   report.level = level;
   if (level < system_.base()) return report;
+  const StepWork before = system_.work(level);
   if (system_.stand_on(pads_)) iterate_.current.held.loads.clear();
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   if (system_.pads() && level == std::clamp(widths_level, system_.base(), system_.finest()))
     choose_widths(start, report);
   else
-    minimize(start, is_finest(), report);
+    minimize(start, effort_of_level(), report);
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
   if (is_finest())
     finish(start, plate, report);
   else
     leave_out_tension(start, plate, report);
+  report.work = system_.work(level) - before;
   return report;
 }
 
 // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
 // They stand if they settle and have never failed so far; else damped steps from the same start
-// show whether they have found a worse surface.
-void GaussNewtonSolver::minimize(const StepStart& start, bool is_accurate,
+// show whether they have found a worse surface. Widths of pads are judged without another try.
+void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
                                  CurvatureLevelReport& report) {
-  const bool doubtful = is_accurate && stepping_ == Stepping::damped;
-  const StepEnd end = is_accurate ? accurate_end() : StepEnd{plain_decrement, 0};
-  steps_.run_plain(end, doubtful ? short_patience : long_patience, report);
-  if (is_settled(report) && stepping_ == Stepping::plain) return;
+  const bool is_accurate = effort == Effort::accurate, judges = effort == Effort::judging,
+             doubtful = stepping_ == Stepping::damped;
+  const StepEnd end = is_accurate ? accurate_end()
+                                  : StepEnd{judges           ? damped_decrement
+                                            : system_.pads() ? start_decrement
+                                                             : plain_decrement,
+                                            0};
+  if (!doubtful || !judges) {
+    steps_.run_plain(end, doubtful && is_accurate ? short_patience : long_patience, report);
+    if (is_settled(report) && stepping_ == Stepping::plain) return;
+  }
   LinearizedSurface plain = iterate_.current;
   const CurvatureLevelReport plain_report = std::exchange(report, start.report);
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
-  steps_.run_damped(damping, report);
+  steps_.run_damped(damping, damped_decrement, report);
   if (is_accurate) steps_.polish_damped(report);
   const bool plain_is_as_good =
       is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
@@ -123,7 +136,7 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
   {
     const GaussNewtonSystem::OffPads off_pads(system_);
     iterate_.is_linearized = false;
-    minimize(start, false, report);
+    minimize(start, Effort::judging, report);
   }
   const std::vector<double> of_needles = stars();
   const std::vector<std::size_t> folds_of_needles =
@@ -138,7 +151,7 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     StepStart again{needles, iterate_.current.held, start.report};
     again.report.plate_energy = std::max(start.report.plate_energy, energy_of_needles);
     report = again.report;
-    minimize(again, is_finest(), report);
+    minimize(again, Effort::judging, report);
     std::vector<double> energy = stars();
     const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
     for (std::size_t v = 0; v < energy.size(); ++v)
@@ -149,7 +162,7 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     if (halvings.empty()) break;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
   }
-  if (report.energy <= crumpled * energy_of_needles) return;
+  if (report.energy <= crumpled * energy_of_needles) return go_on(start, report);
   // No widths will do.
   const std::vector<int> all(of_needles.size(), to_nothing);
   narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
@@ -157,7 +170,15 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
   iterate_.is_linearized = false;
   const StepStart again{needles, iterate_.current.held, start.report};
   report = again.report;
-  minimize(again, is_finest(), report);
+  minimize(again, effort_of_level(), report);
+}
+
+void GaussNewtonSolver::go_on(const StepStart& start, CurvatureLevelReport& report) {
+  StepStart again{surface(), iterate_.current.held, start.report};
+  again.report.plate_energy = report.plate_energy;
+  iterate_.is_linearized = false;
+  report = again.report;
+  minimize(again, effort_of_level(), report);
 }
 
 void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport& report) {
@@ -178,7 +199,7 @@ void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport
     const StepStart again{surface(), iterate_.current.held, start.report};
     iterate_.is_linearized = false;
     report = start.report;
-    minimize(again, true, report);
+    minimize(again, Effort::accurate, report);
   }
 }
 

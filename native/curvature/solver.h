@@ -42,9 +42,16 @@ class GaussNewtonSolver {
  private:
   enum class Stepping { undecided, plain, damped };
 
-  void minimize(const StepStart& start, bool is_accurate, CurvatureLevelReport& report);
+  // How far steps go: until widths of pads can be judged, to a start for the next level, or to the
+  // step tolerance.
+  enum class Effort { judging, start, accurate };
+  Effort effort_of_level() const { return is_finest() ? Effort::accurate : Effort::start; }
+
+  void minimize(const StepStart& start, Effort effort, CurvatureLevelReport& report);
   // minimize() on the level where the widths of pads are chosen.
   void choose_widths(const StepStart& start, CurvatureLevelReport& report);
+  // minimize() with the widths that have been chosen, from the surface that they were judged by.
+  void go_on(const StepStart& start, CurvatureLevelReport& report);
   // On the finest level: pads beside folds are gone, and the surface follows.
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);
   // From here on held control vertices stay where they are. The surface follows by a few plain

@@ -123,7 +123,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   void find_step(StepReport& step) override {
     held_ = it_.current.held;
-    const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
+    const bool fresh = it_.needs_coarse_levels(last_decrement_);
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
     step.energy = it_.current.energy;
@@ -215,8 +215,9 @@ void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
   run(nullptr, end, patience, report);
 }
 
-void TotalCurvatureSteps::run_damped(LocalDamping& damping, CurvatureLevelReport& report) {
-  run(&damping, {damped_decrement, 0}, 0, report);
+void TotalCurvatureSteps::run_damped(LocalDamping& damping, double decrement,
+                                     CurvatureLevelReport& report) {
+  run(&damping, {decrement, 0}, 0, report);
 }
 
 void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {

@@ -11,8 +11,9 @@
 namespace fairing {
 namespace {
 
-// Of the residual's norm. More accuracy gains no outer step, or at most one.
-constexpr double inner_accuracy = 1e-2;
+// Of the residual's norm. More accuracy gains no outer step, or at most one. On pads loads change
+// from step to step anyway, and more than a tenth of the error is worth no iteration.
+constexpr double inner_accuracy = 1e-2, inner_accuracy_on_pads = 0.1;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
 constexpr double usual_steps = 4;  // nobody knows how many there will be; most runs take so many
@@ -47,6 +48,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
     : stencils_(stencils),
       base_(base),
       max_iterations_(options.max_iterations),
+      load_tolerance_(options.load_tolerance),
       monitor_(monitor),
       shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
       hierarchy_(workers, hierarchy_options(unknowns, options)),
@@ -94,8 +96,9 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
 
 PcgLimits GaussNewtonSystem::limits() const {
   PcgLimits limits;
-  limits.tolerance = inner_accuracy;
+  limits.tolerance = is_on_pads() ? inner_accuracy_on_pads : inner_accuracy;
   limits.from_start = true;
+  limits.by_error = is_on_pads();
   limits.max_iterations = max_iterations_;
   return limits;
 }
@@ -108,7 +111,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
     look_along(about, held);
     take_weights(level);
   }
-  if (fresh || hold_) hierarchy_.refresh(index, fresh);
+  if (hold_)
+    hierarchy_.refresh(index, fresh);
+  else
+    hierarchy_.refresh_lazily(index, fresh);
   LevelSolve solved;
   Array<double> with_loads;
   const bool is_held = is_on_pads() || hold_;
@@ -126,9 +132,19 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   }
   report.residual = solved.residual;
   report.direct = solved.direct;
+  ++work_.steps;
+  work_.iterations += report.iterations;
+  work_.pad_corrections += report.pad_corrections;
   symmetrizer_.displacements(grid(level), h);
   const double square = sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
   return std::max(0.0, square);
+}
+
+StepWork GaussNewtonSystem::work(int level) const {
+  StepWork out = work_;
+  out.linearizations = operators_[std::size_t(level - base_)]->linearizations();
+  out.factors = hierarchy_.factors();
+  return out;
 }
 
 void GaussNewtonSystem::report_progress(int level, std::size_t steps) {

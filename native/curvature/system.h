@@ -108,6 +108,9 @@ class GaussNewtonSystem {
   double solve(int level, const LinearizedSurface& about, bool fresh, Array<double>& h,
                Multipliers<1>& held, StepReport& report);
 
+  // All that `level` has taken so far.
+  StepWork work(int level) const;
+
   // Before each step: progress, on the finest level. Throws ErrorCode::cancelled.
   void report_progress(int level, std::size_t steps);
 
@@ -122,6 +125,7 @@ class GaussNewtonSystem {
 
   const Stencils& stencils_;
   int base_, max_iterations_;
+  double load_tolerance_;
   Monitor& monitor_;
   std::vector<const GridLevel*> grids_;
   CurvatureShared shared_;
@@ -131,6 +135,7 @@ class GaussNewtonSystem {
   Symmetrizer symmetrizer_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   std::vector<double> given_widths_;
+  StepWork work_;
   HoldAlongNormals* hold_ = nullptr;
   std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
 };

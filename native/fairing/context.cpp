@@ -205,7 +205,8 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
     options.energy = CurvatureEnergy::minimum_variation;
   const double length = mean_edge(mesh_, flatten(mesh_, 1));
   options.tension = membrane_strength(options_.tension) / (length * length);
-  options.step_tolerance = options_.step_tolerance;
+  options.step_tolerance = options_.step_tolerance_wanted();
+  options.load_tolerance = std::clamp(5 * options_.relative_residual, 1e-4, 2e-3);
   options.max_steps = options_.max_steps;
   options.max_iterations = options_.max_iterations;
   options.smoother_degree = options_.smoother_degree;

@@ -42,6 +42,11 @@ constexpr double tautest = 30;
 
 }  // namespace
 
+// By default what cannot be seen is left, as it is by the thin plate.
+double FairOptions::step_tolerance_wanted() const {
+  return step_tolerance > 0 ? step_tolerance : std::clamp(0.03 * relative_residual, 1e-6, 1e-5);
+}
+
 double FairOptions::tolerance_of(std::size_t v) const {
   if (interpolation == Interpolation::exact) return 0;
   if (tolerance.size() > 1) return tolerance[v];

@@ -49,8 +49,10 @@ struct FairOptions {
   // How often each control face is split into four; 0 to most_levels.
   int levels = 3;
   Energy energy = Energy::thin_plate;
-  // Gauss-Newton steps end where less is left to move, as a share of the mesh's size; 0 to 0.1.
-  double step_tolerance = 1e-6;
+  // Gauss-Newton steps end where less is left to move, as a share of the mesh's size; 0 to 0.1, with
+  // 0 for what goes with `relative_residual`.
+  double step_tolerance = 0;
+  double step_tolerance_wanted() const;
   // The most Gauss-Newton steps on the finest level; at least 1.
   int max_steps = 20;
   ChartOptions chart;

@@ -31,6 +31,11 @@ constexpr int degree_of_blocks = 2;
 // Solves with a factor, each on the residual that the one before has left.
 constexpr int refinement_steps = 3;
 
+// Iterations after which a factor that is of another K is made anew.
+constexpr int most_with_old_factor = 20;
+// Unknowns up to which a level is factored whenever its K is another: iterations cost as much.
+constexpr std::size_t most_refactored = 4 * tiny_level;
+
 // Of the products' terms: what rounding may leave of the residual.
 constexpr double rounding = 2e-15;
 
@@ -78,15 +83,29 @@ void Hierarchy::complete() {
                                            options_.always_factor);
   cycle_.coarse = coarse_.get();
   cycle_.base = end;
+  factors_ += coarse_->direct();
   pcg_.residual.resize(cycle_.levels.back().op->size());
 }
 
 void Hierarchy::refresh(std::size_t top, bool spectrum) {
-  if (coarse_->direct() && top >= cycle_.base) coarse_->refactor();
+  if (coarse_->direct() && top >= cycle_.base) refactor();
   for (std::size_t l = 0; l <= top; ++l)
     if (cycle_.levels[l].blocks) cycle_.levels[l].blocks->refactor();
   if (spectrum)
     for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
+}
+
+void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
+  if (top == cycle_.base && coarse_->direct() && (!fresh || unknowns_[top] > most_refactored))
+    is_factor_old_ = true;
+  else if (fresh)
+    refresh(top, true);
+}
+
+void Hierarchy::refactor() {
+  coarse_->refactor();
+  is_factor_old_ = false;
+  ++factors_;
 }
 
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Residual& residual,
@@ -98,6 +117,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
     return out;
   }
   if (index == cycle_.base && coarse_->direct()) {
+    if (is_factor_old_ && solve_by_old_factor(limits, residual, x, out)) return out;
+    if (is_factor_old_) refactor();
     solve_direct(*coarse_, limits, residual, x, out);
     if (out.converged) return out;
   }
@@ -204,6 +225,20 @@ void Hierarchy::take_blocks(std::size_t index) {
   if (options_.may_block) cycle_.degree = degree_of_blocks;
 }
 
+bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,
+                                    LevelSolve& out) {
+  PcgLimits few = limits;
+  few.max_iterations = std::min(limits.max_iterations, most_with_old_factor);
+  const PcgResult result = conjugate_gradients(cycle_, cycle_.base, workers_, few, residual, pcg_,
+                                               x, [](const PcgResult&) { return true; });
+  out.direct = true;
+  out.smoother_degree = 0;
+  out.iterations = result.iterations;
+  out.residual = result.residual;
+  out.converged = result.converged;
+  return out.converged;
+}
+
 // Where the factor's trace keeps it from K, once more with less of one. What is then left in spite of
 // a factor may be rounding, of which iterations make no less.
 void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
@@ -261,6 +296,8 @@ void Hierarchy::estimate_eigenvalues(std::size_t top) {
 // From here on this level is the coarsest, solved directly.
 void Hierarchy::promote_to_coarsest(std::size_t index) {
   coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, 0, true);
+  is_factor_old_ = false;
+  ++factors_;
   cycle_.coarse = coarse_.get();
   cycle_.base = index;
   cycle_.degree = std::min(cycle_.degree, most_degree_over_factor);

@@ -63,6 +63,12 @@ class Hierarchy {
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
   // largest eigenvalues have.
   void refresh(std::size_t top, bool spectrum);
+  // After the operator of level `top` has changed as from one step of many to the next, and those
+  // below with it where they are `fresh`: a factor of that level itself goes on as a preconditioner
+  // as long as it serves.
+  void refresh_lazily(std::size_t top, bool fresh);
+  // How often a level has been factored.
+  int factors() const { return factors_; }
 
   // Solves K x = b on a level, to the limits given; state().residual is b - K x at the start.
   // `each` is called after every iteration. Throws where the run has been cancelled, and
@@ -84,6 +90,9 @@ class Hierarchy {
   };
 
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
+  void refactor();
+  bool solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,
+                           LevelSolve& out);
   void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
                     double* x, LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
@@ -106,6 +115,8 @@ class Hierarchy {
   std::vector<Pace> pace_;  // with the diagonal
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;
+  bool is_factor_old_ = false;  // of another K than its level's
+  int factors_ = 0;
   PcgState pcg_;
 };
 

@@ -105,7 +105,11 @@ class Iteration {
     result_.residual = relative(length_);
     result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
     return length_ <= limits_.noise || is_enough(error) ||
-           (result_.residual <= limits_.tolerance && result_.energy_error <= limits_.tolerance);
+           (residual_will_do() && result_.energy_error <= limits_.tolerance);
+  }
+
+  bool residual_will_do() const {
+    return limits_.by_error || result_.residual <= limits_.tolerance;
   }
 
   bool is_enough(double error) {
@@ -118,8 +122,8 @@ class Iteration {
   bool is_done_before(double error) {
     if (limits_.from_start) energy_scale_ = error;
     result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
-    result_.converged = is_enough(error) || (result_.residual <= limits_.tolerance &&
-                                             result_.energy_error <= limits_.tolerance);
+    result_.converged =
+        is_enough(error) || (residual_will_do() && result_.energy_error <= limits_.tolerance);
     return result_.converged;
   }
 

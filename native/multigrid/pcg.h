@@ -18,6 +18,9 @@ struct PcgLimits {
   double noise = 0;           // a residual below this is rounding
   int max_iterations = 200;
   bool from_start = false;  // both scales are what the start has
+  // The error alone is judged. Residuals of smooth loads are smooth: the first iterations add rough
+  // ones, which are more than that though the error falls.
+  bool by_error = false;
   // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
   double enough = 0;
 };

@@ -48,7 +48,7 @@ def fair(
     relative_residual: float = 1e-4,
     max_iterations: int = 200,
     smoother_degree: int = 0,
-    step_tolerance: float = 1e-6,
+    step_tolerance: float = 0.0,
     max_steps: int = 20,
     sweeps: int = 10,
     threads: int = 0,
@@ -149,7 +149,8 @@ def fair(
         the solution in the energy norm. 1e-4 leaves nothing to see: normals within 0.05 degrees,
         positions within 1e-5 of the mesh's size. Take 1e-8 for measurements.
     step_tolerance : float, share of the mesh's size
-        The Gauss-Newton steps stop when the points still have to move less than this.
+        The Gauss-Newton steps stop when the points still have to move less than this. 0: 0.03 of
+        relative_residual, from 1e-6 to 1e-5.
     max_steps : int
         The most Gauss-Newton steps on a level.
     max_iterations, smoother_degree, sweeps : int

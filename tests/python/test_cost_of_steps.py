@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What total curvature takes on pads, with all defaults: counts, which are the same on all machines.
+
+They include what was tried and left (docs/total-curvature.md#cost).
+"""
+
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surfaces import size_of
+
+# Steps and inner iterations of the finest level, at the most.
+MOST = {"icosahedron": (3, 30), "torus": (4, 30), "creature": (9, 75)}
+
+
+def fair(name, **options):
+    mesh = meshes.torus(10, 8) if name == "torus" else getattr(meshes, name)()
+    return df.fair(*mesh, levels=3, energy="total_curvature", **options)
+
+
+@pytest.mark.parametrize("name", MOST)
+def test_smooth_meshes_take_few_steps_and_iterations(name):
+    level = fair(name).report["curvature"][-1]
+    assert level["accurate"]
+    most_steps, most_iterations = MOST[name]
+    assert level["work"]["steps"] <= most_steps
+    assert level["work"]["iterations"] <= most_iterations
+
+
+@pytest.mark.parametrize("name", MOST)
+def test_what_is_left_cannot_be_seen(name):
+    usual, exact = fair(name), fair(name, relative_residual=1e-8)
+    farthest = np.linalg.norm(usual.vertices - exact.vertices, axis=1).max()
+    assert farthest <= 1e-5 * size_of(exact.vertices)
+    corners = [r.vertices[r.triangles] for r in (usual, exact)]
+    normals = [np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]) for c in corners]
+    units = [n / np.linalg.norm(n, axis=1)[:, None] for n in normals]
+    turned = 2 * np.arcsin(np.linalg.norm(units[0] - units[1], axis=1) / 2)
+    assert np.degrees(turned).max() <= 0.05
+
+
+def test_work_counts_what_was_tried_as_well():
+    for level in fair("creature").report["curvature"][1:]:
+        work = level["work"]
+        assert work["steps"] >= len(level["steps"])
+        assert work["linearizations"] > work["steps"]
+        assert work["iterations"] >= sum(step["iterations"] for step in level["steps"])
+        assert work["pad_corrections"] >= sum(step["pad_corrections"] for step in level["steps"])
