@@ -159,7 +159,6 @@ void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
       const Index* column = column_.data() + column_begin_[p];
       std::size_t left = column_begin_[p + 1] - column_begin_[p];
       for (; left >= sums; left -= sums, number += sums, column += sums)
-#pragma GCC unroll 6
         for (std::size_t m = 0; m < sums; ++m) sum[m] += number[m] * x[column[m]];
       for (std::size_t m = 0; m < left; ++m) sum[m] += number[m] * x[column[m]];
       y[p] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + (sum[4] + sum[5]);
