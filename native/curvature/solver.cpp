@@ -145,13 +145,18 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
   for (const double energy : of_needles) mean += energy / double(of_needles.size());
   const Array<double> needles = surface();
   const double energy_of_needles = report.energy;
-  for (int round = 0;; ++round) {
+  const auto from_needles = [&](double plate_energy) {
     surface() = needles;
     iterate_.is_linearized = false;
     StepStart again{needles, iterate_.current.held, start.report};
-    again.report.plate_energy = std::max(start.report.plate_energy, energy_of_needles);
+    again.report.plate_energy = plate_energy;
     report = again.report;
-    minimize(again, Effort::judging, report);
+    return again;
+  };
+  const double bound = std::max(start.report.plate_energy, energy_of_needles);
+  int round = 0;
+  for (;; ++round) {
+    minimize(from_needles(bound), Effort::judging, report);
     std::vector<double> energy = stars();
     const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
     for (std::size_t v = 0; v < energy.size(); ++v)
@@ -162,15 +167,14 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     if (halvings.empty()) break;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
   }
-  if (report.energy <= crumpled * energy_of_needles) return go_on(start, report);
-  // No widths will do.
-  const std::vector<int> all(of_needles.size(), to_nothing);
-  narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
-  surface() = needles;
-  iterate_.is_linearized = false;
-  const StepStart again{needles, iterate_.current.held, start.report};
-  report = again.report;
-  minimize(again, effort_of_level(), report);
+  const bool is_crumpled = !(report.energy <= crumpled * energy_of_needles);
+  if (round == 0 && !is_crumpled) return go_on(start, report);
+  if (is_crumpled) {  // no widths will do
+    const std::vector<int> all(of_needles.size(), to_nothing);
+    narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
+  }
+  minimize(from_needles(is_crumpled ? start.report.plate_energy : bound), effort_of_level(),
+           report);
 }
 
 void GaussNewtonSolver::go_on(const StepStart& start, CurvatureLevelReport& report) {

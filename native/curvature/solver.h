@@ -50,7 +50,7 @@ class GaussNewtonSolver {
   void minimize(const StepStart& start, Effort effort, CurvatureLevelReport& report);
   // minimize() on the level where the widths of pads are chosen.
   void choose_widths(const StepStart& start, CurvatureLevelReport& report);
-  // minimize() with the widths that have been chosen, from the surface that they were judged by.
+  // minimize() with the widths that there were, from the surface that they were judged by.
   void go_on(const StepStart& start, CurvatureLevelReport& report);
   // On the finest level: pads beside folds are gone, and the surface follows.
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);

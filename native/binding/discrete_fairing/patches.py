@@ -44,7 +44,8 @@ class SplinePatches:
     each patch, counter-clockwise, from u = v = 0 along u; four, or up to eight beside triangles.
     residual: (P,) float64, the farthest that a point of the refined surface is from its patch.
     turned: (P,) float64, the sharpest angle between the normals of patch and refined surface.
-    edge_error: (E,) float64, the farthest that a point of the refined surface is from the curve.
+    edge_error: (E,) float64, how far the curve is from the refined surface at most: across the
+        surface; along it too where the edge is a crease or a border.
     edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
     along creases and boundaries.
     lattice_error: float, how far the refined surface itself is about from the limit of finer ones;
