@@ -17,7 +17,8 @@ constexpr double solve_gain = 0.1, least_gain = 0.5;
 // A step's loads are corrected until so much of the force is left that it began with, or, below the
 // finest level, of the loads; the next step begins with other loads anyway. Likewise the
 // multipliers, by their gap.
-constexpr double force_gain = 0.3, coarse_force_tolerance = 2e-2, gap_gain = 0.1;
+constexpr double force_gain = 0.3, force_gain_of_ends = 0.1, coarse_force_tolerance = 2e-2;
+constexpr double gap_gain = 0.1;
 constexpr int most_corrections = 6;
 // Solves with other multipliers; and where a solve is a factor's.
 // Loads that have been corrected so often, or have settled, tell which ends are right.
@@ -148,7 +149,8 @@ struct GaussNewtonSystem::HeldSolve {
     if (first_force == 0) first_force = left;
     const double tolerance =
         level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
-    return left <= force_gain * first_force || left <= tolerance * size;
+    const double gain = hold ? force_gain_of_ends : force_gain;
+    return left <= gain * first_force || left <= tolerance * size;
   }
 
   bool bounds_settled() {
@@ -214,7 +216,8 @@ struct GaussNewtonSystem::HeldSolve {
                  turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
       if (turned) corrections = 0;
       last = !turned && (loads || report.pad_corrections >= most_corrections);
-      if (last) return end(solved);
+      if (last && (solved.direct || !hold)) return end(solved);
+      if (last) continue;
       correct(steps);
       if (turned) steps.forget();
       load();

@@ -11,8 +11,9 @@
 namespace fairing {
 namespace {
 
-// Of the residual's norm. More accuracy gains no outer step, or at most one. On pads loads change
-// from step to step anyway, and more than a tenth of the error is worth no iteration.
+// Of the residual's norm. More accuracy gains no outer step, or at most one. Loads on pads change
+// from step to step anyway, and more than a tenth of the error is worth no iteration, unless control
+// vertices move: their ends hang on forces.
 constexpr double inner_accuracy = 1e-2, inner_accuracy_on_pads = 0.1;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
@@ -96,9 +97,10 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
 
 PcgLimits GaussNewtonSystem::limits() const {
   PcgLimits limits;
-  limits.tolerance = is_on_pads() ? inner_accuracy_on_pads : inner_accuracy;
+  const bool loads_change = is_on_pads() && !hold_;
+  limits.tolerance = loads_change ? inner_accuracy_on_pads : inner_accuracy;
   limits.from_start = true;
-  limits.by_error = is_on_pads();
+  limits.by_error = loads_change;
   limits.max_iterations = max_iterations_;
   return limits;
 }
