@@ -15,6 +15,7 @@ import cholesky
 import clean_meshes
 import curvature_peaks
 import drag
+import energies
 import exactness
 import live
 import memory
@@ -45,6 +46,7 @@ BENCHMARKS = {
     "subdivision": subdivision.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
+    "energies": energies.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "drag": drag.run,

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What total curvature costs beside the thin plate, and pads beside point forces: default settings,
+processor time on one thread, in turns.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import control_meshes as meshes
+import discrete_fairing as df
+import from_tests
+import side_by_side
+import table
+import timing
+
+REPEATS = 3
+COMPETITORS = {
+    "plate on needles": {"pad_size": 0.0},
+    "plate": {},
+    "curvature on needles": {"energy": "total_curvature", "pad_size": 0.0},
+    "curvature": {"energy": "total_curvature"},
+}
+
+
+def collected(name: str) -> Any:
+    """Vertices and faces of a mesh beside the project; None where it is not there."""
+    files, data = from_tests.readers()
+    found = sorted((data.SHARED / "good").rglob(f"*{name}"))
+    return files.read_mesh(found[0]) if found else None
+
+
+def cases() -> dict[str, tuple[Callable[[], Any], int]]:
+    """By name: what makes the mesh, and levels."""
+    bob, cat, hand = "bob_small.ply", "cat_head.obj", "hand_lowres.obj"
+    return {
+        "rough sphere, 80 faces, 4": (partial(meshes.sphere, 2), 4),
+        "rough sphere, 720 faces, 3": (partial(meshes.sphere, 6), 3),
+        "torus, 10 x 8 quads, 3": (partial(meshes.quad_torus, 10, 8), 3),
+        "hull, 76 faces, 5": (partial(meshes.hull, 40), 5),
+        "bob, 3": (partial(collected, bob), 3),
+        "cat head, 3": (partial(collected, cat), 3),
+        "hand, 2": (partial(collected, hand), 2),
+        "Suzanne, 2": (side_by_side.suzanne, 2),
+        "Suzanne, 3": (side_by_side.suzanne, 3),
+    }
+
+
+def measure(mesh: Any, levels: int) -> dict[str, Any]:
+    """Seconds of each competitor, and what the finest level of total curvature took."""
+    vertices, faces = mesh
+    run = partial(df.fair, vertices, faces, levels=levels, threads=1, repair="mend")
+    turns = timing.in_turns(
+        {name: partial(run, **options) for name, options in COMPETITORS.items()}, REPEATS
+    )
+    work = turns["curvature"]["last"].report["curvature"][-1]["work"]
+    return {
+        **{name: turns[name]["processor"]["min"] for name in COMPETITORS},
+        "pads": turns["plate"]["processor"]["min"] / turns["plate on needles"]["processor"]["min"],
+        "ratio": turns["curvature"]["processor"]["min"] / turns["plate"]["processor"]["min"],
+        "work": {name: int(count) for name, count in work.items()},
+    }
+
+
+def run() -> dict[str, Any]:
+    """All meshes that are there."""
+    result = {}
+    for name, (make, levels) in cases().items():
+        mesh = make()
+        if mesh is not None:
+            result[name] = measure(mesh, levels)
+    table.show(
+        "Default settings: seconds of one processor; pads over needles; curvature over plate",
+        ["mesh, levels", *COMPETITORS, "pads", "ratio", "steps", "iterations", "factors"],
+        [
+            [
+                name,
+                *(entry[key] for key in (*COMPETITORS, "pads", "ratio")),
+                *(entry["work"][key] for key in ("steps", "iterations", "factors")),
+            ]
+            for name, entry in result.items()
+        ],
+    )
+    return result
