@@ -116,7 +116,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
-  steps_.run_damped(damping, damped_decrement, report);
+  steps_.run_damped(damping, report);
   if (is_accurate) steps_.polish_damped(report);
   const bool plain_is_as_good =
       is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;

@@ -215,9 +215,8 @@ void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
   run(nullptr, end, patience, report);
 }
 
-void TotalCurvatureSteps::run_damped(LocalDamping& damping, double decrement,
-                                     CurvatureLevelReport& report) {
-  run(&damping, {decrement, 0}, 0, report);
+void TotalCurvatureSteps::run_damped(LocalDamping& damping, CurvatureLevelReport& report) {
+  run(&damping, {damped_decrement, 0}, 0, report);
 }
 
 void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {

@@ -88,8 +88,8 @@ class TotalCurvatureSteps {
   // From iterate.current to the surface that the steps end at. `report` has the steps added, and
   // energy, `converged` and `accurate` set. Throws ErrorCode::cancelled.
   void run_plain(const StepEnd& end, int patience, CurvatureLevelReport& report);
-  // To a decrement; the damping may already hold some points.
-  void run_damped(LocalDamping& damping, double decrement, CurvatureLevelReport& report);
+  // To damped_decrement; the damping may already hold some points.
+  void run_damped(LocalDamping& damping, CurvatureLevelReport& report);
 
   // Plain steps to the step tolerance. Unless they converge, with an energy of at most `most`,
   // surface and report are as before.

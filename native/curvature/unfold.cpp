@@ -192,7 +192,7 @@ void Unfolding::solve_again(const StepStart& start, const Array<float>& marks, b
   report = start.report;
   LocalDamping damping(it_.grid(), it_.system.shared().unknowns, it_.workers());
   damping.hold(marks, filled_damping);
-  steps_.run_damped(damping, damped_decrement, report);
+  steps_.run_damped(damping, report);
   if (accurate) steps_.polish_damped(report);
 }
 

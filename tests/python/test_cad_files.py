@@ -4,6 +4,7 @@ beside it."""
 
 import os
 import stat
+from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
 
@@ -37,13 +38,17 @@ def only(path):
     return list(path.parent.iterdir()) == [path]
 
 
-@pytest.fixture
+@contextmanager
 def full_disk():
-    """No file may be longer than this; Python's own are buffered, so the last bytes fail at the end."""
+    """Inside the `with` no file may be longer than this, nor may the log of the tests; Python's own
+    files are buffered, so the last bytes fail at the end.
+    """
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-    yield
-    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 def test_a_surface_that_is_refused_leaves_no_file(tmp_path):
@@ -56,16 +61,16 @@ def test_a_surface_that_is_refused_leaves_no_file(tmp_path):
 
 
 @every_writer
-def test_a_full_disk_leaves_the_old_file(write, cube, old, full_disk):
-    with pytest.raises(OSError) as caught:
+def test_a_full_disk_leaves_the_old_file(write, cube, old):
+    with pytest.raises(OSError) as caught, full_disk():
         write(old, cube)
     assert caught.value.filename == str(old) and caught.value.strerror
     assert old.read_text() == "old" and only(old)
 
 
 @every_writer
-def test_a_full_disk_leaves_no_part_of_a_new_file(write, cube, tmp_path, full_disk):
-    with pytest.raises(OSError):
+def test_a_full_disk_leaves_no_part_of_a_new_file(write, cube, tmp_path):
+    with pytest.raises(OSError), full_disk():
         write(tmp_path / "a.file", cube)
     assert not list(tmp_path.iterdir())
 
