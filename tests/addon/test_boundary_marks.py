@@ -128,7 +128,7 @@ def test_a_surface_is_out_of_date_when_marks_change():
     assert why_stale(surface) == ""
     source.hide_set(False)
     mark(source, "FREE", *BOTTOM)
-    assert why_stale(surface) == "The source has changed"
+    assert why_stale(surface) == "Source changed"
 
 
 def test_live_follows_marks():
