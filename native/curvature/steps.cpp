@@ -123,7 +123,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   void find_step(StepReport& step) override {
     held_ = it_.current.held;
-    const bool fresh = it_.needs_coarse_levels(last_decrement_);
+    const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
     step.energy = it_.current.energy;

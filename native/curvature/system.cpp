@@ -113,10 +113,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
     look_along(about, held);
     take_weights(level);
   }
-  if (hold_)
-    hierarchy_.refresh(index, fresh);
-  else
+  if (is_on_pads() && !hold_)
     hierarchy_.refresh_lazily(index, fresh);
+  else if (fresh || hold_)
+    hierarchy_.refresh(index, fresh);
   LevelSolve solved;
   Array<double> with_loads;
   const bool is_held = is_on_pads() || hold_;

@@ -82,7 +82,7 @@ def test_phases_of_patches():
 @pytest.mark.parametrize("reports", [1, 4])
 def test_cancelling_while_patches_are_fitted(reports):
     """At once, and the same call goes through afterwards, with the same bits."""
-    mesh, options = meshes.random_hull(), {"levels": 5, "insist": True, "energy": "total_curvature"}
+    mesh, options = meshes.random_hull(), {"levels": 5, "tolerance": 1e-7, "insist": True}
     before, began = df.fit_patches(*mesh, **options), []
 
     def stop(fraction, phase):

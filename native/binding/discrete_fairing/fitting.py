@@ -98,7 +98,6 @@ def fit_patches(
 def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
     """Finer and finer surfaces, until one serves or the next is too large."""
     energy = options.get("energy", "thin_plate")
-
     halves = 1 if options.get("symmetry_plane") is None else 2
 
     def count(level):
@@ -160,6 +159,9 @@ class _Run:
 
     def fitted(self, result: Result, level: int, lattice_error: float, watched) -> SplinePatches:
         triangles, quads = result.faces
+        # however soon it is done, whoever watches hears of it
+        if watched["progress"](0.0, "patches") is False:
+            watched["monitor"].cancel()
         arrays = _native.fit_splines(
             result.vertices,
             triangles,
