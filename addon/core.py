@@ -59,6 +59,11 @@ class ControlArrays:
         """(m,) int32: corners of each face."""
         return self.offsets[1:] - self.offsets[:-1]
 
+    @property
+    def edge_uses(self) -> np.ndarray:
+        """(e,) int: how many faces each edge has."""
+        return np.bincount(self.corner_edges, minlength=len(self.edges))
+
 
 def fair_arguments(
     arrays: ControlArrays,

@@ -145,16 +145,11 @@ def triangulate(
     return triangles, np.concatenate([np.ones(len(plain) + len(fans)), weights])
 
 
-def uses(arrays: ControlArrays) -> np.ndarray:
-    """(e,) how many faces each edge has."""
-    return np.bincount(arrays.corner_edges, minlength=len(arrays.edges))
-
-
 def rim_edges(arrays: ControlArrays) -> np.ndarray:
     """(e,) bool: edges where the surface stops being one smooth piece: borders, three faces and
     more, marked sharp.
     """
-    count = uses(arrays)
+    count = arrays.edge_uses
     rim = (count == 1) | (count > 2)
     return rim if arrays.sharp_edge is None else rim | arrays.sharp_edge
 
@@ -167,7 +162,7 @@ def marked_vertices(edges: np.ndarray, marked: np.ndarray, count: int) -> np.nda
 
 
 def faces_of_edges(arrays: ControlArrays) -> np.ndarray:
-    """(e, 2) int32: the two faces of each edge. Only meaningful where `uses` is 2."""
+    """(e, 2) int32: the two faces of each edge. Only meaningful where `edge_uses` is 2."""
     sizes = np.diff(arrays.offsets)
     face = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
     pair = np.zeros((len(arrays.edges), 2), np.int32)

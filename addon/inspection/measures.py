@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..core import ControlArrays
-from .curvature import Curvature, curvature, face_normals, faces_of_edges, uses
+from .curvature import Curvature, curvature, face_normals, faces_of_edges
 
 # even steps from the lowest value to the highest, sRGB
 _SIGNED = (
@@ -79,7 +79,7 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
     apart = np.linalg.norm(first - second, axis=1)
     together = np.linalg.norm(first + second, axis=1)
     has_area = (normals != 0.0).any(axis=1)
-    inside = (uses(arrays) == 2) & has_area[pair].all(axis=1)
+    inside = (arrays.edge_uses == 2) & has_area[pair].all(axis=1)
     return np.degrees(2.0 * np.arctan2(apart, together)), inside
 
 

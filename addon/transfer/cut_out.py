@@ -34,8 +34,7 @@ def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
     found = np.zeros(len(arrays.positions), bool)
     found[arrays.corners[in_chosen]] = True
     found[arrays.corners[~in_chosen]] = False
-    uses = np.bincount(arrays.corner_edges, minlength=len(arrays.edges))
-    found[arrays.edges[uses == 1].ravel()] = False
+    found[arrays.edges[arrays.edge_uses == 1].ravel()] = False
     return found
 
 
@@ -71,5 +70,4 @@ def _on_border(arrays: ControlArrays) -> np.ndarray | None:
     """The marks of edges on the border: those inside, which a cut would lay bare, have no say."""
     if arrays.boundary_edge is None:
         return None
-    uses = np.bincount(arrays.corner_edges, minlength=len(arrays.edges))
-    return np.where(uses == 1, arrays.boundary_edge, 0)
+    return np.where(arrays.edge_uses == 1, arrays.boundary_edge, 0)
