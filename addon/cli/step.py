@@ -56,8 +56,8 @@ def wanted_of(
     all the same, or if such a file cannot be written.
     """
     for way in ways:
-        if why_not(str(way.target)):
-            raise ValueError(why_not(str(way.target)))
+        if reason := why_not(str(way.target)):
+            raise ValueError(reason)
     if not any(is_cad(way.target) for way in ways):
         for name in _ONLY_HERE:
             if getattr(arguments, name) is not None:

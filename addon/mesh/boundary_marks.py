@@ -22,9 +22,10 @@ def mark_selected(mesh: Mesh, boundary: str) -> int:
     """
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.edges.layers.int.get(BOUNDARY)
-    if layer is None and _NUMBERS[boundary] and _selected(edit):
-        layer = edit.edges.layers.int.new(BOUNDARY)
     chosen = _selected(edit)
+    if layer is None and _NUMBERS[boundary] and chosen:
+        layer = edit.edges.layers.int.new(BOUNDARY)
+        chosen = _selected(edit)  # a new layer makes edges from before invalid
     if layer is not None:
         for edge in chosen:
             edge[layer] = _NUMBERS[boundary]
@@ -33,7 +34,7 @@ def mark_selected(mesh: Mesh, boundary: str) -> int:
 
 
 def _selected(edit: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
-    """Its border edges that are selected. A new layer makes those from before invalid."""
+    """Its border edges that are selected."""
     return [edge for edge in edit.edges if edge.select and edge.is_boundary]
 
 

@@ -3,7 +3,7 @@
 
 import shutil
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from debian_root import INSIDE
@@ -36,6 +36,7 @@ def native() -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
+@cache
 def install(python: str) -> None:
     """Puts the wheel of the present sources into a Windows Python."""
     (wheel,) = (path for path in wheels.build(TARGET) if f"-{python}-" in path.name)
