@@ -2,6 +2,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <regex>
 
 namespace fairing {
 namespace {
@@ -13,6 +14,38 @@ std::string list(Words noun, std::size_t count, Item item, Words verb) {
   std::string text = std::to_string(count) + " " + (count == 1 ? noun.one : noun.many) + " (";
   for (std::size_t i = 0; i < std::min(count, shown); ++i) text += (i ? ", " : "") + item(i);
   return text + (count > shown ? ", …) " : ") ") + (count == 1 ? verb.one : verb.many);
+}
+
+std::string pair_of(std::span<const std::int64_t> ids, std::size_t i) {
+  return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
+}
+
+// Both numbers of an English verb. What is past is the same in both, but for "was".
+std::pair<std::string, std::string> both_numbers(const std::string& verb) {
+  for (const Words& irregular : {Words{"is", "are"}, Words{"has", "have"}, Words{"was", "were"}})
+    if (verb == irregular.one || verb == irregular.many) return {irregular.one, irregular.many};
+  if (verb.ends_with('d')) return {verb, verb};
+  const std::string stem = verb.ends_with('s') ? verb.substr(0, verb.size() - 1) : verb;
+  return {stem + "s", stem};
+}
+
+// The noun of a message, if that is one for elements of this kind.
+const Words* noun_of(ElementKind kind, const std::string& noun) {
+  static constexpr std::pair<ElementKind, Words> nouns[] = {{ElementKind::face, face_s},
+                                                            {ElementKind::vertex, vertex_s},
+                                                            {ElementKind::edge, edge_s},
+                                                            {ElementKind::edge, crease_s}};
+  for (const auto& [of, words] : nouns)
+    if (of == kind && (noun == words.one || noun == words.many)) return &words;
+  return nullptr;
+}
+
+// The text, with the first of these words, in either number, in the one asked for.
+std::string with_number(std::string text, Words words, bool single) {
+  const std::string wrong = single ? words.many : words.one;
+  if (const std::size_t at = text.find(wrong); at != std::string::npos)
+    text.replace(at, wrong.size(), single ? words.one : words.many);
+  return text;
 }
 
 }  // namespace
@@ -56,6 +89,12 @@ const char* name(ElementKind kind) {
   return "unknown";
 }
 
+ElementKind kind_named(std::string_view text) {
+  for (const ElementKind kind : {ElementKind::vertex, ElementKind::edge, ElementKind::face})
+    if (text == name(kind)) return kind;
+  return ElementKind::mesh;
+}
+
 ElementKind usual_kind(ErrorCode code) {
   switch (code) {
     case ErrorCode::bad_shape:
@@ -89,18 +128,24 @@ std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb) {
   return list(noun, ids.size(), [&](std::size_t i) { return std::to_string(ids[i]); }, verb);
 }
 
-std::string relisted(const std::string& message, Words noun, std::span<const std::int64_t> ids) {
-  const std::size_t end = message.find(") ");
-  if (message.empty() || message[0] < '0' || message[0] > '9' || end == std::string::npos)
-    return message;
-  return listing(noun, ids, {"", ""}) + message.substr(end + 2);
+std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
+  return list(noun, ids.size() / 2, [&](std::size_t i) { return pair_of(ids, i); }, verb);
 }
 
-std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
-  const auto pair = [&](std::size_t i) {
-    return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
-  };
-  return list(noun, ids.size() / 2, pair, verb);
+std::string relisted(const std::string& message, ElementKind kind,
+                     std::span<const std::int64_t> ids) {
+  static const std::regex pattern(R"((\d+) ([a-z]+) \([^)]*\) ([a-z]+))");
+  std::smatch found;
+  if (!std::regex_search(message, found, pattern)) return message;
+  const Words* noun = noun_of(kind, found[2]);
+  if (!noun) return message;
+  const auto [one, many] = both_numbers(found[3]);
+  const Words verb{one.c_str(), many.c_str()};
+  const bool is_edge = kind == ElementKind::edge;
+  const std::string start = is_edge ? listing_pairs(*noun, ids, verb) : listing(*noun, ids, verb);
+  const bool single = ids.size() == (is_edge ? 2u : 1u);
+  return found.prefix().str() + start +
+         with_number(found.suffix(), {" and was ", " and were "}, single);
 }
 
 }  // namespace fairing

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,9 @@ enum class ElementKind { mesh, vertex, edge, face };
 
 const char* name(ElementKind kind);
 
+// The kind of that name; mesh for any other text.
+ElementKind kind_named(std::string_view text);
+
 // What the elements of such an error usually are.
 ElementKind usual_kind(ErrorCode code);
 
@@ -79,15 +83,18 @@ struct Words {
   const char *one, *many;
 };
 
-constexpr Words face_s{"face", "faces"}, vertex_s{"vertex", "vertices"};
+constexpr Words face_s{"face", "faces"}, vertex_s{"vertex", "vertices"}, edge_s{"edge", "edges"},
+    crease_s{"crease", "creases"};
 
 // "1 face (7) has", "12 faces (0, 4, 9, 11, 12, …) have".
 std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb);
 
-// A message that begins with a listing, of other ids; any other message as it is.
-std::string relisted(const std::string& message, Words noun, std::span<const std::int64_t> ids);
-
 // Ids laid end to end in pairs: "2 edges (0-4, 4-9) have".
 std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb);
+
+// A message about other ids: its first listing and the verbs after that agree with their number.
+// One that lists nothing comes back as it is.
+std::string relisted(const std::string& message, ElementKind kind,
+                     std::span<const std::int64_t> ids);
 
 }  // namespace fairing

@@ -124,6 +124,11 @@ py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& c
   return to_python(predict_size(vertices, faces.corners, faces.offsets, levels, shapes, energy));
 }
 
+std::string relisted_message(const std::string& message, const std::string& kind,
+                             const std::vector<std::int64_t>& ids) {
+  return relisted(message, kind_named(kind), ids);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_native, m) {
@@ -145,6 +150,8 @@ PYBIND11_MODULE(_native, m) {
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");
+  m.def("relisted", &relisted_message, py::arg("message"), py::arg("kind"), py::arg("ids"),
+        "A message about other elements of that kind.");
   bind_solver(m);
   bind_splines(m);
   bind_end();

@@ -200,7 +200,7 @@ void Mending::restore(std::vector<Warning>& warnings) const {
   for (Warning& warning : warnings) {
     if (warning.kind == ElementKind::face) {
       warning.elements = faces_of_input(warning.elements);
-      warning.message = relisted(warning.message, face_s, warning.elements);
+      warning.message = relisted(warning.message, warning.kind, warning.elements);
     } else if (warning.code == name(ErrorCode::isolated_vertices)) {
       std::erase_if(warning.elements, [&](std::int64_t v) {
         return mended_.vertex_origin[std::size_t(v)] != Index(v);
@@ -224,7 +224,7 @@ Ids Mending::faces_of_input(std::span<const std::int64_t> faces) const {
 FairingError Mending::restored(const FairingError& error) const {
   if (!mended_.changed() || error.kind != ElementKind::face) return error;
   Ids ids = faces_of_input(error.elements);
-  const std::string message = relisted(error.what(), face_s, ids);
+  const std::string message = relisted(error.what(), error.kind, ids);
   return {error.code, message, std::move(ids), error.kind};
 }
 

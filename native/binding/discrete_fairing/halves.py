@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from . import _native
 from ._native import FairingError
 from .errors import fairing_error
-from .listing import listing, relisted
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
@@ -122,7 +122,7 @@ class Half:
             yield
         except FairingError as error:
             own = self._own(error.elements, error.kind)
-            message = relisted(str(error), error.kind, own)
+            message = _native.relisted(str(error), error.kind, own)
             if error.code == "TOO_LARGE":
                 message = message.replace(" triangles", " triangles of both halves", 1)
             raise fairing_error(error.code, message, own, error.kind) from None
@@ -200,7 +200,7 @@ class Half:
 
     def _cut_entry(self, entry: dict[str, Any]) -> dict[str, Any]:
         own = self._own(entry["elements"], entry["kind"])
-        message = relisted(entry["message"], entry["kind"], own)
+        message = _native.relisted(entry["message"], entry["kind"], own)
         return {**entry, "elements": own, "message": message}
 
 
@@ -212,8 +212,8 @@ def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
     if unknown:
         raise fairing_error(
             "INDEX_OUT_OF_RANGE",
-            f"{listing(kind, unknown)} named in {name} but not in the mesh: "
-            f"ids run from 0 to {count - 1}.",
+            _native.relisted(f"0 {kind} () are named in {name} but not in the mesh: ", kind, unknown)
+            + f"ids run from 0 to {count - 1}.",
             unknown,
             kind,
         )

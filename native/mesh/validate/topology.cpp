@@ -110,7 +110,7 @@ void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found) {
   if (pairs.empty()) return;
   found.emplace_back(
       ErrorCode::nonmanifold_edge,
-      listing_pairs({"edge", "edges"}, pairs, {"joins", "join"}) +
+      listing_pairs(edge_s, pairs, {"joins", "join"}) +
           " more than two faces (vertex pairs): sheets meet there in a curve. Delete inner faces "
           "that you do not want.",
       pairs, Severity::warning);
