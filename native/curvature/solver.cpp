@@ -95,20 +95,30 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   return report;
 }
 
+StepEnd GaussNewtonSolver::end_of(Effort effort) {
+  if (effort == Effort::accurate) return accurate_end();
+  if (effort == Effort::judging) return {damped_decrement, 0};
+  return {system_.pads() ? start_decrement : plain_decrement, 0};
+}
+
+StepStart GaussNewtonSolver::start_again(const StepStart& start, Array<double> points,
+                                         double plate_energy, CurvatureLevelReport& report) {
+  surface() = std::move(points);
+  iterate_.is_linearized = false;
+  report = start.report;
+  report.plate_energy = plate_energy;
+  return {surface(), iterate_.current.held, report};
+}
+
 // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
 // They stand if they settle and have never failed so far; else damped steps from the same start
 // show whether they have found a worse surface. Widths of pads are judged without another try.
 void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
                                  CurvatureLevelReport& report) {
-  const bool is_accurate = effort == Effort::accurate, judges = effort == Effort::judging,
-             doubtful = stepping_ == Stepping::damped;
-  const StepEnd end = is_accurate ? accurate_end()
-                                  : StepEnd{judges           ? damped_decrement
-                                            : system_.pads() ? start_decrement
-                                                             : plain_decrement,
-                                            0};
-  if (!doubtful || !judges) {
-    steps_.run_plain(end, doubtful && is_accurate ? short_patience : long_patience, report);
+  const bool is_accurate = effort == Effort::accurate, doubtful = stepping_ == Stepping::damped;
+  if (!doubtful || effort != Effort::judging) {
+    steps_.run_plain(end_of(effort), doubtful && is_accurate ? short_patience : long_patience,
+                     report);
     if (is_settled(report) && stepping_ == Stepping::plain) return;
   }
   LinearizedSurface plain = iterate_.current;
@@ -145,18 +155,10 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
   for (const double energy : of_needles) mean += energy / double(of_needles.size());
   const Array<double> needles = surface();
   const double energy_of_needles = report.energy;
-  const auto from_needles = [&](double plate_energy) {
-    surface() = needles;
-    iterate_.is_linearized = false;
-    StepStart again{needles, iterate_.current.held, start.report};
-    again.report.plate_energy = plate_energy;
-    report = again.report;
-    return again;
-  };
   const double bound = std::max(start.report.plate_energy, energy_of_needles);
   int round = 0;
   for (;; ++round) {
-    minimize(from_needles(bound), Effort::judging, report);
+    minimize(start_again(start, needles, bound, report), Effort::judging, report);
     std::vector<double> energy = stars();
     const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
     for (std::size_t v = 0; v < energy.size(); ++v)
@@ -168,21 +170,15 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
   }
   const bool is_crumpled = !(report.energy <= crumpled * energy_of_needles);
-  if (round == 0 && !is_crumpled) return go_on(start, report);
   if (is_crumpled) {  // no widths will do
     const std::vector<int> all(of_needles.size(), to_nothing);
     narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
   }
-  minimize(from_needles(is_crumpled ? start.report.plate_energy : bound), effort_of_level(),
-           report);
-}
-
-void GaussNewtonSolver::go_on(const StepStart& start, CurvatureLevelReport& report) {
-  StepStart again{surface(), iterate_.current.held, start.report};
-  again.report.plate_energy = report.plate_energy;
-  iterate_.is_linearized = false;
-  report = again.report;
-  minimize(again, effort_of_level(), report);
+  // Widths that have not changed go on from the surface that they were judged by.
+  const bool stands = round == 0 && !is_crumpled;
+  minimize(start_again(start, stands ? surface() : needles,
+                       is_crumpled ? start.report.plate_energy : bound, report),
+           effort_of_level(), report);
 }
 
 void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport& report) {
@@ -200,10 +196,8 @@ void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport
       }
     if (!any) return;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
-    const StepStart again{surface(), iterate_.current.held, start.report};
-    iterate_.is_linearized = false;
-    report = start.report;
-    minimize(again, Effort::accurate, report);
+    minimize(start_again(start, surface(), start.report.plate_energy, report), Effort::accurate,
+             report);
   }
 }
 

@@ -47,11 +47,13 @@ class GaussNewtonSolver {
   enum class Effort { judging, start, accurate };
   Effort effort_of_level() const { return is_finest() ? Effort::accurate : Effort::start; }
 
+  StepEnd end_of(Effort effort);
+  // A start at these points with what is held now; surface and report begin anew with it.
+  StepStart start_again(const StepStart& start, Array<double> points, double plate_energy,
+                        CurvatureLevelReport& report);
   void minimize(const StepStart& start, Effort effort, CurvatureLevelReport& report);
   // minimize() on the level where the widths of pads are chosen.
   void choose_widths(const StepStart& start, CurvatureLevelReport& report);
-  // minimize() with the widths that there were, from the surface that they were judged by.
-  void go_on(const StepStart& start, CurvatureLevelReport& report);
   // On the finest level: pads beside folds are gone, and the surface follows.
   void leave_folds(const StepStart& start, CurvatureLevelReport& report);
   // From here on held control vertices stay where they are. The surface follows by a few plain
