@@ -62,14 +62,28 @@ REPAIRS = (
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
 
+# numbered as files from before the first have them
 BOUNDARIES = (
+    (
+        "CORNERS",
+        "Keep Corners",
+        "Open borders become smooth curves through their own vertices, and keep their corners: "
+        "vertices of a single face where they turn by more than 60°",
+        3,
+    ),
     (
         "CURVE",
         "Smooth",
-        "Open borders become smooth curves through their own vertices, so that neighbouring parts with the same border fit",
+        "Open borders become smooth curves through their own vertices, around corners too",
+        0,
     ),
-    ("LINEAR", "Straight", "Open borders keep the straight edges of the source"),
-    ("FREE", "Free", "Open borders go where the surface takes them, fixed only at their vertices"),
+    ("LINEAR", "Straight", "Open borders keep the straight edges of the source", 1),
+    (
+        "FREE",
+        "Free",
+        "Open borders go where the surface takes them, fixed only at their vertices",
+        2,
+    ),
 )
 
 # of single border edges, numbered as their attribute has them (mesh/boundary_marks.py)

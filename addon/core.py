@@ -16,6 +16,10 @@ from .choices import EDGE_BOUNDARIES
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
+# half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
+_COSINE_OF_CORNER = 0.5
+_IN_PLANE = 1e-6  # share of the mesh's size: vertices nearer to a symmetry plane lie in it
+
 
 @cache
 def _load() -> tuple[Any, str]:
@@ -97,10 +101,10 @@ def fair_arguments(
         # the steps of minimum variation would burst under it
         "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
         "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
-        "corner_vertices": corner_vertices(arrays, threshold),
+        "corner_vertices": _corners(arrays, settings, threshold),
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
-        "boundary": settings.boundary.lower(),
+        "boundary": "curve" if settings.boundary == "CORNERS" else settings.boundary.lower(),
         "boundary_edges": boundary_edges(arrays),
         "repair": settings.repair.lower(),
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
@@ -193,6 +197,41 @@ def corner_vertices(arrays: ControlArrays, crease_threshold: float | None = None
         arrays.corners, len(arrays.positions)
     )
     return np.flatnonzero(chosen).astype(np.int32)
+
+
+def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarray:
+    """Vertices (c,) int32 of a single face where the border turns by more than 60°, as at the corners
+    of a sheet of quads, and neither of its edges has a boundary of its own.
+
+    `plane`: the axis across whose plane the mesh is mirrored; the border does not end in it.
+    """
+    count = len(arrays.positions)
+    before = np.arange(len(arrays.corners)) - 1
+    before[arrays.offsets[:-1]] = arrays.offsets[1:] - 1
+    after = np.empty_like(before)
+    after[before] = np.arange(len(before))
+    points = arrays.positions[arrays.corners]
+    arriving, leaving = points - points[before], points[after] - points
+    lengths = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
+    turns = np.einsum("ij,ij->i", arriving, leaving) < _COSINE_OF_CORNER * lengths
+    turns &= np.bincount(arrays.corners, minlength=count)[arrays.corners] == 1
+    if arrays.boundary_edge is not None:
+        marked = arrays.boundary_edge[arrays.corner_edges] != 0
+        turns &= ~(marked | marked[before])
+    if plane is not None and count:
+        near = _IN_PLANE * np.ptp(arrays.positions, axis=0).max()
+        turns &= np.abs(points[:, plane]) > near
+    return np.sort(arrays.corners[turns]).astype(np.int32)
+
+
+def _corners(arrays: ControlArrays, settings: Any, crease_threshold: float | None) -> np.ndarray:
+    """All vertices where curves end by request."""
+    found = corner_vertices(arrays, crease_threshold)
+    if settings.boundary != "CORNERS":
+        return found
+    plane = settings.symmetry_plane
+    axis = None if plane == "NONE" else "XYZ".index(plane)
+    return np.union1d(found, border_corners(arrays, axis))
 
 
 def _creased(weights: np.ndarray, threshold: float) -> np.ndarray:

@@ -146,7 +146,10 @@ class FairingSettings:
         subtype="FACTOR",
     )
     boundary: EnumProperty(
-        name="Boundary", description="What happens to open borders", items=BOUNDARIES
+        name="Boundary",
+        description="What happens to open borders",
+        items=BOUNDARIES,
+        default="CORNERS",
     )
     symmetry_plane: EnumProperty(
         name="Symmetry Plane",

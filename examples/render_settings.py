@@ -101,6 +101,7 @@ FIGURES = {
         View(3.2, turn=20, elevation=30, height=0.85),
         (
             Variant("Control mesh", as_it_is=True),
+            Variant("Keep Corners", {"boundary": "CORNERS"}),
             Variant("Smooth", {"boundary": "CURVE"}),
             Variant("Straight", {"boundary": "LINEAR"}),
             Variant("Free", {"boundary": "FREE"}),
@@ -112,9 +113,11 @@ FIGURES = {
         View(3.2, turn=20, elevation=30, height=0.85),
         (
             Variant("Control mesh", as_it_is=True),
-            Variant("Smooth all around"),
-            Variant("One side Straight", make=lambda: meshes.tent_with_side(2)),
-            Variant("One side Free", make=lambda: meshes.tent_with_side(3)),
+            Variant("Smooth all around", {"boundary": "CURVE"}),
+            Variant(
+                "One side Straight", {"boundary": "CURVE"}, make=lambda: meshes.tent_with_side(2)
+            ),
+            Variant("One side Free", {"boundary": "CURVE"}, make=lambda: meshes.tent_with_side(3)),
         ),
         SMOOTH,
     ),
