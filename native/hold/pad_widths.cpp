@@ -36,12 +36,14 @@ std::vector<Index> nearest_pads(const GridLevel& control, const Pads& pads, Inde
 // What is judged as one: a sheet where sheets meet, otherwise the whole mesh.
 struct Part {
   double sum = 0, of_needles = 0;
+  double thrown = 0;  // how much more stars bend that are thrown about
   std::size_t stars = 0;
-  bool crumpled = false;
 
   bool over(const PadLimits& limits) const { return sum > limits.whole * of_needles; }
-  // Nothing is thrown about: all pads are somewhat too wide.
-  bool calm(const PadLimits& limits) const { return over(limits) && !crumpled; }
+  // Not for the sake of some stars: all pads are somewhat too wide.
+  bool calm(const PadLimits& limits) const {
+    return over(limits) && thrown < 0.5 * (sum - of_needles);
+  }
   double slack(const PadLimits& limits) const { return limits.slack * of_needles / double(stars); }
 };
 
@@ -61,9 +63,18 @@ std::vector<Part> judge(const std::vector<Index>& part_of, const PadLimits& limi
   }
   for (std::size_t v = 0; v < energy.size(); ++v) {
     Part& part = parts[std::size_t(part_of[v])];
-    part.crumpled |= energy[v] > crumpled * of_needles[v] + part.slack(limits);
+    if (energy[v] > crumpled * of_needles[v] + part.slack(limits))
+      part.thrown += energy[v] - of_needles[v];
   }
   return parts;
+}
+
+// Beside wide pads a narrow one bends its star more than before: those around it give way once too.
+void halve_ring(const GridLevel& control, const Pads& pads, Index v, std::vector<int>& halvings) {
+  visit_ring(control, v, [&](Index u, std::size_t) {
+    if (pads.is_whole(std::size_t(u)))
+      halvings[std::size_t(u)] = std::max(halvings[std::size_t(u)], 1);
+  });
 }
 
 }  // namespace
@@ -80,8 +91,8 @@ std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
       halvings[v] = round < limits.calm_rounds && pads.under(v) ? 1 : 0;
       continue;
     }
-    const double most = part.over(limits) ? limits.strict : limits.star,
-                 above = part.over(limits) ? 0 : part.slack(limits);
+    const bool over = part.over(limits);
+    const double most = over ? limits.strict : crumpled, above = over ? 0 : part.slack(limits);
     const double excess = energy[v] / (most * of_needles[v] + above);
     if (!pads.began_under(v) || !(excess > 1)) continue;
     const int times = round >= patient_rounds
@@ -89,6 +100,7 @@ std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
                           : 1 + int(std::log2(std::min(excess, std::ldexp(1.0, to_nothing - 1))));
     for (const Index w : nearest_pads(control, pads, Index(v)))
       halvings[std::size_t(w)] = std::max(halvings[std::size_t(w)], times);
+    if (!over) halve_ring(control, pads, Index(v), halvings);
   }
   if (std::none_of(halvings.begin(), halvings.end(), [](int times) { return times > 0; }))
     halvings.clear();

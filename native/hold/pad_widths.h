@@ -19,16 +19,16 @@ constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
 // What a surface on pads may bend more than one on point forces.
 struct PadLimits {
-  double star;    // the energy of a star, times that on point forces,
-  double slack;   // and so many mean stars' above: what hardly bends may bend a little more
-  double whole;   // that of all stars. While it is more, the mesh is crumpled, or all pads too wide
-  double strict;  // on a crumpled mesh: of a star, in place of the first two
+  double slack;  // of a star, so many mean stars' above `crumpled`: what hardly bends may bend more
+  double
+      whole;  // of all stars, times that on point forces. While it is more, the mesh is crumpled, or all pads too wide
+  double strict;    // on a crumpled mesh: of a star, in place of the first
   int calm_rounds;  // in which all pads are halved where the mesh is not crumpled
 };
 // The plate's own energy is another, so that pads cost little total curvature or gain some. The
 // surface of least total curvature can only lose by them: on a nearly flat hull it would soon be
 // marked again, for the sake of hardly any energy.
-constexpr PadLimits plate_limits{1.2, 0.5, 1.1, 1.05, 4}, curvature_limits{2, 2, 1.2, 1.1, 1};
+constexpr PadLimits plate_limits{0.5, 1.1, 1.05, 4}, curvature_limits{2, 1.2, 1.1, 1};
 
 // How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
 // curvatures of the star of each control vertex, of the surface on pads and of that on point

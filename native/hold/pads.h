@@ -44,6 +44,7 @@ class Pads {
   bool under(std::size_t v) const { return width_[v] > 0; }
   // The same before any pad was narrowed.
   bool began_under(std::size_t v) const { return row_begin_[v + 1] > row_begin_[v]; }
+  bool is_whole(std::size_t v) const { return width_[v] == size_; }
   // Of each control vertex; 0 where it stands on none.
   const std::vector<double>& widths() const { return width_; }
   // Halves a width so many times; below an eighth of `size` the pad is gone, and the vertex held by

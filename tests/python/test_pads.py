@@ -266,3 +266,14 @@ def test_a_drag_takes_hardly_any_iterations():
     exact = df.Solver(vertices, faces, levels=4, relative_residual=1e-8)
     off = np.abs(solver.solve(moved).vertices - exact.solve(moved).vertices).max()
     assert off <= 5e-5 * np.ptp(vertices, axis=0).max()
+
+
+def test_few_pads_give_way_on_a_rough_mesh():
+    """One that is gone bends the stars beside it, which must not take theirs away in turn."""
+    vertices, faces = meshes.torus(100, 70)
+    edge = np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean()
+    noise = np.random.default_rng(1).uniform(-1, 1, vertices.shape)
+    report = df.fair(vertices + 0.12 * edge * noise, faces, levels=2).report
+    assert report["converged"]
+    assert report["pads"]["gone"] < 20 and report["pads"]["narrower"] < 300
+    assert report["iterations"][-1] < 70
