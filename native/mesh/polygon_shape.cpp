@@ -49,14 +49,19 @@ class OrderFreeSum {
   std::array<std::vector<double>, 3> term_;
 };
 
-// The middle of the smallest box.
-Vec3 middle(std::span<const Vec3> points) {
-  Vec3 least = points[0], most = points[0];
-  for (const Vec3& p : points) {
-    least = least.cwiseMin(p);
-    most = most.cwiseMax(p);
+// The mean of the corners. Not the middle of their box, which does not turn with them: the centroid of a
+// polygon that is not plane hangs on where triangles are summed up from.
+Vec3 mean(std::span<const Vec3> p) {
+  if (p.size() == 4) return 0.25 * ((p[0] + p[2]) + (p[1] + p[3]));
+  Vec3 least = p[0], most = p[0];
+  for (const Vec3& q : p) {
+    least = least.cwiseMin(q);
+    most = most.cwiseMax(q);
   }
-  return 0.5 * least + 0.5 * most;
+  const Vec3 middle = 0.5 * least + 0.5 * most;
+  OrderFreeSum sum(p.size());
+  for (const Vec3& q : p) sum.add(q - middle);
+  return middle + sum.total() / double(p.size());
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -142,7 +147,7 @@ std::vector<Piece> cut(std::size_t corners, const std::vector<Diagonal>& diagona
 
 }  // namespace
 
-PolygonShape::PolygonShape(std::span<const Vec3> corners) : origin_(middle(corners)) {
+PolygonShape::PolygonShape(std::span<const Vec3> corners) : origin_(mean(corners)) {
   for (const Vec3& p : corners) corners_.push_back(p - origin_);
   const Vec3 area = vector_area();
   area_ = area.norm();

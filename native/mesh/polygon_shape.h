@@ -40,12 +40,12 @@ class PolygonShape {
 
  private:
   Vec3 vector_area() const;
-  Vec3 centre_of_area() const;  // relative to the origin
+  Vec3 centre_of_area() const;  // relative to the mean
   Vec2 project(const Vec3& p) const { return {along_.dot(p), across_.dot(p)}; }
   Vec3 corner_area(std::size_t i) const;
 
-  Vec3 origin_;
-  std::vector<Vec3> corners_;  // relative to the origin
+  Vec3 origin_;                // their mean
+  std::vector<Vec3> corners_;  // relative to their mean
   std::vector<Vec2> plane_;    // the same, projected
   Vec3 normal_, along_, across_;
   double area_ = 0;

@@ -12,6 +12,7 @@
 
 #include "control_mesh_invariants.h"
 #include "mesh/control_mesh.h"
+#include "mesh/polygon_shape.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
 #include "random.h"
@@ -258,6 +259,23 @@ TEST(Split, HasTheSameBitsHoweverItIsNumbered) {
     std::reverse(mirrored.corners.begin(), mirrored.corners.end());
     for (double& x : mirrored.coordinates) x = -x;
     EXPECT_EQ(faces_in_space(mirrored, split_polygons(mirrored.view()), -1), expected) << trial;
+  }
+}
+
+TEST(Split, CentresTurnWithTheMesh) {
+  std::mt19937 random(3);
+  UniformReal<> vary(-0.3, 0.3);
+  for (int trial = 0; trial < 50; ++trial) {
+    // Not plane.
+    std::vector<Vec3> corners, turned;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(1, vary(random), trial, 2).normalized();
+    for (int i = 0; i < 5 + trial % 4; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / (5 + trial % 4);
+      corners.push_back({2 * std::cos(angle), std::sin(angle), vary(random)});
+      turned.push_back(turn * corners.back());
+    }
+    EXPECT_LT((turn * PolygonShape(corners).centroid() - PolygonShape(turned).centroid()).norm(),
+              1e-14);
   }
 }
 
