@@ -90,6 +90,8 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
                    options_.energy, options_.tension > 0, options_.method == Method::back_leg,
                    options_.interpolation == Interpolation::approximate);
   size.bytes += std::min(mended_bytes, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  // What mending took in passing.
+  size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);

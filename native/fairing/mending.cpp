@@ -6,7 +6,6 @@
 #include "mesh/region.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
-#include "parallel/memory.h"
 
 namespace fairing {
 namespace {
@@ -99,17 +98,14 @@ MendedMesh mend_as_asked(const PolygonMesh& input, const FairOptions& options) {
 
 Mending::Mending(const PolygonMesh& input, const FairOptions& options)
     : mended_(mend_as_asked(input, options)),
-      bytes_(mended_.changed() ? mended_.bytes() : 0),
+      counted_(mended_.changed() ? mended_.bytes() : 0),
       mesh_(input),
       options_(options) {
-  MemoryLedger::add(bytes_);
   options_.repair_orientation |= options.repair == Repair::mend;
   if (!mended_.changed()) return;
   mesh_ = mended_.mesh.view();
   map_options(input);
 }
-
-Mending::~Mending() { MemoryLedger::remove(bytes_); }
 
 void Mending::map_options(const PolygonMesh& input) {
   map_edges(input);

@@ -9,6 +9,7 @@
 #include "fairing/output.h"
 #include "fairing/report.h"
 #include "mesh/mend/mend.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
@@ -17,7 +18,6 @@ class Mending {
   // Mends where `options` ask for it. The arrays of `input` and the spans of `options` must outlive
   // this. May throw FairingError and bad_alloc.
   Mending(const PolygonMesh& input, const FairOptions& options);
-  ~Mending();
   Mending(const Mending&) = delete;
   Mending& operator=(const Mending&) = delete;
 
@@ -58,7 +58,7 @@ class Mending {
   void map_vertex_values(const PolygonMesh& input);
 
   MendedMesh mended_;
-  std::size_t bytes_;  // of mended_, in the open ledger
+  CountedBytes counted_;  // mended_
   PolygonMesh mesh_;
   FairOptions options_;
   std::vector<double> shapes_;

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -19,6 +21,48 @@ constexpr double least_distance = 0.01;
 constexpr double least_flatness = 1e-9;  // a triangle's projected area over its sides' squares
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Sums with the same bits in whatever order the terms come, and the negative of these bits where all
+// terms change their sign: each sign is summed up for itself, from the smallest term on.
+class OrderFreeSum {
+ public:
+  explicit OrderFreeSum(std::size_t terms) {
+    for (auto& of_component : term_) of_component.reserve(terms);
+  }
+  void add(const Vec3& v) {
+    for (std::size_t a = 0; a < 3; ++a) term_[a].push_back(v[Eigen::Index(a)]);
+  }
+  Vec3 total() {
+    Vec3 out;
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::vector<double>& term = term_[a];
+      std::sort(term.begin(), term.end());
+      const auto positive = std::lower_bound(term.begin(), term.end(), 0.0);
+      const double gained = std::accumulate(positive, term.end(), 0.0),
+                   lost = std::accumulate(std::make_reverse_iterator(positive), term.rend(), 0.0);
+      out[Eigen::Index(a)] = gained + lost;
+    }
+    return out;
+  }
+
+ private:
+  std::array<std::vector<double>, 3> term_;
+};
+
+// The mean of the corners. Not the middle of their box, which does not turn with them: the centroid of a
+// polygon that is not plane hangs on where triangles are summed up from.
+Vec3 mean(std::span<const Vec3> p) {
+  if (p.size() == 4) return 0.25 * ((p[0] + p[2]) + (p[1] + p[3]));
+  Vec3 least = p[0], most = p[0];
+  for (const Vec3& q : p) {
+    least = least.cwiseMin(q);
+    most = most.cwiseMax(q);
+  }
+  const Vec3 middle = 0.5 * least + 0.5 * most;
+  OrderFreeSum sum(p.size());
+  for (const Vec3& q : p) sum.add(q - middle);
+  return middle + sum.total() / double(p.size());
+}
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double tie = 1e-6;
@@ -46,7 +90,12 @@ class Costs {
     }
   }
 
-  double whole() const { return cost_[n_ - 1]; }
+  // The same from every side on, but for rounding.
+  double whole() const {
+    double least = infinite;
+    for (std::size_t i = 0; i < n_; ++i) least = std::min(least, cost_[i * n_ + n_ - 1]);
+    return least;
+  }
   double with(const Diagonal& d) const {
     const std::size_t length = d.j - d.i;
     return cost_[d.i * n_ + length] + cost_[d.j * n_ + n_ - length];
@@ -98,33 +147,38 @@ std::vector<Piece> cut(std::size_t corners, const std::vector<Diagonal>& diagona
 
 }  // namespace
 
-PolygonShape::PolygonShape(std::span<const Vec3> corners) {
-  const std::size_t n = corners.size();
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : corners) mean += (p - corners[0]) / double(n);
-  mean += corners[0];
-  for (const Vec3& p : corners) corners_.push_back(p - mean);
-
-  Vec3 area = Vec3::Zero();
-  for (std::size_t i = 0; i < n; ++i) area += 0.5 * corners_[i].cross(corners_[(i + 1) % n]);
+PolygonShape::PolygonShape(std::span<const Vec3> corners) : origin_(mean(corners)) {
+  for (const Vec3& p : corners) corners_.push_back(p - origin_);
+  const Vec3 area = vector_area();
   area_ = area.norm();
   normal_ = area / area_;
+  along_ = normal_.unitOrthogonal();
+  across_ = normal_.cross(along_);
+  for (const Vec3& p : corners_) plane_.push_back(project(p));
+}
 
-  Vec3 moment = Vec3::Zero();
+Vec3 PolygonShape::vector_area() const {
+  const std::size_t n = size();
+  if (n == 4) return 0.5 * (corners_[2] - corners_[0]).cross(corners_[3] - corners_[1]);
+  OrderFreeSum area(n);
+  for (std::size_t i = 0; i < n; ++i) area.add(0.5 * corners_[i].cross(corners_[(i + 1) % n]));
+  return area.total();
+}
+
+Vec3 PolygonShape::centre_of_area() const {
+  const std::size_t n = size();
+  OrderFreeSum moment(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 &a = corners_[i], &b = corners_[(i + 1) % n];
-    moment += 0.5 * normal_.dot(a.cross(b)) * (a + b) / 3;
+    moment.add(0.5 * normal_.dot(a.cross(b)) * (a + b) / 3);
   }
-  centroid_ = mean + moment / area_;
-
-  const Vec3 u = normal_.unitOrthogonal(), v = normal_.cross(u);
-  for (const Vec3& p : corners_) plane_.emplace_back(u.dot(p), v.dot(p));
-  centre_ = Vec2(u.dot(moment), v.dot(moment)) / area_;
+  return moment.total() / area_;
 }
 
 bool PolygonShape::star_shaped() const {
+  const Vec2 centre = project(centre_of_area());
   for (std::size_t i = 0; i < size(); ++i) {
-    const Vec2 a = plane_[i] - centre_, b = plane_[(i + 1) % size()] - centre_;
+    const Vec2 a = plane_[i] - centre, b = plane_[(i + 1) % size()] - centre;
     if (!(cross(a, b) > least_distance * std::sqrt(area_) * (b - a).norm())) return false;
   }
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a polygon in space looks like in its mean plane (Newell's: its normal is the vector of the
-// polygon's projected areas), and how to cut it. Nothing here depends on which corner is first.
+// polygon's projected areas), and how to cut it. Nothing here depends on which corner is first, not
+// even in the last bit: two runs on one mesh, numbered differently, have the same faces and centres.
 #pragma once
 
 #include <functional>
@@ -21,7 +22,7 @@ class PolygonShape {
   const Vec3& normal() const { return normal_; }
 
   // The centroid of the area: where a centre vertex would go.
-  const Vec3& centroid() const { return centroid_; }
+  Vec3 centroid() const { return origin_ + centre_of_area(); }
 
   // Every side is seen from the centroid at a fair distance, and counter-clockwise.
   bool star_shaped() const;
@@ -38,12 +39,15 @@ class PolygonShape {
   double badness(std::size_t i, std::size_t j, std::size_t k) const;
 
  private:
+  Vec3 vector_area() const;
+  Vec3 centre_of_area() const;  // relative to the mean
+  Vec2 project(const Vec3& p) const { return {along_.dot(p), across_.dot(p)}; }
   Vec3 corner_area(std::size_t i) const;
 
+  Vec3 origin_;                // their mean
   std::vector<Vec3> corners_;  // relative to their mean
   std::vector<Vec2> plane_;    // the same, projected
-  Vec3 normal_, centroid_;
-  Vec2 centre_;  // the centroid, projected
+  Vec3 normal_, along_, across_;
   double area_ = 0;
 };
 

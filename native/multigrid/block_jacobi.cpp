@@ -47,18 +47,6 @@ void with_components(std::size_t components, const Body& body) {
     body(std::integral_constant<int, 1>());
 }
 
-// Bytes that the ledger knows of as long as this lives.
-class Counted {
- public:
-  explicit Counted(std::size_t bytes) : bytes_(bytes) { MemoryLedger::add(bytes_); }
-  ~Counted() { MemoryLedger::remove(bytes_); }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-
- private:
-  std::size_t bytes_;
-};
-
 }  // namespace
 
 std::size_t BlockJacobi::Factor::bytes() const {
@@ -173,7 +161,7 @@ class BlockJacobi::Factorizer {
 std::unique_ptr<BlockJacobi> BlockJacobi::make(const LevelOperator& op, Workers& workers) {
   const SymmetricRows rows = op.rows();
   if (rows.first.empty()) return nullptr;
-  const Counted counted(rows.bytes());
+  const CountedBytes counted(rows.bytes());
   std::unique_ptr<BlockJacobi> out(new BlockJacobi(op, workers));
   out->blocks_ = strong_blocks(rows, most_points);
   out->factor(rows);
@@ -182,7 +170,7 @@ std::unique_ptr<BlockJacobi> BlockJacobi::make(const LevelOperator& op, Workers&
 
 void BlockJacobi::refactor() {
   const SymmetricRows rows = op_.rows();
-  const Counted counted(rows.bytes());
+  const CountedBytes counted(rows.bytes());
   factor(rows);
 }
 

@@ -68,6 +68,8 @@ void MemoryLedger::remove(std::size_t bytes) {
 
 std::size_t MemoryLedger::held() { return open_ledger ? open_ledger->current_ : 0; }
 
+std::size_t MemoryLedger::highest() { return open_ledger ? open_ledger->peak_ : 0; }
+
 bool MemoryLedger::fits(std::size_t bytes) {
   if (!open_ledger || open_ledger->limit_ == 0) return true;
   return bytes <= open_ledger->limit_ && open_ledger->current_ <= open_ledger->limit_ - bytes;

@@ -24,8 +24,9 @@ class MemoryLedger {
 
   static void add(std::size_t bytes);
   static void remove(std::size_t bytes);
-  // By the open ledger.
+  // By the open ledger, now and at the most so far.
   static std::size_t held();
+  static std::size_t highest();
   // Whether so many more are within the open ledger's limit.
   static bool fits(std::size_t bytes);
 
@@ -33,6 +34,18 @@ class MemoryLedger {
   std::size_t limit_;
   std::size_t current_ = 0;
   std::size_t peak_ = 0;
+};
+
+// Bytes that the open ledger knows of for as long as this lives: of what is no Array.
+class CountedBytes {
+ public:
+  explicit CountedBytes(std::size_t bytes) : bytes_(bytes) { MemoryLedger::add(bytes_); }
+  ~CountedBytes() { MemoryLedger::remove(bytes_); }
+  CountedBytes(const CountedBytes&) = delete;
+  CountedBytes& operator=(const CountedBytes&) = delete;
+
+ private:
+  std::size_t bytes_;
 };
 
 // Asks the system for large pages, where it gives them on request: mapping and unmapping them is

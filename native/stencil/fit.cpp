@@ -15,6 +15,18 @@ namespace {
 constexpr double half_root_half = std::numbers::sqrt2 / 4;  // 1 / (2 sqrt 2)
 constexpr double root_half = std::numbers::sqrt2 / 2;
 
+// Whether the Cholesky factor of the scaled normal equations leaves nothing undetermined. The last two
+// columns turn into each other with the chart: what is left for them is judged by its eigenvalues, so
+// that it does not matter which neighbour is the first.
+bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& scale) {
+  if (lower.diagonal().head<3>().minCoeff() < undetermined) return false;
+  const Eigen::Matrix2d root = scale.tail<2>().asDiagonal() * lower.bottomRightCorner<2, 2>();
+  const Eigen::Matrix2d rest = root * root.transpose();
+  const double least = 0.5 * undetermined_square * scale.tail<2>().squaredNorm();
+  const Eigen::Matrix2d above = rest - least * Eigen::Matrix2d::Identity();
+  return above(0, 0) > 0 && above(0, 0) * above(1, 1) > above(0, 1) * above(1, 0);
+}
+
 // Least squares after the ring has been made round: quadratics are invariant under linear maps, so
 // the fit is the same, and its normal equations are well-conditioned for any skew. Empty when
 // undetermined.
@@ -35,8 +47,7 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   gram = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
   const Eigen::LLT<Eigen::Matrix<double, 5, 5>> factor(gram);
   if (factor.info() != Eigen::Success) return false;
-  const Eigen::Matrix<double, 5, 5> lower = factor.matrixL();
-  if (lower.diagonal().minCoeff() < undetermined) return false;
+  if (!determines(factor.matrixL(), scale)) return false;
   a = scale.cwiseInverse().asDiagonal() * a;
   factor.solveInPlace(a);
   a = scale.cwiseInverse().asDiagonal() * a;

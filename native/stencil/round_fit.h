@@ -58,11 +58,13 @@ struct RoundFit {
     determined &= s00 > S(undetermined_square) * aa;
     l10 = s01 / s00;
     l20 = s02 / s00;
-    const N d1 = s11 - l10 * s01, t12 = s12 - l10 * s02;
-    determined &= d1 > S(undetermined_square) * bb;
+    const N d1 = s11 - l10 * s01, t12 = s12 - l10 * s02, t22 = s22 - l20 * s02;
+    // b and c turn into each other with the chart, and b^2 + c^2 = a^2: both eigenvalues of what is
+    // left for them count, whichever neighbour is the first.
+    const N least = S(0.5 * undetermined_square) * aa;
+    determined &= (d1 > least) & ((d1 - least) * (t22 - least) > t12 * t12);
     l21 = t12 / d1;
-    const N d2 = s22 - l20 * s02 - l21 * t12;
-    determined &= d2 > S(undetermined_square) * cc;
+    const N d2 = t22 - l21 * t12;
     set_pivot(s00, pivot[0]);
     set_pivot(d1, pivot[1]);
     set_pivot(d2, pivot[2]);

@@ -39,9 +39,10 @@ void decompose(const Matrix& a, ThinSvd<Matrix>& svd) {
 }
 #endif
 
-// Without the undetermined directions.
+// Without the directions whose singular values are below a share of the largest, or of `scale`, if
+// that is more.
 template <class Matrix>
-Columns pseudo_inverse_of(const Matrix& a) {
+Columns pseudo_inverse_of(const Matrix& a, double scale) {
   auto svd = std::make_unique<ThinSvd<Matrix>>();
   try {
     decompose(a, *svd);
@@ -50,8 +51,8 @@ Columns pseudo_inverse_of(const Matrix& a) {
     throw;
   }
   const auto& sigma = svd->singularValues();
-  const double least =
-      undetermined * (sigma.size() ? std::max(sigma(0), least_singular_value) : 0.0);
+  const double largest = sigma.size() ? std::max(sigma(0), least_singular_value) : 0.0,
+               least = undetermined * std::max(largest, scale);
   Columns middle = svd->matrixU().adjoint();
   for (Eigen::Index k = 0; k < sigma.size(); ++k)
     middle.row(k) *= sigma(k) > least ? 1 / sigma(k) : 0.0;
@@ -59,18 +60,19 @@ Columns pseudo_inverse_of(const Matrix& a) {
   return left * middle;
 }
 
-Columns pseudo_inverse(const Columns& a) {
-  return std::max(a.rows(), a.cols()) <= most_on_stack ? pseudo_inverse_of(FewColumns(a))
-                                                       : pseudo_inverse_of(a);
+Columns pseudo_inverse(const Columns& a, double scale = 0) {
+  return std::max(a.rows(), a.cols()) <= most_on_stack ? pseudo_inverse_of(FewColumns(a), scale)
+                                                       : pseudo_inverse_of(a, scale);
 }
 
-// Of a positive semidefinite matrix, by its eigenvectors.
+// Of a positive semidefinite matrix, by its eigenvectors; likewise.
 template <int Size>
-Eigen::Matrix<double, Size, Size> gram_pseudo_inverse(
-    const Eigen::Matrix<double, Size, Size>& gram) {
+Eigen::Matrix<double, Size, Size> gram_pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram,
+                                                      double scale = 0) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> eigen(gram);
   Eigen::Matrix<double, Size, 1> inverse = eigen.eigenvalues();
-  const double least = std::max(undetermined_square * inverse(Size - 1), least_eigenvalue);
+  const double least =
+      std::max(undetermined_square * std::max(inverse(Size - 1), scale), least_eigenvalue);
   for (int k = 0; k < Size; ++k) inverse(k) = inverse(k) > least ? 1 / inverse(k) : 0.0;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
@@ -82,11 +84,8 @@ FitRows staged_fit(const Columns& a, int leading) {
   const Columns first_inverse = pseudo_inverse(first);
   const Columns rest = second - first * (first_inverse * second);
   // `rest` is compared with `second`: where nothing is left, its own largest singular value is
-  // noise.
-  Columns guarded = rest;
-  for (Eigen::Index c = 0; c < guarded.cols(); ++c)
-    if (guarded.col(c).norm() < undetermined * second.norm()) guarded.col(c).setZero();
-  const Columns second_rows = pseudo_inverse(guarded);
+  // noise. As a whole, since its columns turn into each other with the chart.
+  const Columns second_rows = pseudo_inverse(rest, second.norm());
   FitRows rows(5, a.rows());
   rows.bottomRows(5 - leading) = second_rows;
   rows.topRows(leading) = first_inverse - first_inverse * second * second_rows;
@@ -103,14 +102,9 @@ StagedHessian::StagedHessian(std::span<const Vec2> ring) : ring_(ring) {
   }
   first_ = gram_pseudo_inverse<3>(gram.topLeftCorner<3, 3>());
   mixed_ = first_ * gram.topRightCorner<3, 2>();
-  left_ = gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed_;
-  const double whole = gram.bottomRightCorner<2, 2>().trace();
-  for (int k = 0; k < 2; ++k)
-    if (left_(k, k) < undetermined_square * whole) {
-      left_.row(k).setZero();
-      left_.col(k).setZero();
-    }
-  left_inverse_ = gram_pseudo_inverse<2>(left_);
+  const Eigen::Matrix2d left =
+      gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed_;
+  left_inverse_ = gram_pseudo_inverse<2>(left, gram.bottomRightCorner<2, 2>().trace());
 }
 
 Coefficients StagedHessian::basis_at(std::size_t j) const { return basis(ring_[j] / radius_); }
@@ -127,9 +121,7 @@ Vec3 StagedHessian::of_neighbour(std::size_t j) const {
 }
 
 Vec3 StagedHessian::solve(const Coefficients& moment) const {
-  Eigen::Vector2d rest = moment.tail<2>() - mixed_.transpose() * moment.head<3>();
-  for (int k = 0; k < 2; ++k)
-    if (left_(k, k) == 0) rest(k) = 0;
+  const Eigen::Vector2d rest = moment.tail<2>() - mixed_.transpose() * moment.head<3>();
   const Eigen::Vector2d free = left_inverse_ * rest;
   const Vec3 leading = first_ * moment.head<3>() - mixed_ * free;
   return Vec3(leading(2), free(0), free(1)) / (radius_ * radius_);

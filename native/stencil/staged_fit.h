@@ -30,7 +30,7 @@ class StagedHessian {
   double radius_ = 0;
   Eigen::Matrix3d first_;
   Eigen::Matrix<double, 3, 2> mixed_;
-  Eigen::Matrix2d left_, left_inverse_;
+  Eigen::Matrix2d left_inverse_;
 };
 
 }  // namespace fairing

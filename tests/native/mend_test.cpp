@@ -9,6 +9,7 @@
 #include "mesh/validate/check.h"
 #include "meshes.h"
 #include "parallel/cancel.h"
+#include "parallel/memory.h"
 #include "thrown.h"
 
 namespace fairing::test {
@@ -29,6 +30,19 @@ std::vector<Polygon> faces_of(const MendedMesh& mended) {
 OwnedPolygonMesh cap() {
   return make_mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, -3, 1}, {1, 0, 0}},
                    {{0, 1, 2}, {0, 4, 1}, {4, 0, 3}, {1, 4, 3}});
+}
+
+TEST(Mend, CountsWhatItTakesInPassing) {
+  OwnedPolygonMesh mesh = torus(60, 40);
+  const std::vector<std::int64_t> first(mesh.corners.begin(), mesh.corners.begin() + 4);
+  mesh.corners.insert(mesh.corners.end(), first.begin(), first.end());
+  mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
+  const MemoryLedger ledger;
+  const std::size_t result = mend(mesh.view()).bytes(), corners = mesh.corners.size();
+  // The faces' loops: of each corner a vertex and where it comes from.
+  EXPECT_GE(ledger.peak(), result + 20 * corners);
+  EXPECT_LE(ledger.peak(), result + 60 * corners);
+  EXPECT_EQ(ledger.current(), 0u);
 }
 
 TEST(Mend, LeavesAloneWhatIsSoundOrNotItsBusiness) {

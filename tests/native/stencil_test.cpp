@@ -2,7 +2,9 @@
 // Fits and charts.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -91,6 +93,68 @@ TEST(Fit, OpenRingsFitTheirGradient) {
     chart.closed = false;
     EXPECT_LT(fit_error(chart, linear), 1e-9) << valence;
     EXPECT_TRUE(fit(chart).allFinite());
+  }
+}
+
+// Neighbours on two lines through the origin, a conic, but for so much of an angle.
+std::vector<Vec2> ring_near_conic(int valence, double off, std::mt19937& random) {
+  UniformReal<> vary(-1, 1);
+  const double between = 0.5 * pi * (1 + 0.3 * vary(random));
+  std::vector<double> angles{0, between, pi, pi + between};
+  while (int(angles.size()) < valence) angles.push_back(angles[angles.size() - 4]);
+  for (double& angle : angles) angle += off * vary(random);
+  std::sort(angles.begin(), angles.end());
+  std::vector<Vec2> ring;
+  for (const double angle : angles)
+    ring.push_back((1 + 0.3 * vary(random)) * Vec2(std::cos(angle), std::sin(angle)));
+  return ring;
+}
+
+// A Hessian in the orthonormal basis, after its chart has been turned back.
+Vec3 turned_back(const Vec3& hessian, double angle) {
+  Vec3 out = hessian;
+  out.tail<2>() = Eigen::Rotation2Dd(-2 * angle) * hessian.tail<2>();
+  return out;
+}
+
+TEST(Fit, DoesNotDependOnTheFirstNeighbour) {
+  std::mt19937 random(7);
+  UniformReal<> vary(-1, 1);
+  for (int trial = 0; trial < 600; ++trial) {
+    const int valence = 4 + trial % 5;
+    // About the size at which a direction counts as undetermined.
+    const std::vector<Vec2> ring =
+        ring_near_conic(valence, std::pow(10, -2 + vary(random)), random);
+    std::vector<double> difference, weight;
+    for (const Vec2& p : ring) {
+      difference.push_back(vary(random));
+      weight.push_back(1 / p.squaredNorm());
+    }
+    Vec3 expected[3];
+    for (std::size_t first = 0; first < ring.size(); ++first) {
+      const Vec2& axis = ring[first];
+      const double angle = -std::atan2(axis.y(), axis.x());
+      Chart chart;
+      std::vector<double> f = difference, w = weight;
+      std::rotate(f.begin(), f.begin() + std::ptrdiff_t(first), f.end());
+      std::rotate(w.begin(), w.begin() + std::ptrdiff_t(first), w.end());
+      for (std::size_t j = 0; j < ring.size(); ++j)
+        chart.ring.push_back(Eigen::Rotation2Dd(angle) * ring[(first + j) % ring.size()]);
+      const FitRows rows = fit(chart);
+      std::vector<Vec3> of_neighbour;
+      hessian_rows(chart.ring, w, of_neighbour);
+      Vec3 found[3] = {Vec3::Zero(), fitted_hessian(chart.ring, f, w), Vec3::Zero()};
+      for (std::size_t j = 0; j < ring.size(); ++j) {
+        found[0] += f[j] * rows.col(Eigen::Index(j)).tail<3>();
+        found[2] += f[j] * of_neighbour[j];
+      }
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 seen = turned_back(found[k], angle);
+        if (first == 0) expected[k] = seen;
+        EXPECT_LT((seen - expected[k]).norm(), 1e-8 * (1 + expected[k].norm()))
+            << valence << " " << trial << " " << k;
+      }
+    }
   }
 }
 

@@ -296,11 +296,11 @@ class Dissolver {
   EdgeFaces edges_;
   // Of every face its loop in changed_, empty if it is gone, or -1 where it is as it was. Faces that
   // have come are numbered on from the others.
-  std::vector<Index> changed_at_;
+  Array<Index> changed_at_;
   std::vector<Loop> changed_;
   std::vector<Index> new_origin_;
   enum class State : std::uint8_t { sound, flat, to_cut };
-  std::vector<State> state_;
+  Array<State> state_;
   std::set<Waiting> waiting_;
   std::vector<Index> to_cut_;
   CutSides cut_;

@@ -53,7 +53,7 @@ class EdgeFaces {
       visit(key(loop[i].vertex, loop[(i + 1) % loop.size()].vertex));
   }
 
-  std::vector<std::pair<Key, Index>> sides_;
+  Array<std::pair<Key, Index>> sides_;
   std::unordered_map<Key, std::vector<Index>> added_;
 };
 

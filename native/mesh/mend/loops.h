@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mend/mend.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
@@ -24,11 +25,17 @@ inline std::vector<Index> vertices_of(std::span<const MendCorner> loop) {
 
 // Faces, one after another, each with the input face that it comes from.
 struct Loops {
-  std::vector<MendCorner> corners;
-  std::vector<Index> offsets{0};
-  std::vector<Index> origin;
+  Array<MendCorner> corners;
+  Array<Index> offsets{0};
+  Array<Index> origin;
 
   Index count() const { return Index(origin.size()); }
+  // Of faces and corners in all.
+  void reserve(std::size_t faces, std::size_t count) {
+    corners.reserve(count);
+    offsets.reserve(faces + 1);
+    origin.reserve(faces);
+  }
   std::span<const MendCorner> face(Index f) const {
     return {corners.data() + offsets[std::size_t(f)], corners.data() + offsets[std::size_t(f) + 1]};
   }

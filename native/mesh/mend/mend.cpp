@@ -15,6 +15,11 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
+std::size_t bytes_of(const OwnedPolygonMesh& mesh) {
+  return mesh.coordinates.capacity() * sizeof(double) +
+         (mesh.corners.capacity() + mesh.offsets.capacity()) * sizeof(std::int64_t);
+}
+
 // Throws the first defect that stands in the way of mending.
 void require_mendable(const PolygonMesh& mesh) {
   Defects found;
@@ -68,6 +73,7 @@ class Mender {
   }
 
   void take_faces() {
+    loops_.reserve(std::size_t(mesh_.face_count()), mesh_.corners.size());
     std::vector<MendCorner> walk;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
@@ -90,10 +96,12 @@ class Mender {
 
   void drop_duplicates() {
     const OwnedPolygonMesh now = to_arrays(loops_, {});
+    const CountedBytes counted(bytes_of(now));
     const PolygonMesh faces{mesh_.coordinates, now.corners, now.offsets};
     const std::vector<SameVertices> same = faces_with_same_vertices(faces);
     if (same.empty()) return;
     Loops kept;
+    kept.reserve(loops_.origin.size(), loops_.corners.size());
     auto next = same.begin();
     for (Index f = 0; f < loops_.count(); ++f) {
       stop_if_cancelled(std::size_t(f));
@@ -126,9 +134,10 @@ class Mender {
 
   void fill_arrays() {
     out_.mesh = to_arrays(loops_, out_.placed(mesh_.coordinates));
-    out_.face_origin = std::move(loops_.origin);
+    out_.face_origin.assign(loops_.origin.begin(), loops_.origin.end());
     out_.corner_origin.reserve(loops_.corners.size());
     for (const MendCorner& corner : loops_.corners) out_.corner_origin.push_back(corner.origin);
+    const CountedBytes counted(out_.bytes());  // from here on the caller's
   }
 
   void add_act(ErrorCode code, Words noun, ElementKind kind, Ids ids, Words done) {
@@ -174,8 +183,8 @@ class Mender {
 
 std::size_t MendedMesh::bytes() const {
   const auto of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  std::size_t bytes = of(mesh.coordinates) + of(mesh.corners) + of(mesh.offsets) +
-                      of(vertex_origin) + of(face_origin) + of(corner_origin) + of(cut_edges);
+  std::size_t bytes =
+      bytes_of(mesh) + of(vertex_origin) + of(face_origin) + of(corner_origin) + of(cut_edges);
   for (const CutEdge& edge : cut_edges) bytes += of(edge.between);
   for (const Warning& act : acts) bytes += of(act.elements);
   return bytes;

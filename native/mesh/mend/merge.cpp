@@ -51,7 +51,7 @@ class Cubes {
     return std::size_t(h) & (first_.size() - 1);
   }
   double side_;
-  std::vector<Index> first_, next_;
+  Array<Index> first_, next_;
 };
 
 double largest_coordinate_of(const PolygonMesh& mesh, const std::vector<std::uint8_t>& used) {

@@ -6,6 +6,7 @@
 
 #include "base/types.h"
 #include "mesh/polygon_mesh.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
@@ -26,7 +27,7 @@ class Merges {
   bool any() const { return any_; }
 
  private:
-  std::vector<Index> lead_;
+  Array<Index> lead_;
   bool any_ = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 namespace {
@@ -62,15 +63,15 @@ std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
     const auto face = mesh.face(f);
     return std::size_t(*std::min_element(face.begin(), face.end()));
   };
-  std::vector<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
+  Array<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
   for (std::int32_t f = 0; f < faces; ++f) {
     stop_if_cancelled(std::size_t(f));
     ++start[lowest(f) + 1];
   }
   for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
 
-  std::vector<Print> prints(std::size_t(faces), Print{});
-  std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
+  Array<Print> prints(std::size_t(faces), Print{});
+  Array<std::int32_t> fill(start.begin(), start.end() - 1);
   for (std::int32_t f = 0; f < faces; ++f) {
     stop_if_cancelled(std::size_t(f));
     std::uint64_t hash = 0;
