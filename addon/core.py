@@ -57,6 +57,7 @@ class ControlArrays:
     sharp_edge: np.ndarray | None  # (e,) bool
     # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
     boundary_edge: np.ndarray | None = None
+    normals: np.ndarray | None = None  # (n, 3), that the surface is to have; zero: none
 
     @property
     def face_sizes(self) -> np.ndarray:
@@ -111,6 +112,8 @@ def fair_arguments(
         "threads": preferences.threads,
         "measure": False,
     }
+    if arrays.normals is not None and takes_normals(settings):
+        arguments["normals"] = arrays.normals
     if pulls is not None:
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
@@ -122,6 +125,11 @@ def fair_arguments(
     if shapes is not None and len(shapes):
         arguments["shapes"] = shapes
     return arguments
+
+
+def takes_normals(settings: Any) -> bool:
+    """Whether fixed normals count: the other energies have nothing that would hold them."""
+    return settings.energy == "THIN_PLATE"
 
 
 def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:

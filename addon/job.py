@@ -91,6 +91,8 @@ class Job:
             self.notes.append(
                 "Each shape key is faired by itself. Values in between blend these surfaces, which only Thin Plate keeps fair."
             )
+        if self.arrays.normals is not None and not core.takes_normals(self.settings):
+            self.notes.append("Fixed normals are left out: only Thin Plate holds them.")
         self.result: Any = None
 
     def compute(self, **watchers: Any) -> None:

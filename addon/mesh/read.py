@@ -14,6 +14,7 @@ from ..core import ControlArrays
 from ..errors import JobError
 from ..settings import Settings, is_near
 from .boundary_marks import BOUNDARY
+from .fixed_normals import read_normals
 from .layers import STORAGE, find_layer, layer_values
 
 
@@ -117,6 +118,7 @@ def read_mesh(mesh: Mesh) -> ControlArrays:
         vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT"),
         sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
         boundary_edge=_optional(mesh, BOUNDARY, "EDGE", "INT"),
+        normals=read_normals(mesh),
     )
 
 

@@ -35,8 +35,11 @@ class WorldShape:
         return matrix
 
     def of_arrays(self, arrays: ControlArrays) -> ControlArrays:
-        """`arrays` with their positions in the world's shape."""
-        return replace(arrays, positions=self.of(arrays.positions))
+        """`arrays` with their positions and normals in the world's shape."""
+        normals = arrays.normals
+        if normals is not None and self.rows is not None:
+            normals = _times(normals.astype(np.float64), np.linalg.inv(self._matrix))
+        return replace(arrays, positions=self.of(arrays.positions), normals=normals)
 
     def of(self, positions: np.ndarray) -> np.ndarray:
         """(…, 3) of the object → of the world's shape."""

@@ -13,6 +13,7 @@ from ..settings import Settings
 from ..transfer.carrier import Carrier
 from ..transfer.lattice import fine_edges, mark_pairs
 from .boundary_marks import BOUNDARY
+from .fixed_normals import NORMAL
 from .layers import SurfaceData, fill_layer, make_layer, write_data
 
 Edges: TypeAlias = tuple[np.ndarray, np.ndarray]  # (e, 2) vertices; the one that leaves each corner
@@ -91,7 +92,7 @@ def refill_mesh(
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    made = (PAD_SIZES, BOUNDARY, *FAULTS.values())
+    made = (PAD_SIZES, BOUNDARY, NORMAL, *FAULTS.values())
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 

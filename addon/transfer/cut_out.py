@@ -61,6 +61,7 @@ def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
         edge_crease=of(arrays.edge_crease, edges),
         vertex_crease=of(arrays.vertex_crease, vertices),
         sharp_edge=of(arrays.sharp_edge, edges),
+        normals=of(arrays.normals, vertices),
         boundary_edge=of(_on_border(arrays), edges),
     )
     return CutOut(part, vertices, faces)

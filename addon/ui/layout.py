@@ -34,11 +34,12 @@ def draw_shape(
     tolerance_text: str = "",
     missing_groups: dict[str, str] | None = None,
     edges_text: str = "",
+    normals_text: str = "",
 ) -> None:
     """The few that everyone needs. What is known of the source stands below what it is about,
     since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
-    relative tolerance comes to, which groups are not there, and `edges_text`, the border edges that
-    are other than the setting says.
+    relative tolerance comes to, which groups are not there, `edges_text`, the border edges that
+    are other than the setting says, and `normals_text`, of fixed ones.
     """
     layout.prop(settings, "levels")
     if triangle_text:
@@ -58,6 +59,8 @@ def draw_shape(
     if edges_text:
         _remark(layout, edges_text)
     layout.prop(settings, "symmetry_plane")
+    if normals_text:
+        _remark(layout, normals_text)
 
 
 def _draw_tolerance(

@@ -9,10 +9,10 @@ from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Object, registration
-from ..core import mean_edge_length, tolerance
+from ..core import mean_edge_length, takes_normals, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
-from ..mesh import boundary_marks
+from ..mesh import boundary_marks, fixed_normals
 from ..mesh.mesh_changes import coarse_triangles
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
@@ -79,6 +79,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             boundary_marks.summary(
                 o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
             ),
+            normals_text(settings, sources),
         )
         if triangles >= size.LARGE:
             draw_notice(
@@ -178,6 +179,15 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     return "= " + bpy.utils.units.to_string(
         units.system, "LENGTH", length * units.scale_length, precision=4
     )
+
+
+def normals_text(settings: Settings, sources: list[Object]) -> str:
+    """`Normals: 3 fixed`; empty where none is."""
+    small = (o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING)
+    count = fixed_normals.count(small)
+    if not count:
+        return ""
+    return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Thin Plate only")
 
 
 def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:

@@ -49,6 +49,16 @@ class VIEW3D_MT_fairing_boundary(bpy.types.Menu):
                 button.boundary = key
 
 
+class VIEW3D_MT_fairing_normals(bpy.types.Menu):
+    bl_label = "Fairing Normals"
+
+    def draw(self, _context: Context) -> None:
+        layout: Any = self.layout
+        for origin, text in (("MESH", "Fix as in the Mesh"), ("EMPTY", "Fix along Z of the Empty")):
+            layout.operator("object.fairing_fix_normal", text=text).origin = origin
+        layout.operator("object.fairing_free_normal")
+
+
 def _draw_one(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
@@ -76,6 +86,11 @@ def _draw_edges(menu: Any, _context: Context) -> None:
     menu.layout.menu(VIEW3D_MT_fairing_boundary.__name__)
 
 
+def _draw_vertices(menu: Any, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.menu(VIEW3D_MT_fairing_normals.__name__)
+
+
 def _draw_export(menu: Any, _context: Context) -> None:
     menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
 
@@ -86,6 +101,7 @@ _ENTRIES = {
     "VIEW3D_MT_edit_mesh": _draw_all,
     "VIEW3D_MT_edit_mesh_context_menu": _draw_faces,
     "VIEW3D_MT_edit_mesh_edges": _draw_edges,
+    "VIEW3D_MT_edit_mesh_vertices": _draw_vertices,
     "VIEW3D_MT_edit_mesh_faces": _draw_faces,
     "TOPBAR_MT_file_export": _draw_export,
 }
@@ -94,6 +110,7 @@ _ENTRIES = {
 def register() -> None:
     bpy.utils.register_class(VIEW3D_MT_fairing)
     bpy.utils.register_class(VIEW3D_MT_fairing_boundary)
+    bpy.utils.register_class(VIEW3D_MT_fairing_normals)
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).append(draw)
 
@@ -101,5 +118,6 @@ def register() -> None:
 def unregister() -> None:
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).remove(draw)
+    bpy.utils.unregister_class(VIEW3D_MT_fairing_normals)
     bpy.utils.unregister_class(VIEW3D_MT_fairing_boundary)
     bpy.utils.unregister_class(VIEW3D_MT_fairing)

@@ -90,6 +90,7 @@ void bind_options(py::module_& m) {
   setting("weights", &O::weights);
   setting("epsilon", &O::epsilon);
   setting("pad_size", &O::pad_size);
+  setting("normals", &O::normals);
   setting("tension", &O::tension);
   setting("method", &O::method);
   setting("relative_residual", &O::relative_residual);

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "binding/arrays.h"
+#include "fairing/fixed_normals.h"
 
 namespace py = pybind11;
 
@@ -35,6 +36,7 @@ py::dict to_python(const LevelReport& l) {
   d["pad_force"] = l.pad_force;
   d["constraint_rounds"] = l.constraint_rounds;
   d["constraint_gap"] = l.constraint_gap;
+  d["normal_angle"] = l.normal_angle / degree;
   return d;
 }
 
@@ -89,6 +91,14 @@ py::dict to_python(const ShapeReport& s) {
   d["converged"] = s.finest.converged;
   d["largest_deviation"] = s.largest_deviation;
   d["constraint_rounds"] = s.constraint_rounds;
+  d["normal_angle"] = s.normal_angle;
+  return d;
+}
+
+py::dict to_python(const NormalReport& n) {
+  py::dict d;
+  d["fixed"] = n.fixed;
+  d["largest_angle"] = n.largest_angle;
   return d;
 }
 
@@ -166,6 +176,7 @@ py::dict to_python(const Report& r) {
   d["constraint_rounds"] = r.constraint_rounds;
   d["constraint_gap"] = r.constraint_gap;
   d["pads"] = to_python(r.pads);
+  d["normals"] = to_python(r.normals);
   d["sheets"] = to_python(r.sheets);
   d["threads"] = r.threads;
   d["warnings"] = to_python(r.warnings);

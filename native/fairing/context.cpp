@@ -90,6 +90,9 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
                    options_.energy, options_.tension > 0, options_.method == Method::back_leg,
                    options_.interpolation == Interpolation::approximate);
   size.bytes += std::min(mended_bytes, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  normals_ = choose_normals(mesh_, options_);
+  size.bytes += std::min(std::int64_t(Couples::bytes(mesh_, normals_.fixed)),
+                         std::numeric_limits<std::int64_t>::max() - size.bytes);
   // What mending took in passing.
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   require_fit(size, options_);
@@ -143,6 +146,7 @@ void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
 
   watch.enter(Phase::hierarchy, 0);
   mesh_.positions = basis_.working;
+  require_near(mesh_, normals_.fixed);
   stencils_ = make_stencils(mesh_, options_.chart, *workers_, membrane_strength(options_.tension));
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
@@ -170,6 +174,7 @@ ThinPlateSolver& FairingContext::system() {
       return total_curvature_of_stars(grid, *workers_, x);
     };
     options.chart = options_.chart;
+    options.normals = normals_.fixed;
     options.starts_steps = options_.energy != Energy::thin_plate;
     system_ = std::make_unique<ThinPlateSolver>(mesh_, basis_.working_curves, stencils_, unknowns_,
                                                 start_weights_, options, *workers_, monitor_);
@@ -244,14 +249,15 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
     for (const StepReport& step : level.steps) report.constraint_rounds += step.constraint_rounds;
     report.constraint_gap = level.constraint_gap;
   }
-  report_pads(report);
+  report_held(report);
 }
 
-void FairingContext::report_pads(Report& report) {
+void FairingContext::report_held(Report& report) {
   const Pads* const pads =
       gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : system().pads();
   if (pads)
     report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.width_of_pads());
+  report_normals(normals_, report.levels.back(), report);
 }
 
 void FairingContext::move_surface(Array<double>& x) {
@@ -326,6 +332,12 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, cons
         "The tolerance is kept, but the energy may be %.1e above the least one, relative. "
         "The surface is usable; a smaller tolerance settles sooner.",
         level.constraint_gap);
+  else if (level.normal_angle > largest_angle_left)
+    std::snprintf(
+        text, sizeof text,
+        "Fixed normals have not settled after %d corrections: up to %.2g degrees are left. "
+        "The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
+        level.pad_corrections, level.normal_angle / degree);
   else if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
     std::snprintf(text, sizeof text,
                   "The loads on pads have not settled after %d corrections: %.1e of them is still "

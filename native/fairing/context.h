@@ -9,6 +9,7 @@
 
 #include "curvature/solver.h"
 #include "fairing/control_positions.h"
+#include "fairing/fixed_normals.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
 #include "fairing/symmetry.h"
@@ -60,8 +61,8 @@ class FairingContext {
   GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
   // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
   void move_surface(Array<double>& x);
-  // How wide the pads of the latest surface are.
-  void report_pads(Report& report);
+  // How wide the pads of the latest surface are, and how its fixed normals came out.
+  void report_held(Report& report);
 
   // From here on the systems are about these curves; they adapt to nothing.
   void use_curves_of(const ControlPositions& control) {
@@ -105,6 +106,7 @@ class FairingContext {
   Stencils stencils_;
   std::vector<Mirror> mirrors_;
   Unknowns unknowns_;
+  ChosenNormals normals_;
   VertexWeights start_weights_;
   std::unique_ptr<ThinPlateSolver> system_;
   std::unique_ptr<GaussNewtonSolver> gauss_newton_;

@@ -72,8 +72,8 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
     fair_once(context, control, false, watch, own, result.shapes.emplace_back());
     warn_unconverged(own.levels.back(), context.options(), "Shape " + std::to_string(s) + ": ",
                      report);
-    report.shapes.push_back(
-        {std::move(own.levels.back()), own.largest_deviation, own.constraint_rounds});
+    report.shapes.push_back({std::move(own.levels.back()), own.largest_deviation,
+                             own.constraint_rounds, own.normals.largest_angle});
   }
 }
 
@@ -228,7 +228,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     if (!coordinates.empty()) set_control(coordinates);
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
     if (report.warm)
-      context_.report_pads(report);
+      context_.report_held(report);
     else
       solve_from_nothing(watch, report);
     write(watch, report, out);

@@ -142,9 +142,15 @@ void Mending::map_region(const PolygonMesh& input) {
     if (chosen[std::size_t(mended_.face_origin[f])]) region.faces.push_back(std::int64_t(f));
 }
 
-// Of vertices that became one, the one that holds the most speaks for all.
+// Of vertices that became one, the one that holds the most speaks for all, and the first with a
+// normal.
 void Mending::map_vertex_values(const PolygonMesh& input) {
   const Ids lost = non_finite_vertices(input.coordinates);
+  for (std::size_t v = 0; 3 * v < options_.normals.size(); ++v) {
+    const auto lead = std::size_t(mended_.vertex_origin[v]);
+    if (options_.has_normal(v) && !options_.has_normal(lead))
+      std::copy_n(options_.normals.data() + 3 * v, 3, options_.normals.data() + 3 * lead);
+  }
   const auto gather = [&](std::vector<double>& values, auto stronger) {
     if (values.size() != mended_.vertex_origin.size()) return;
     for (std::size_t v = 0; v < values.size(); ++v) {

@@ -36,6 +36,29 @@ void check_per_vertex(const PolygonMesh& mesh, const char* option,
            bad);
 }
 
+void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
+  if (o.normals.empty()) return;
+  if (std::int64_t(o.normals.size()) != 3 * mesh.vertex_count())
+    refuse("normals has " + std::to_string(o.normals.size() / 3) + " rows for " +
+           std::to_string(mesh.vertex_count()) + " vertices; give one for each vertex.");
+  std::vector<std::int64_t> bad;
+  for (std::size_t i = 0; i < o.normals.size(); i += 3)
+    if (std::any_of(&o.normals[i], &o.normals[i] + 3, [](double n) { return std::isinf(n); }))
+      bad.push_back(std::int64_t(i / 3));
+  if (!bad.empty())
+    throw FairingError(ErrorCode::bad_option,
+                       listing(vertex_s, bad, {"has", "have"}) +
+                           " an infinite normal; give finite numbers, or NaN for none.",
+                       bad, ElementKind::vertex);
+  if (!o.has_normals()) return;
+  if (o.energy != Energy::thin_plate)
+    refuse(
+        "normals are for the thin plate, whose couples they need; use energy=\"thin_plate\", or "
+        "free the normals.");
+  if (o.method == Method::back_leg)
+    refuse("method=\"back_leg\" solves without couples; use multigrid to fix normals.");
+}
+
 // The strength at which swelling is gone on the meshes that tension is for, and cusps at control
 // vertices begin to cost more than it gains.
 constexpr double tautest = 30;
@@ -57,6 +80,18 @@ bool FairOptions::has_tolerance() const {
   return interpolation == Interpolation::approximate &&
          std::any_of(tolerance.begin(), tolerance.end(),
                      [](double t) { return t > 0 && std::isfinite(t); });
+}
+
+bool FairOptions::has_normal(std::size_t v) const {
+  if (3 * v + 2 >= normals.size()) return false;
+  const double x = normals[3 * v], y = normals[3 * v + 1], z = normals[3 * v + 2];
+  return !std::isnan(x + y + z) && (x != 0 || y != 0 || z != 0);
+}
+
+bool FairOptions::has_normals() const {
+  for (std::size_t v = 0; v < normals.size() / 3; ++v)
+    if (has_normal(v)) return true;
+  return false;
 }
 
 // Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
@@ -101,6 +136,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
         "epsilon.");
   in_range("pad_size", o.pad_size, 0, 1);
   in_range("tension", o.tension, 0, 1);
+  check_normals(mesh, o);
   if (o.tension > 0 && o.energy == Energy::minimum_variation)
     refuse(
         "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "

@@ -83,6 +83,14 @@ struct FairOptions {
     return epsilon > 0 || method == Method::back_leg ? 0.0 : pad_size;
   }
 
+  // Which normal the surface has at each input vertex, 3 numbers each, of any length; none where they
+  // are zero or one is NaN. Empty: nowhere. For the thin plate, off curves and inside the region; the
+  // coarsest level has nothing to turn.
+  std::vector<double> normals;
+  // Whether there is a normal at input vertex v, and at any.
+  bool has_normal(std::size_t v) const;
+  bool has_normals() const;
+
   // A membrane stretched over the mesh, against swelling and overshoots: none at 0, as taut as is of
   // use at 1 (membrane_strength()).
   double tension = 0;

@@ -28,6 +28,13 @@ struct ShapeReport {
   LevelReport finest;
   double largest_deviation = 0;
   int constraint_rounds = 0;
+  double normal_angle = 0;  // degrees
+};
+
+// Fixed normals: of how many input vertices, and the largest angle that is left; degrees.
+struct NormalReport {
+  std::size_t fixed = 0;
+  double largest_angle = 0;
 };
 
 // The pads under the input vertices: of how many the width is less than asked for, how many are
@@ -68,6 +75,7 @@ struct Report {
   // Tolerance: how far the energy may be over the least possible one, relative.
   double constraint_gap = 0;
   PadReport pads;
+  NormalReport normals;
   SheetReport sheets;
   int threads = 1;
   std::vector<Warning> warnings;

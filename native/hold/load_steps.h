@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hold/anderson.h"
-#include "hold/pads.h"
+#include "hold/couples.h"
 
 namespace fairing {
 
@@ -21,23 +21,25 @@ double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
   return sum;
 }
 
-// What holds control vertices: the loads on their pads, and multipliers of what bounds them, one an
-// input vertex. Either may be empty.
+// What holds control vertices: the loads on their pads, multipliers of what bounds them, one an
+// input vertex, and the couples that fix normals. Any may be empty.
 template <int N>
 struct Multipliers {
   LoadsOf<N> loads;
   std::vector<double> bounds;
+  Moments moments{};
 };
 
 // The norm of M for loads; changes of multipliers are compared by `weights`, one each, which make
-// them comparable with changes of loads. The pads must outlive it and keep their level; null where
-// there are no loads.
+// them comparable with changes of loads, and so are moments by `mass`. The pads must outlive it and
+// keep their level; null where there are no loads.
 template <int N>
 struct MultiplierSpace {
   using Vector = Multipliers<N>;
 
   const Pads* pads;
   std::vector<double> weights;
+  Moments mass{};
 
   Vector product(const Vector& a) const;
   double dot(const Vector& a, const Vector& b) const;
@@ -50,8 +52,8 @@ template <int N>
 using LoadSteps = Anderson<MultiplierSpace<N>>;
 
 template <int N>
-LoadSteps<N> load_steps(const Pads* pads, std::vector<double> weights = {}) {
-  return {{pads, std::move(weights)}, 6};
+LoadSteps<N> load_steps(const Pads* pads, std::vector<double> weights = {}, Moments mass = {}) {
+  return {{pads, std::move(weights), std::move(mass)}, 6};
 }
 
 }  // namespace fairing

@@ -180,7 +180,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
             raise_degree(index, so_far, limits.tolerance);
           return !adapt || !is_too_hard(index);
         });
-    pace_[index] = pace_[index].after(result, rest.from_start);
+    if (adapt) pace_[index] = pace_[index].after(result, rest.from_start);
     out.iterations += result.iterations;
     const bool first = out.residuals.empty();
     out.residuals.insert(out.residuals.end(), result.history.begin() + (first ? 0 : 1),

@@ -56,6 +56,7 @@ class Hierarchy {
   }
   // Whether the smoother adapts.
   void set_adapting(bool adapts) { adapts_ = adapts; }
+  bool is_adapting() const { return adapts_; }
 
   // How many times as much as usual a large factor costs.
   void set_factor_price(std::size_t times) { factor_price_ = times; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grid/grid_level.h"
+#include "hold/couples.h"
 #include "multigrid/hierarchy.h"
 #include "stencil/chart.h"
 
@@ -22,9 +23,13 @@ struct ThinPlateOptions {
   // What pads are judged by: the energy of a surface on a level, in its own metric, over the star
   // of each control vertex. Null: all pads stay as wide as asked.
   std::function<std::vector<double>(const GridLevel&, const double*)> star_energies;
-  ChartOptions chart;         // the metric that pads are measured in
-  bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
+  ChartOptions chart;                // the metric that pads are measured in
+  std::vector<FixedNormal> normals;  // held on all levels but the coarsest
+  bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
 };
+
+// Of fixed normals, radians: more than is ever left of one that has settled.
+constexpr double largest_angle_left = 1e-3;
 
 // `residual` and `residuals` are relative to the residual of the control polyhedron on that level;
 // `energy_error` estimates |error| over the solution, both in the energy norm.
@@ -36,6 +41,7 @@ struct LevelReport : LevelSolve {
   int constraint_rounds = 0;  // with new weights, for tolerances
   double constraint_gap = 0;  // how far the energy may be above the least one, relative
   double pad_force = 0;  // what the last correction changed of the loads, or would have; relative
+  double normal_angle = 0;  // the largest between a fixed normal and the surface's; radians
 };
 
 }  // namespace fairing

@@ -30,9 +30,11 @@ LevelReport ThinPlateSolver::choose_widths(int level, std::span<const Vec3> targ
     PcgLimits rougher = limits;
     rougher.tolerance = std::max(limits.tolerance, needle_tolerance);
     std::unique_ptr<Pads> pads;
+    const Moments moments = moments_;
     std::swap(pads, pads_);
     solve_level(level, targets, rougher, needles.data());
     std::swap(pads, pads_);
+    moments_ = moments;
     of_needles = options_.star_energies(grid(level), needles.data());
   }
   judges_ = true;

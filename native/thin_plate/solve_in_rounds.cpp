@@ -8,9 +8,13 @@
 //
 // Weights. Those that keep vertices within tolerances are corrected by HoldInSpace.
 //
-// Both corrections are accelerated as one: each shifts what the other has to do.
+// Couples take what is left of the slopes that fixed normals forbid (hold/couples.h), which is read
+// off the surface.
+//
+// All corrections are accelerated as one: each shifts what the others have to do.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
@@ -32,7 +36,7 @@ constexpr double left_by_iteration = 0.9;
 // Of the corrections to the loads: below the finest level they are starts only.
 constexpr double coarse_force_tolerance = 2e-2;
 constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
-constexpr int most_corrections = 16;
+constexpr int most_corrections = 16, most_of_couples = 32;
 // For tolerances, and where a round costs little: below the finest level, or with a factor.
 // The duality gap that will do below the finest level: the next level changes as much.
 constexpr double coarse_plate_gap = 1e-2;
@@ -49,12 +53,21 @@ double force_tolerance(double relative_residual) {
   return std::clamp(10 * std::sqrt(relative_residual), 1e-6, 2e-3);
 }
 
+// Of fixed normals, radians: a twentieth of a degree where forces are as rough as they may be.
+constexpr double angle_per_force = 0.4, coarse_angle = 2e-2;
+
 }  // namespace
 
 // r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
 void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets, const double* x,
                                        double* r) {
-  if (!pads_ && !is_placed_) return residual(level, targets, x, r);
+  const auto add_couples = [&] {
+    if (has_couples(level)) couples_->add(moments_, r);
+  };
+  if (!pads_ && !is_placed_) {
+    residual(level, targets, x, r);
+    return add_couples();
+  }
   apply_thin_plate(grid(level), shared_.double_rows, pads_ ? pads_->rows() : shared_.unknowns, {},
                    workers_, shared_.double_slots, x, r);
   for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
@@ -68,6 +81,7 @@ void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets,
                    : Vec3(targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
       },
       forces_, r);
+  add_couples();
 }
 
 // Placed vertices do not give way: what their rows ask for is the force that holds them there.
@@ -112,12 +126,15 @@ struct ThinPlateSolver::Rounds {
 
   HoldInSpace* constraint = solver.constraint_;
   Pads* pads = solver.pads_.get();
+  const Couples* couples = solver.has_couples(level) ? solver.couples_.get() : nullptr;
   LoadSteps<3> steps =
-      load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{});
+      load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{},
+                    couples ? couples->mass() : Moments{});
   Multipliers<3> correction{};
   LevelReport report{};
   bool whole = false;  // whether the solve goes as far as is asked
   double left = 0, left_before = 0, ratio = first_ratio, gain = 0;
+  double tilt = 0;  // of a tangent plane from a fixed one; a normal may look to the wrong side
 
   double* residual() { return solver.hierarchy_.state().residual.data(); }
   bool top() const { return level == solver.top() && !solver.judges_; }
@@ -154,39 +171,71 @@ struct ThinPlateSolver::Rounds {
       solver.residual_on_pads(level, targets, x, residual());
   }
 
-  // Whether little enough is left at the points; `correction` has what would take it off.
-  bool loads_settled() {
-    if (!pads) return true;
-    const double wanted =
-        top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
+  double wanted_force() const {
+    return top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
+  }
+  double wanted_tilt() const { return top() ? angle_per_force * wanted_force() : coarse_angle; }
+
+  // Of the loads, and of their correction, in the norm of M: squares.
+  struct Sizes {
+    double left = 0, loads = 0;
+  };
+  Sizes correct_loads() {
     const Loads &loads = solver.loads_, &forces = solver.forces_;
     Loads product;
     const std::vector<double> give =
         give_of_springs(solver.shared_.unknowns, solver.shared_.weights, solver.stiffness_, *pads);
     pads->divide_by_mass<3>(forces, correction.loads, give);
     pads->multiply_mass<3>(loads, product);
-    left = std::sqrt(std::max(0.0, dot<3>(correction.loads, forces)));
-    const double size = std::sqrt(std::max(0.0, dot<3>(loads, product)));
+    return {dot<3>(correction.loads, forces), dot<3>(loads, product)};
+  }
+
+  // Couples are tried out after a solve: the smoother is to know the whole of the surface first.
+  Sizes correct_couples() {
+    if (!couples->knows_compliance()) solver.measure_couples(level);
+    correction.moments = couples->correction(x);
+    report.normal_angle = tilt = 0;
+    Sizes out;
+    for (std::size_t c = 0; c < couples->size(); ++c) {
+      const double angle = couples->angle(c, x);
+      report.normal_angle = std::max(report.normal_angle, angle);
+      tilt = std::max(tilt, std::min(angle, std::numbers::pi - angle));
+      out.left += couples->mass()[c].dot(correction.moments[c].cwiseAbs2());
+      out.loads += couples->mass()[c].dot(solver.moments_[c].cwiseAbs2());
+    }
+    return out;
+  }
+
+  // Whether little enough is left at the points, and of the angles to fixed normals; `correction`
+  // has what would take it off.
+  bool loads_settled() {
+    if (!pads && !couples) return true;
+    const Sizes of_loads = pads ? correct_loads() : Sizes{},
+                of_couples = couples ? correct_couples() : Sizes{};
+    left = std::sqrt(std::max(0.0, of_loads.left + of_couples.left));
+    const double size = std::sqrt(std::max(0.0, of_loads.loads + of_couples.loads));
     report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
     double force_norm = 0;
-    for (const Vec3& f : forces) force_norm += f.squaredNorm();
-    return report.pad_force <= wanted || std::sqrt(force_norm) <= limits.noise;
+    for (const Vec3& f : solver.forces_) force_norm += f.squaredNorm();
+    return tilt <= wanted_tilt() &&
+           (report.pad_force <= wanted_force() || std::sqrt(force_norm) <= limits.noise);
   }
 
   // Whether one more correction will settle the loads, as the last ones did, or must do.
   bool loads_nearly_settled() {
-    const double wanted =
-        top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
     if (left_before > 0 && left > 0) ratio = std::clamp(left / left_before, 0.05, 1.0);
     left_before = left;
-    return ratio * report.pad_force <= aim * wanted || corrections_left() <= 1;
+    return (ratio * report.pad_force <= aim * wanted_force() &&
+            ratio * tilt <= aim * wanted_tilt()) ||
+           corrections_left() <= 1;
   }
   int corrections_left() const {
-    return most_corrections + report.constraint_rounds - report.pad_corrections;
+    return (couples ? most_of_couples : most_corrections) + report.constraint_rounds -
+           report.pad_corrections;
   }
 
   // Below the finest level what a solve leaves is less than what the next level changes.
-  bool is_start_only() const { return pads && !constraint && !top(); }
+  bool is_start_only() const { return (pads || couples) && !constraint && !top(); }
 
   bool bounds_settled() {
     return !constraint || constraint->settled(solver.energy(level, x), wanted_gap(), x);
@@ -202,7 +251,8 @@ struct ThinPlateSolver::Rounds {
     const bool guesses = bounds && constraint->far();
     if (guesses) steps.forget();
     Multipliers<3> step = guesses ? correction : steps.change(correction);
-    for (std::size_t v = 0; v < solver.loads_.size(); ++v) solver.loads_[v] += step.loads[v];
+    for (std::size_t v = 0; v < step.loads.size(); ++v) solver.loads_[v] += step.loads[v];
+    for (std::size_t c = 0; c < step.moments.size(); ++c) solver.moments_[c] += step.moments[c];
     report.pad_corrections += loads;
     if (bounds) {
       constraint->change(step.bounds);
@@ -228,7 +278,7 @@ struct ThinPlateSolver::Rounds {
       if (loads && is_start_only()) return;
       const bool nearly = loads_nearly_settled(), was_whole = whole;
       const bool bounds = was_whole || bounds_settled();
-      if (constraint && !top() && pads && bounds && loads) return;
+      if (constraint && !top() && (pads || couples) && bounds && loads) return;
       const bool may_adapt = constraint && !was_whole && rounds_left() > 0;
       // A correction after the last solve may ask for less than that leaves: then nothing would move,
       // and forces be read that say nothing. Loads go on with solves that gain.
@@ -307,6 +357,7 @@ struct ThinPlateSolver::Rounds {
 LevelReport ThinPlateSolver::solve_in_rounds(int level, std::span<const Vec3> targets,
                                              const PcgLimits& limits, double* x) {
   if (pads_) pads_->set_level(grid(level));
+  if (has_couples(level)) couples_->set_level(grid(level));
   forces_.assign(loads_.size(), Vec3::Zero());
   Rounds rounds{*this, level, targets, limits, x};
   LevelReport report = rounds.run();

@@ -83,6 +83,10 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& c
     pads_ = std::make_unique<Pads>(mesh, options.chart, shared_.unknowns, options.pad_size, workers,
                                    shared_.weights);
   if (pads_ && !pads_->any()) pads_.reset();
+  if (!options.normals.empty() && top() > 0) {
+    couples_ = std::make_unique<Couples>(mesh, options.chart, options.normals, workers);
+    moments_.assign(couples_->size(), Vec2::Zero());
+  }
   if (!shared_.unknowns.any_vertex) return;
   const Array<float> diagonal =
       thin_plate_diagonal(grid(0), stencils, shared_.unknowns, {}, workers, shared_.double_slots);
@@ -169,7 +173,7 @@ PcgLimits ThinPlateSolver::limits_of(double tolerance, const Scales& scale,
 
 LevelReport ThinPlateSolver::solve_level(int level, std::span<const Vec3> targets,
                                          const PcgLimits& limits, double* x) {
-  if (pads_ || constraint_) return solve_in_rounds(level, targets, limits, x);
+  if (pads_ || constraint_ || has_couples(level)) return solve_in_rounds(level, targets, limits, x);
   residual(level, targets, x, hierarchy_.state().residual.data());
   LevelReport report;
   report.level = level;
@@ -207,6 +211,7 @@ const Array<double>& ThinPlateSolver::surface_below(int level, Array<double>& x)
 void ThinPlateSolver::start_level(int level, std::span<const Vec3> targets,
                                   const Array<double>& below, Array<double>& x) {
   if (pads_) start_loads(level);
+  if (couples_) start_couples(level);
   if (level == base_)
     refine_linearly(grid(level), targets, workers_, x.data());
   else
@@ -243,8 +248,8 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
       reports.push_back(solve_level(l, targets, limits, x.data()));
     if (l < top()) energy_below = energy(l, x.data());
     if (l < top())
-      hierarchy_.choose_degree(pads_ || constraint_ ? pace_ : reports.back(), tolerance(l),
-                               tolerance(l + 1));
+      hierarchy_.choose_degree(pads_ || constraint_ || has_couples(l) ? pace_ : reports.back(),
+                               tolerance(l), tolerance(l + 1));
     on_level(l, x);
   }
   constraint_ = nullptr;
@@ -269,6 +274,7 @@ void ThinPlateSolver::solve_moved(std::span<const Vec3> before, std::span<const 
 void ThinPlateSolver::add_difference(std::span<const Vec3> before, std::span<const Vec3> targets,
                                      Array<double>& x, std::vector<LevelReport>& reports) {
   const Loads loads = loads_;  // start_level() begins those of the difference
+  const Moments moments = moments_;
   moved_.resize(targets.size());
   for (std::size_t v = 0; v < targets.size(); ++v) moved_[v] = targets[v] - before[v];
   const FeatureCurves& curves = *curves_;
@@ -296,6 +302,7 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, std::span<con
   curves_ = &curves;
   for_each_index(workers_, 3 * finest.size(), [&](std::size_t i) { x[i] += difference_[i]; });
   for (std::size_t v = 0; v < loads.size(); ++v) loads_[v] += loads[v];
+  for (std::size_t c = 0; c < moments.size(); ++c) moments_[c] += moments[c];
 }
 
 LevelReport ThinPlateSolver::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curves/feature_curves.h"
+#include "hold/couples.h"
 #include "hold/pads.h"
 #include "parallel/monitor.h"
 #include "thin_plate/level.h"
@@ -94,6 +95,9 @@ class ThinPlateSolver {
   // Null without. The first surface that is solved for from nothing narrows them where it must
   // (pad_widths.cpp); then widths stay, so that surfaces are linear in the control vertices.
   const Pads* pads() const { return pads_.get(); }
+  // What fixes normals; null where none is.
+  const Couples* couples() const { return couples_.get(); }
+  const Moments& moments() const { return moments_; }
 
   // The norm of the control polyhedron's residual on a level: what residuals are relative to.
   double reference_residual(int level, std::span<const Vec3> targets) {
@@ -110,13 +114,19 @@ class ThinPlateSolver {
   PcgLimits limits_of(double tolerance, const Scales& scale, double energy_scale) const;
   LevelReport solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                           double* x);
-  // On pads, or within tolerances (solve_in_rounds.cpp).
+  // On pads, within tolerances or with fixed normals (solve_in_rounds.cpp).
   struct Rounds;
   LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                               double* x);
   void take_pulls(const double* r);
   void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
+  // Whether couples fix normals on a level: not where hats have no points.
+  bool has_couples(int level) const {
+    return couples_ && level >= std::min(Couples::first_level, top());
+  }
+  void start_couples(int level);
+  void measure_couples(int level);
   // The surface of a level in place of solve_level(), and the widths of pads on the way.
   LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                             Array<double>& x);
@@ -144,12 +154,14 @@ class ThinPlateSolver {
   HoldInSpace* constraint_ = nullptr;  // while a surface is solved for from nothing
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;
-  Loads loads_, forces_;     // on the pads; left at the control vertices on them
-  bool is_placed_ = false;   // whether the constraint has placed vertices
-  std::vector<Vec3> pulls_;  // by which these are held
-  LevelSolve pace_;          // what one solve in place of a level's many would have taken
-  Array<double> below_;      // the level below a start
-  PcgLimits finest_limits_;  // of the last surface that was solved from nothing
+  Loads loads_, forces_;              // on the pads; left at the control vertices on them
+  std::unique_ptr<Couples> couples_;  // null: no normal is fixed
+  Moments moments_;                   // of the couples
+  bool is_placed_ = false;            // whether the constraint has placed vertices
+  std::vector<Vec3> pulls_;           // by which these are held
+  LevelSolve pace_;                   // what one solve in place of a level's many would have taken
+  Array<double> below_;               // the level below a start
+  PcgLimits finest_limits_;           // of the last surface that was solved from nothing
   // Of solve_moved.
   std::vector<Vec3> moved_;
   FeatureCurves moved_curves_;

@@ -133,6 +133,7 @@ def test_menus_have_every_operator():
     """Blender's search finds what stands in a menu."""
     add("Box", *CUBE)
     log = draw(menus.VIEW3D_MT_fairing) + draw(menus.VIEW3D_MT_fairing_boundary)
+    log += draw(menus.VIEW3D_MT_fairing_normals)
     own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fairing_")}
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
     others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill", "cancel"}

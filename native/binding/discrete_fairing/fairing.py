@@ -30,6 +30,7 @@ def fair(
     weights: ArrayLike | None = None,
     epsilon: float = 0.0,
     pad_size: float = 1.0,
+    normals: ArrayLike | None = None,
     tension: float = 0.0,
     crease_edges: ArrayLike | None = None,
     crease_angle: float | None = None,
@@ -102,6 +103,9 @@ def fair(
         What holds control vertices off curves. 0: point forces, which leave a spot of curvature at
         each. Otherwise forces spread over pads, which leave none; the size is the pad's width as a
         share of the faces around the vertex. The surface still passes through every vertex.
+    normals : (n, 3) float
+        The surface's normal at each control vertex, of any length; NaN or zero: none. Vertices on
+        curves take none (report["warnings"]). For the thin plate, from level 1 on.
     tension : float from 0 to 1
         A membrane stretched over the control mesh beside its bending, against swelling and
         overshoots: 0 none, 1 as taut as is of use.

@@ -96,6 +96,8 @@ class Half:
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
                 values = np.asarray(values)
                 given[name] = np.concatenate([values, values[self._copied]])
+        if np.shape(given.get("normals")) == (self.vertex_count, 3):
+            given["normals"] = self._normals(given["normals"])
         for name, kind in _IDS.items():
             if given.get(name) is not None:
                 given[name] = self._with_images(name, kind, given[name])
@@ -105,6 +107,14 @@ class Half:
                 for mode, pairs in given["boundary_edges"].items()
             }
         return given
+
+    def _normals(self, normals: Any) -> np.ndarray:
+        """Of the double; in the plane only what a symmetric surface can have."""
+        own = np.array(normals, float)
+        own[self._in_plane, self.axis] *= 0.0  # NaN stays NaN
+        images = own[self._copied].copy()
+        images[:, self.axis] *= -1.0
+        return np.concatenate([own, images])
 
     def _with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
         """Elements, and what they are in the other half. Refuses those that only the other half has."""

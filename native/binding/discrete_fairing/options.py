@@ -93,6 +93,17 @@ def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
     return array
 
 
+def normal_rows(name: str, normals: ArrayLike) -> np.ndarray:
+    """(3 n,) float64, of (n, 3)."""
+    array = numbers(normals, name, "iuf").astype(float)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise fairing_error(
+            "BAD_SHAPE",
+            f"normals has shape {array.shape}; it must be (n, 3), one row for each vertex.",
+        )
+    return array.reshape(-1)
+
+
 def choice(enum: type):
     """The converter of a setting whose values are the names of one of the core's enums."""
     members = enum.__members__
@@ -163,6 +174,7 @@ SETTINGS = {
     "weights": weight_array,
     "epsilon": real,
     "pad_size": real,
+    "normals": normal_rows,
     "tension": real,
     "crease_edges": vertex_pairs,
     "crease_angle": real,
@@ -188,6 +200,7 @@ SETTINGS = {
 }
 OPTIONAL = (
     "weights",
+    "normals",
     "crease_edges",
     "crease_angle",
     "corner_vertices",

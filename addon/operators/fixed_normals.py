@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices at which the surface gets a normal that somebody chooses, and at which it finds its own."""
+
+from typing import TYPE_CHECKING
+
+import bpy
+from bpy.props import EnumProperty
+from mathutils import Vector
+
+from ..blender import Answer, Context, Object, registration
+from ..mesh import fixed_normals
+from ..mesh.read import control_mesh
+from ..mesh.world_shape import world_matrix
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+_FROM = (
+    ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
+    ("EMPTY", "Z of the Empty", "The Z axis of the empty that is selected beside the mesh"),
+)
+
+
+class _OfVertices(ExplainedPoll):
+    if TYPE_CHECKING:
+        origin: str
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode != "EDIT_MESH":
+            return "Vertices are chosen in Edit Mode: press Tab first"
+        return mesh_poll_reason(context.objects_in_mode_unique_data)
+
+
+class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
+    """Give the surface a fixed normal at the selected vertices"""
+
+    bl_idname = "object.fairing_fix_normal"
+    bl_label = "Fix Normal"
+    bl_options = {"REGISTER", "UNDO"}
+
+    origin: EnumProperty(name="From", description="Where the normals come from", items=_FROM)
+
+    def execute(self, context: Context) -> Answer:
+        sources = context.objects_in_mode_unique_data
+        if self.origin == "MESH":
+            count = sum(_fix_own(context, source) for source in sources)
+        else:
+            empties = [o for o in context.selected_objects if o.type == "EMPTY"]
+            if len(empties) != 1:
+                self.report(
+                    {"ERROR"},
+                    "Select one empty beside the mesh before Edit Mode: its Z axis is the normal",
+                )
+                return {"CANCELLED"}
+            axis = _z_axis(empties[0])
+            count = sum(fixed_normals.fix_along(source, axis) for source in sources)
+        if not count:
+            self.report({"ERROR"}, "No vertex with faces is selected")
+            return {"CANCELLED"}
+        self.report({"INFO"}, "1 normal fixed" if count == 1 else f"{count} normals fixed")
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
+    """Let the surface find its own normal at the selected vertices"""
+
+    bl_idname = "object.fairing_free_normal"
+    bl_label = "Free Normal"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> Answer:
+        count = sum(fixed_normals.free(o.data) for o in context.objects_in_mode_unique_data)
+        if not count:
+            self.report({"INFO"}, "No selected vertex has a fixed normal")
+        return {"FINISHED"}
+
+
+def _fix_own(context: Context, source: Object) -> int:
+    with control_mesh(context, source) as mesh:
+        normals = fixed_normals.own_normals(mesh)
+    return fixed_normals.fix(source.data, normals)
+
+
+def _z_axis(empty: Object) -> Vector:
+    return Vector(tuple(row[2] for row in world_matrix(empty))[:3])
+
+
+register, unregister = registration(OBJECT_OT_fairing_fix_normal, OBJECT_OT_fairing_free_normal)

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/fixed_normals.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "base/error.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr double farthest = 80 * degree;
+
+Vec3 normal_given(const FairOptions& options, std::size_t v) {
+  const Eigen::Map<const Vec3> given(options.normals.data() + 3 * v);
+  return (given / given.lpNorm<Eigen::Infinity>()).normalized();  // of any length
+}
+
+// The sum over the faces around, by their areas there.
+Vec3 control_normal(const ControlMesh& mesh, Index v) {
+  Vec3 normal = Vec3::Zero();
+  for (const Spoke& spoke : mesh.ring(v)) {
+    if (spoke.face < 0) continue;
+    const Face& face = mesh.faces[std::size_t(spoke.face)];
+    const auto edge_to = [&](int corner) -> Vec3 {
+      const Index w = face.vertex[std::size_t((corner + face.size) % face.size)];
+      return mesh.positions[std::size_t(w)] - mesh.positions[std::size_t(v)];
+    };
+    normal += edge_to(spoke.corner + 1).cross(edge_to(spoke.corner - 1));
+  }
+  return normal;
+}
+
+}  // namespace
+
+ChosenNormals choose_normals(const ControlMesh& mesh, const FairOptions& options) {
+  ChosenNormals out;
+  if (options.levels == 0) return out;
+  for (Index v = 0; v < mesh.input_vertices && !options.normals.empty(); ++v) {
+    stop_if_cancelled(std::size_t(v));
+    if (!options.has_normal(std::size_t(v)) || mesh.ring(v).empty() ||
+        mesh.vertex_part(v) == RegionPart::outside)
+      continue;
+    const bool holds =
+        mesh.vertex_fit(v) && mesh.vertex_part(v) == RegionPart::inside && !mesh.fans_meet(v);
+    if (!holds) {
+      out.left.push_back(v);
+      continue;
+    }
+    ++out.vertices;
+    const Vec3 normal = normal_given(options, std::size_t(v));
+    mesh.for_each_copy(v, [&](Index w) {
+      out.fixed.push_back({w, mesh.second_vertex(w) ? Vec3(-normal) : normal});
+    });
+  }
+  return out;
+}
+
+void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& normals) {
+  std::vector<std::int64_t> far;
+  for (const FixedNormal& fixed : normals) {
+    const Vec3 own = control_normal(mesh, fixed.vertex);
+    const double angle = std::atan2(own.cross(fixed.normal).norm(), own.dot(fixed.normal));
+    if (own.norm() > 0 && angle > farthest && !mesh.second_vertex(fixed.vertex))
+      far.push_back(mesh.original_vertex(fixed.vertex));
+  }
+  if (!far.empty())
+    throw FairingError(ErrorCode::bad_option,
+                       listing(vertex_s, far, {"is", "are"}) +
+                           " to have a normal more than 80 degrees away from that of the faces "
+                           "around. Turn it, or the faces; or free it.",
+                       far, ElementKind::vertex);
+}
+
+void report_normals(const ChosenNormals& normals, const LevelReport& finest, Report& report) {
+  report.normals.fixed = normals.vertices;
+  report.normals.largest_angle = finest.normal_angle / degree;
+  if (normals.left.empty()) return;
+  report.warnings.push_back({"NORMAL_NOT_FIXED",
+                             listing(vertex_s, normals.left, {"has", "have"}) +
+                                 " a normal that is not fixed: on curves, and where sheets touch, "
+                                 "the surface takes none.",
+                             normals.left, ElementKind::vertex});
+}
+
+}  // namespace fairing

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hold/couples.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/ring.h"
+#include "stencil/fit.h"
+
+namespace fairing {
+namespace {
+
+constexpr double width = 0.5;  // of the hats, as a share of the faces
+constexpr std::size_t grain = 16;
+
+// A compliance whose determinant is less than so much of that of a multiple of one is not trusted
+// in its weak direction.
+constexpr double least_determinant = 1e-3;
+
+double mean_radius(const std::vector<Vec2>& ring) {
+  double sum = 0;
+  for (const Vec2& p : ring) sum += p.norm();
+  return sum / double(ring.size());
+}
+
+Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
+  return mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
+}
+
+}  // namespace
+
+std::size_t Couples::bytes(const ControlMesh& mesh, const std::vector<FixedNormal>& normals) {
+  std::size_t arms = 0, neighbours = 0;
+  for (const FixedNormal& fixed : normals) {
+    arms += mesh.ring(fixed.vertex).size();
+    neighbours += std::size_t(ring_size(mesh, fixed.vertex));
+  }
+  return arms * sizeof(Arm) + neighbours * sizeof(Vec2);
+}
+
+Couples::Couples(const ControlMesh& mesh, const ChartOptions& charts,
+                 std::vector<FixedNormal> normals, Workers& workers)
+    : mesh_(mesh), workers_(workers), normals_(std::move(normals)) {
+  first_arm_.assign(1, 0);
+  first_row_.assign(1, 0);
+  for (const FixedNormal& fixed : normals_) {
+    first_arm_.push_back(first_arm_.back() + mesh.ring(fixed.vertex).size());
+    first_row_.push_back(first_row_.back() + std::size_t(ring_size(mesh, fixed.vertex)));
+  }
+  arms_.resize(first_arm_.back());
+  rows_.resize(first_row_.back());
+  total_.assign(size(), 0.0);
+  mass_.assign(size(), Vec2::Zero());
+  const ChartMaker maker(mesh, charts);
+  const std::vector<FlatFace> flat =
+      flatten(mesh, charts.kind == ChartKind::tangent ? 1.0 : charts.exponent);
+  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      Chart chart = maker.vertex(normals_[c].vertex);
+      const double radius = mean_radius(chart.ring);
+      for (Vec2& p : chart.ring) p /= radius;
+      fill_arms(c, chart, flat);
+      const FitRows rows = fit(chart);
+      for (std::size_t k = first_row_[c]; k < first_row_[c + 1]; ++k)
+        rows_[k] = rows.col(Eigen::Index(k - first_row_[c])).head<2>();
+    }
+  });
+}
+
+void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat) {
+  const auto ring = mesh_.ring(normals_[c].vertex);
+  const auto weight = [&](Index face) {
+    return (mesh_.faces[std::size_t(face)].quad() ? 1 : 2) * flat[std::size_t(face)].area;
+  };
+  std::size_t at = 0;
+  for (std::size_t s = 0; s < ring.size(); ++s) {
+    Arm& arm = arms_[first_arm_[c] + s];
+    arm = {chart.ring[at++], Vec2::Zero(), Vec2::Zero(), 0, 0};
+    for (const Index side : mesh_.edges[std::size_t(ring[s].edge)].side)
+      if (side >= 0) arm.edge_weight += weight(mesh_.sides[std::size_t(side)].face) / 2;
+    if (ring[s].face < 0) continue;
+    arm.face_weight = weight(ring[s].face);
+    if (mesh_.faces[std::size_t(ring[s].face)].quad()) arm.far = chart.ring[at++];
+    arm.behind = chart.ring[at < chart.ring.size() ? at : 0];
+  }
+}
+
+// visit(point, Omega, (u, v), phi) for the points under a hat but its top, where psi is nothing.
+template <class Visit>
+void Couples::visit_points(std::size_t c, Visit&& visit) const {
+  const int n = grid_->n();
+  const double step = 1.0 / n, share = step * step, fall = step / std::max(width, 2 * step);
+  const int reach = std::max(n / 2, 2);
+  const auto ring = mesh_.ring(normals_[c].vertex);
+  for (std::size_t s = 0; s < ring.size(); ++s) {
+    const Spoke& spoke = ring[s];
+    const Arm& arm = arms_[first_arm_[c] + s];
+    for (int k = 1; k < reach; ++k)
+      visit(grid_->edge_point(spoke.edge, spoke.outward ? k : n - k), share * arm.edge_weight,
+            Vec2(k * step * arm.ahead), 1 - k * fall);
+    if (spoke.face < 0) continue;
+    const bool quad = mesh_.faces[std::size_t(spoke.face)].quad();
+    for (int r = 1; r < reach; ++r) {
+      stop_in_large_face(r);
+      for (int k = 1; k < (quad ? reach : reach - r); ++k) {
+        const double a = k * step, b = r * step;
+        const Index p =
+            grid_->face_point(spoke.face, closed_point(quad, n, int(spoke.corner), k, r));
+        if (quad)
+          visit(p, share * arm.face_weight,
+                Vec2(a * (1 - b) * arm.ahead + a * b * arm.far + (1 - a) * b * arm.behind),
+                (1 - k * fall) * (1 - r * fall));
+        else
+          visit(p, share * arm.face_weight, Vec2(a * arm.ahead + b * arm.behind),
+                1 - (k + r) * fall);
+      }
+    }
+  }
+}
+
+void Couples::set_level(const GridLevel& grid) {
+  if (grid_ == &grid) return;
+  grid_ = &grid;
+  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      total_[c] = 0;
+      mass_[c].setZero();
+      visit_points(c, [&](Index, double weight, const Vec2& uv, double hat) {
+        total_[c] += weight * hat * uv.squaredNorm();
+        mass_[c] += weight * hat * hat * uv.cwiseAbs2();
+      });
+    }
+  });
+}
+
+void Couples::add(const std::vector<Couple>& couples, double* r) const {
+  const auto add_one = [&](std::size_t c) {
+    const Couple& couple = couples[c];
+    if (couple.isZero(0)) return;
+    visit_points(c, [&](Index p, double weight, const Vec2& uv, double hat) {
+      Eigen::Map<Vec3>(r + 3 * std::size_t(p)) += weight * hat * (couple * uv);
+    });
+  };
+  // Whole hats meet.
+  if (grid_->n() < 1 << first_level) {
+    for (std::size_t c = 0; c < size(); ++c) add_one(c);
+    return;
+  }
+  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) add_one(c);
+  });
+}
+
+void Couples::add(const Moments& moments, double* r) const {
+  std::vector<Couple> couples(size());
+  for (std::size_t c = 0; c < size(); ++c) couples[c] = normal(c) * moments[c].transpose();
+  add(couples, r);
+}
+
+Couple Couples::slopes(std::size_t c, const double* x) const {
+  Couple out = Couple::Zero();
+  const Index v = normals_[c].vertex;
+  const Eigen::Map<const Vec3> own(x + 3 * std::size_t(v));
+  std::size_t k = first_row_[c];
+  visit_ring(*grid_, v, [&](Index p, std::size_t) {
+    out += (Eigen::Map<const Vec3>(x + 3 * std::size_t(p)) - own) * rows_[k++].transpose();
+  });
+  return grid_->n() * out;
+}
+
+double Couples::angle(std::size_t c, const double* x) const {
+  const Couple slope = slopes(c, x);
+  const Vec3 own = slope.col(0).cross(slope.col(1));
+  return std::atan2(own.cross(normal(c)).norm(), own.dot(normal(c)));
+}
+
+void Couples::set_compliance(std::vector<Eigen::Matrix2d> slopes) {
+  compliance_ = std::move(slopes);
+  measured_total_ = total_;
+  for (Eigen::Matrix2d& slope : compliance_) {
+    const double mean = 0.5 * slope.trace();
+    if (!(slope.determinant() > least_determinant * mean * mean))
+      slope = (mean > 0 ? mean : slope.norm()) * Eigen::Matrix2d::Identity();
+  }
+}
+
+Moments Couples::correction(const double* x) const {
+  Moments out(size(), Vec2::Zero());
+  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      if (!(compliance_[c].trace() > 0) || !(total_[c] > 0)) continue;
+      const Eigen::Matrix2d made = total_[c] / measured_total_[c] * compliance_[c];
+      out[c] = -(made.inverse() * (slopes(c, x).transpose() * normal(c)));
+    }
+  });
+  return out;
+}
+
+void Couples::carry(const std::vector<double>& totals_before, Moments& moments) const {
+  for (std::size_t c = 0; c < size(); ++c)
+    if (total_[c] > 0) moments[c] *= totals_before[c] / total_[c];
+}
+
+std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<std::int64_t> set_of(std::size_t(mesh_.vertex_count()), -1);
+  std::vector<std::size_t> taken;  // per set: by which normal, counted from one
+  for (std::size_t c = 0; c < size(); ++c) {
+    stop_if_cancelled(c);
+    const Index v = normals_[c].vertex;
+    const auto take = [&](Index w) {
+      const std::int64_t set = set_of[std::size_t(w)];
+      if (set >= 0) taken[std::size_t(set)] = c + 1;
+    };
+    for (const Spoke& spoke : mesh_.ring(v)) {
+      const Index w = neighbour(mesh_, spoke);
+      take(w);
+      for (const Spoke& next : mesh_.ring(w)) take(neighbour(mesh_, next));
+    }
+    const std::size_t set = std::size_t(
+        std::find_if(taken.begin(), taken.end(), [&](std::size_t by) { return by != c + 1; }) -
+        taken.begin());
+    if (set == sets.size()) {
+      sets.emplace_back();
+      taken.push_back(0);
+    }
+    sets[set].push_back(c);
+    set_of[std::size_t(v)] = std::int64_t(set);
+  }
+  return sets;
+}
+
+}  // namespace fairing

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices with a normal of somebody's choice: marked in Edit Mode, read, shown and carried on."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from live_scenes import live, session
+from mathutils import Euler, Vector
+from scenes import activate, fair, positions
+from test_boundary_marks import sheet
+
+from addon.freshness import why_stale
+from addon.job import Job
+from addon.mesh import fixed_normals
+from addon.mesh.fixed_normals import NORMAL, read_normals
+from addon.mesh.read import control_mesh, read_mesh
+from addon.mesh.world_shape import world_shape
+from addon.transfer.cut_out import cut_out
+from addon.ui import main, menus
+
+INSIDE = 5  # vertex (1, 1) of the sheet
+TILTED = (0.6, 0.0, 0.8)
+
+
+def edit(target, *vertices):
+    """Edit Mode, with these vertices selected."""
+    activate(target)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="VERT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for vertex in vertices:
+        target.data.vertices[vertex].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def fix(target, *vertices, origin="MESH"):
+    edit(target, *vertices)
+    answer = bpy.ops.object.fairing_fix_normal(origin=origin)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return answer
+
+
+def set_normals(target, normals):
+    """{vertex: vector} as the attribute."""
+    layer = target.data.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
+    for vertex, normal in normals.items():
+        layer.data[vertex].vector = normal
+
+
+def marks(target):
+    """{vertex: normal} of those that are fixed."""
+    normals = read_normals(target.data)
+    return {} if normals is None else {int(v): normals[v] for v in np.flatnonzero(normals.any(1))}
+
+
+def empty(rotation):
+    made = bpy.data.objects.new("Empty", None)
+    made.rotation_euler = rotation
+    bpy.context.collection.objects.link(made)
+    bpy.context.view_layer.update()
+    return made
+
+
+def slope(surface, source, vertex, axis=0):
+    """Of the surface in z along x at a vertex, from the points next to it on both sides."""
+    points, at = positions(surface.data).astype(float), positions(source.data)[vertex]
+    around = {
+        other
+        for e in surface.data.edges
+        for here, other in (tuple(e.vertices), tuple(e.vertices)[::-1])
+        if here == vertex
+    }
+    along = points[sorted(around)] - at
+    before, after = along[along[:, axis].argmin()], along[along[:, axis].argmax()]
+    return (after[2] - before[2]) / (after[axis] - before[axis])
+
+
+def test_the_normals_of_the_mesh_are_fixed_where_it_is_selected():
+    source = sheet()
+    own = [tuple(n.vector) for n in source.data.vertex_normals]
+    assert fix(source, INSIDE, 6) == {"FINISHED"}
+    found = marks(source)
+    assert set(found) == {INSIDE, 6}
+    for vertex, normal in found.items():
+        assert np.allclose(normal, own[vertex], atol=1e-6)
+
+
+def test_custom_normals_are_those_of_the_mesh():
+    source = sheet()
+    normals = [Vector(TILTED)] * len(source.data.vertices)
+    source.data.normals_split_custom_set_from_vertices(normals)
+    fix(source, INSIDE)
+    assert np.allclose(marks(source)[INSIDE], TILTED, atol=1e-3)
+
+
+@pytest.mark.parametrize("turned_over", [False, True])
+def test_an_empty_says_where_the_normal_looks(turned_over):
+    source = sheet()
+    source.rotation_euler = (0.3, 0.2, 0.1)
+    source.scale = (1, 2, 1)
+    made = empty(Euler((0.5 + np.pi * turned_over, 0.2, 0)))
+    made.select_set(True)
+    axis = np.array(made.matrix_world)[:3, 2] * (-1 if turned_over else 1)
+    activate(source)
+    made.select_set(True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.object.fairing_fix_normal(origin="EMPTY") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    linear = np.array(source.matrix_world)[:3, :3]
+    in_the_world = np.linalg.inv(linear).T @ marks(source)[INSIDE]
+    assert np.allclose(in_the_world / np.linalg.norm(in_the_world), axis, atol=1e-5)
+
+
+def test_without_one_empty_nothing_is_fixed():
+    source = sheet()
+    with pytest.raises(RuntimeError, match="Select one empty"):
+        fix(source, INSIDE, origin="EMPTY")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert NORMAL not in source.data.attributes
+
+
+def test_without_a_vertex_nothing_is_fixed():
+    source = sheet()
+    with pytest.raises(RuntimeError, match="No vertex with faces"):
+        fix(source)
+    assert bpy.ops.object.fairing_fix_normal.poll()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not bpy.ops.object.fairing_fix_normal.poll()
+    assert not bpy.ops.object.fairing_free_normal.poll()
+
+
+def test_normals_are_freed_again():
+    source = sheet()
+    fix(source, INSIDE, 6, 9)
+    edit(source, 6, 10)
+    assert bpy.ops.object.fairing_free_normal() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert set(marks(source)) == {INSIDE, 9}
+
+
+def test_the_surface_has_the_normal():
+    source = sheet()
+    before = slope(fair(levels=4), source, INSIDE)
+    source = sheet("Tilted")
+    set_normals(source, {INSIDE: TILTED})
+    surface = fair(levels=4)
+    assert abs(before + TILTED[0] / TILTED[2]) > 0.2
+    assert slope(surface, source, INSIDE) == pytest.approx(-TILTED[0] / TILTED[2], abs=0.03)
+    assert NORMAL not in surface.data.attributes
+    assert np.array_equal(positions(surface.data)[:16], positions(source.data))
+
+
+def test_a_scaled_object_has_it_in_the_world():
+    source = sheet()
+    set_normals(source, {INSIDE: TILTED})
+    source.scale = (1, 1, 3)
+    surface = fair(levels=4)
+    assert slope(surface, source, INSIDE) == pytest.approx(-TILTED[0] / TILTED[2], abs=0.03)
+    in_the_world = world_shape(source).of_arrays(read_mesh(source.data)).normals[INSIDE]
+    assert np.allclose(in_the_world, [0.6, 0, 0.8 / 3])
+
+
+def test_the_other_energies_leave_them_out_and_say_so():
+    source = sheet()
+    set_normals(source, {INSIDE: TILTED})
+    settings = bpy.context.scene.discrete_fairing
+    settings.energy = "TOTAL_CURVATURE"
+    job = Job(bpy.context, source, settings)
+    assert "normals" not in job.arguments
+    assert any("only Thin Plate" in note for note in job.notes)
+    settings.energy = "THIN_PLATE"
+    job = Job(bpy.context, source, settings)
+    assert job.arguments["normals"].any(axis=1).sum() == 1
+    assert not any("Thin Plate" in note for note in job.notes)
+
+
+def test_what_is_shorter_or_of_another_kind_fixes_nothing():
+    source = sheet()
+    set_normals(source, {INSIDE: (0.3, 0, 0.4), 6: TILTED})
+    assert set(marks(source)) == {6}
+    source.data.attributes.remove(source.data.attributes[NORMAL])
+    source.data.attributes.new(NORMAL, "FLOAT_VECTOR", "CORNER")
+    assert read_normals(source.data) is None and fixed_normals.count([source]) == 0
+
+
+def test_a_new_vertex_between_fixed_and_free_is_free():
+    source = sheet()
+    fix(source, INSIDE)
+    edit(source, INSIDE, 6)
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert set(marks(source)) == {INSIDE}
+
+
+def test_a_surface_is_out_of_date_when_normals_change():
+    source = sheet()
+    surface = fair(levels=1)
+    assert why_stale(surface) == ""
+    source.hide_set(False)
+    fix(source, INSIDE)
+    assert why_stale(surface) == "Source changed"
+
+
+def test_live_follows_normals():
+    source = sheet()
+    surface = fair(levels=3)
+    source.hide_set(False)
+    live(surface)
+    before = positions(surface.data)
+    source.data.normals_split_custom_set_from_vertices([Vector(TILTED)] * len(source.data.vertices))
+    fix(source, INSIDE)
+    bpy.context.view_layer.update()
+    assert session(surface) is not None
+    assert np.abs(positions(surface.data) - before).max() > 1e-2
+
+
+def test_the_panel_counts_them():
+    source = sheet()
+
+    def told():
+        return [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("Normals:")]
+
+    assert told() == []
+    fix(source, INSIDE, 6)
+    assert told() == ["Normals: 2 fixed"]
+    edit(source, INSIDE)
+    assert told() == ["Normals: 2 fixed"], "in Edit Mode too"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    assert told() == ["Normals: 2 fixed, by Thin Plate only"]
+
+
+def test_the_menu_has_all_three():
+    log = draw(menus.VIEW3D_MT_fairing_normals)
+    assert "object.fairing_fix_normal" in log and "object.fairing_free_normal" in log
+
+
+def test_a_cut_takes_them_along():
+    source = sheet()
+    set_normals(source, {INSIDE: TILTED})
+    with control_mesh(bpy.context, source) as mesh:
+        arrays = read_mesh(mesh)
+    part = cut_out(arrays, np.arange(9) < 5)
+    assert np.array_equal(part.arrays.normals, arrays.normals[part.vertices])
+
+
+def test_normals_on_the_border_are_named():
+    source = sheet()
+    fix(source, 0, INSIDE)
+    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job.compute()
+    assert any("not fixed" in warning and "(0)" in warning for warning in job.warnings())

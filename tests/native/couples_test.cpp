@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Couples: where they act, which slopes they see, and what is left on a surface whose normals they
+// hold.
+#include "hold/couples.h"
+
+#include <gtest/gtest.h>
+
+#include "fairing/context.h"
+#include "grid/linear.h"
+#include "meshes.h"
+
+namespace fairing::test {
+namespace {
+
+std::vector<FixedNormal> upright(const ControlMesh& mesh) {
+  std::vector<FixedNormal> out;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.vertex_fit(v)) out.push_back({v, Vec3::UnitZ()});
+  return out;
+}
+
+std::vector<double> coupled(const Couples& couples, const GridLevel& grid, const Moments& moments) {
+  std::vector<double> r(3 * grid.size(), 0.0);
+  couples.add(moments, r.data());
+  return r;
+}
+
+TEST(Couples, PushNothing) {
+  const ControlMesh mesh = make_control_mesh(grid(4, 4).view(), {});
+  Workers workers(2);
+  Couples couples(mesh, {}, upright(mesh), workers);
+  ASSERT_EQ(couples.size(), 9u);
+  for (const int level : {1, 2, 4}) {
+    const GridLevel grid(mesh, level);
+    couples.set_level(grid);
+    Moments one(9, Vec2::Zero());
+    one[4] = Vec2(1, 0.5);
+    const std::vector<double> r = coupled(couples, grid, one);
+    double sum = 0, size = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      EXPECT_EQ(r[3 * i], 0);
+      EXPECT_EQ(r[3 * i + 1], 0);
+      sum += r[3 * i + 2];
+      size += std::abs(r[3 * i + 2]);
+    }
+    EXPECT_GT(size, 0);
+    EXPECT_NEAR(sum, 0, 1e-14);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(r[3 * std::size_t(v) + 2], 0);
+  }
+}
+
+TEST(Couples, ActOnHalfTheFacesAround) {
+  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
+  Workers workers(1);
+  Couples couples(mesh, {}, upright(mesh), workers);
+  const GridLevel grid(mesh, 4);
+  couples.set_level(grid);
+  Moments one(couples.size(), Vec2::Zero());
+  one[0] = Vec2(1, 2);
+  const std::vector<double> r = coupled(couples, grid, one);
+  for (const Spoke& spoke : mesh.ring(0))
+    for (int k = 8; k < 16; ++k) {
+      const auto p = std::size_t(grid.edge_point(spoke.edge, spoke.outward ? k : 16 - k));
+      EXPECT_EQ(r[3 * p + 2], 0);
+    }
+  // (u, v) grows as far as half of the half, and what couples do to u is what they do to v.
+  EXPECT_NEAR(couples.mass()[0][0], couples.mass()[0][1], 1e-12 * couples.mass()[0][0]);
+  const double fine = couples.totals()[0];
+  const GridLevel coarse(mesh, 3);
+  couples.set_level(coarse);
+  EXPECT_NEAR(couples.totals()[0], fine, 0.05 * fine);
+}
+
+TEST(Couples, SeeTheSlopesOfAPlane) {
+  const Vec3 normal = Vec3(0.3, -0.2, 1).normalized();
+  OwnedPolygonMesh tilted = grid(4, 4);
+  for (std::size_t i = 0; i < tilted.coordinates.size(); i += 3)
+    tilted.coordinates[i + 2] = -0.3 * tilted.coordinates[i] + 0.2 * tilted.coordinates[i + 1];
+  const ControlMesh mesh = make_control_mesh(tilted.view(), {});
+  Workers workers(1);
+  std::vector<FixedNormal> normals = upright(mesh);
+  normals[0].normal = normal;
+  normals[1].normal = -normal;
+  const Couples level_free(mesh, {}, normals, workers);
+  for (const int level : {1, 3}) {
+    Couples couples = level_free;
+    const GridLevel grid(mesh, level);
+    couples.set_level(grid);
+    std::vector<double> x(3 * grid.size());
+    refine_linearly(grid, mesh.positions, workers, x.data());
+    EXPECT_NEAR(couples.angle(0, x.data()), 0, 1e-7);
+    EXPECT_NEAR(couples.angle(1, x.data()), std::acos(-1.0), 1e-7);
+    EXPECT_NEAR(couples.angle(2, x.data()), std::acos(normal.z()), 1e-7);
+    const Couple slope = couples.slopes(4, x.data());
+    EXPECT_LT((slope.transpose() * normal).norm(), 1e-7 * slope.norm());
+  }
+}
+
+TEST(Couples, OfOneSetAreNotNeighbours) {
+  const ControlMesh mesh = make_control_mesh(torus(8, 7).view(), {});
+  Workers workers(1);
+  const Couples couples(mesh, {}, upright(mesh), workers);
+  std::vector<int> seen(couples.size(), 0);
+  for (const std::vector<std::size_t>& set : couples.sets_apart()) {
+    for (const std::size_t c : set) ++seen[c];
+    for (const std::size_t a : set)
+      for (const Spoke& first : mesh.ring(Index(a)))
+        for (const Spoke& next :
+             mesh.ring(mesh.edges[std::size_t(first.edge)].vertex[first.outward ? 1 : 0])) {
+          const Index b = mesh.edges[std::size_t(next.edge)].vertex[next.outward ? 1 : 0];
+          EXPECT_TRUE(std::size_t(b) == a ||
+                      std::count(set.begin(), set.end(), std::size_t(b)) == 0);
+        }
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(couples.size()));
+}
+
+// K x = Omega (phi f + psi m n) on all points off curves, and the normals are those asked for.
+TEST(Couples, HoldTheNormals) {
+  for (const OwnedPolygonMesh& input : {octahedron(), torus(6, 5), grid(5, 4)})
+    for (const double size : {0.0, 1.0}) {
+      OwnedPolygonMesh bent = input;
+      for (std::size_t i = 0; i < bent.coordinates.size(); i += 3)
+        bent.coordinates[i + 2] +=
+            0.2 * std::sin(2 * bent.coordinates[i] + bent.coordinates[i + 1]);
+      FairOptions options;
+      options.pad_size = size;
+      options.relative_residual = 1e-11;
+      options.normals.assign(bent.coordinates.size(), NAN);
+      const ControlMesh control = make_control_mesh(bent.view(), {});
+      const std::size_t vertex = input.coordinates.size() == 18 ? 1 : 9;
+      Vec3 own = Vec3::Zero();
+      for (const Spoke& spoke : control.ring(Index(vertex))) {
+        const Face& face = control.faces[std::size_t(spoke.face)];
+        const auto at = [&](int k) -> const Vec3& {
+          return control.positions[std::size_t(
+              face.vertex[std::size_t((spoke.corner + k + face.size) % face.size)])];
+        };
+        own += (at(1) - at(0)).cross(at(-1) - at(0));
+      }
+      const Vec3 normal = (own.normalized() + Vec3(0.2, 0.1, -0.2)).normalized();
+      for (std::size_t a = 0; a < 3; ++a) options.normals[3 * vertex + a] = normal[Eigen::Index(a)];
+      Monitor monitor;
+      Report report;
+      Stopwatch watch(report, monitor);
+      FairingContext run(bent.view(), options, monitor, watch, report);
+      Array<double> x;
+      run.solve(run.basis(), false, watch, report, x);
+      ThinPlateSolver& system = run.system();
+      ASSERT_NE(system.couples(), nullptr);
+      EXPECT_TRUE(report.levels.back().converged);
+      EXPECT_EQ(report.normals.fixed, 1u);
+      EXPECT_LT(report.normals.largest_angle, 0.01);
+      EXPECT_LT(system.couples()->angle(0, x.data()), 1e-4);
+
+      const GridLevel& grid = run.finest();
+      const Unknowns& rows = system.pads() ? system.pads()->rows() : system.shared().unknowns;
+      std::vector<double> forces(3 * grid.size()), held(3 * grid.size(), 0.0);
+      apply_thin_plate(grid, system.shared().double_rows, rows, {}, run.workers(),
+                       system.shared().double_slots, x.data(), forces.data());
+      if (system.pads()) system.pads()->add_loads(system.loads(), held.data());
+      system.couples()->add(system.moments(), held.data());
+      double largest = 0, left = 0;
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        largest = std::max(largest, std::abs(held[i]));
+        left = std::max(left, std::abs(forces[i] - held[i]));
+      }
+      EXPECT_GT(largest, 0);
+      EXPECT_LT(left, 1e-3 * largest);
+    }
+}
+
+}  // namespace
+}  // namespace fairing::test
