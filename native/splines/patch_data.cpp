@@ -172,8 +172,10 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
             line_of(share_u, n, {0, n}, {1, 0}), line_of(share_v, n, {0, 0}, {0, 1})};
   }
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
-    PatchSample sample{lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
-                       (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v), true};
+    const Vec3 normal = area_normal(lattice, place.face, p);
+    PatchSample sample{
+        lattice.position(place.face, p),  normal.normalized(), (1 - v) * below(u) + v * above(u),
+        (1 - u) * left(v) + u * right(v), normal.norm(),       true};
     if (place.corner < 0) {
       const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
       const double a = share_u[at], b = share_v[at];
