@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace fairing {
 
@@ -19,7 +20,7 @@ NetSystem::NetSystem(const SplinePatch& known)
 void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weight,
                     const Vec3& target) {
   struct Unknown {
-    Eigen::Index at;
+    Eigen::Index at, shift;
     double factor;
   };
   std::array<Unknown, 16> of;
@@ -30,16 +31,16 @@ void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weigh
     if (at < 0)
       rest -= term.factor * known_.net[known_.index(term.i, term.j)];
     else
-      of[count++] = {3 * at, term.factor};
+      of[count++] = {3 * at, (reach - 3 * at / width_) * width_, term.factor};
   }
   const Vec3 load = weight * rest;
   for (std::size_t a = 0; a < count; ++a) {
     right_.segment<3>(of[a].at) += of[a].factor * load;
     for (std::size_t b = 0; b <= a; ++b) {
       const double both = of[a].factor * of[b].factor;
-      const auto [column, row] = std::minmax(of[a].at, of[b].at);
-      const Eigen::Index shift = (reach - row / width_) * width_;
-      band_.block<3, 3>(row, column + shift) += both * weight;
+      const auto& [row, column] =
+          of[a].at > of[b].at ? std::tie(of[a], of[b]) : std::tie(of[b], of[a]);
+      band_.block<3, 3>(row.at, column.at + row.shift) += both * weight;
     }
   }
 }

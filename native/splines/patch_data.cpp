@@ -8,7 +8,8 @@
 namespace fairing {
 namespace {
 
-constexpr int samples_a_span = 6;
+// Of those that are fitted, each way.
+constexpr int samples_a_span = 4, least_samples = 8;
 constexpr double widest_gap = 1.0 / 64;
 
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
@@ -189,7 +190,7 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
 
 void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data) {
   const int n = place.corner < 0 ? lattice.n() : lattice.n() / 2;
-  const int stride = std::max(1, n / (samples_a_span * spans));
+  const int stride = std::max(1, n / std::max(least_samples, samples_a_span * spans));
   std::size_t k = 0;
   for_points(lattice, place, [&](GridPoint, double, double, int i, int j) {
     data.samples[k++].fitted = i % stride == 0 && j % stride == 0;
