@@ -134,7 +134,7 @@ def takes_normals(settings: Any) -> bool:
 
 def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and what is
-    `wanted` of the patches (cad/settings.py). Nothing is refused: who asks looks at `unresolved`.
+    `wanted` of the patches (cad/settings.py). What is shown and not written is never refused.
     """
     left_out = ("levels", "shapes", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
@@ -142,7 +142,7 @@ def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
         "tolerance": wanted.fit_tolerance,
         "normal_tolerance": wanted.fit_angle,
         "levels": wanted.fit_levels or None,
-        "insist": True,
+        "insist": getattr(wanted, "insist", True),
     }
 
 

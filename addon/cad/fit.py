@@ -48,10 +48,17 @@ class PatchJob(Job):
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, wanted)
+        self.refused: list[int] = []  # faces because of which no patches are fitted
 
     def compute(self, **watchers: Any) -> None:
         with errors.explained(self.name):
-            self.patches = core.module().fit_patches(**self.arguments, **watchers)
+            try:
+                self.patches = core.module().fit_patches(**self.arguments, **watchers)
+            except core.module().FairingError as error:
+                if error.code != "UNRESOLVED":
+                    raise
+                self.refused = error.elements
+                return
         self.result = self.patches.result
         mended = errors.repairs_text(self.result.report["repairs"])
         if mended:
@@ -95,13 +102,18 @@ class PatchJob(Job):
         """What is wrong with the patches, by the faces of the source, as Check Mesh keeps it."""
         found = []
         for code, name in _KINDS:
-            faces = getattr(self.patches, name).tolist()
+            faces = self._faulty(name)
             if faces:
                 severity = "error" if code == "UNRESOLVED" else "warning"
                 found.append(
                     {"code": code, "kind": "face", "elements": faces, "severity": severity}
                 )
         return found
+
+    def _faulty(self, name: str) -> list[int]:
+        if self.refused:
+            return self.refused if name == "unresolved" else []
+        return cast(list[int], getattr(self.patches, name).tolist())
 
     def warnings(self) -> list[str]:
         """What is wrong with the patches, a sentence each."""
@@ -124,5 +136,5 @@ class PatchJob(Job):
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:
-    """The jobs whose surface folds or is not resolved."""
-    return [job for job in jobs if len(job.patches.unresolved)]
+    """The jobs that have no patches, because their surface folds or is not resolved."""
+    return [job for job in jobs if job.refused]

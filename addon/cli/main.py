@@ -121,6 +121,8 @@ def _fair_file(
             progress.next_run()
     finally:
         progress.clear()
+    if patches is not None:
+        step.require_patches(jobs)
     for job, source in zip(jobs, sources):
         mended = repairs_text(job.result.report["repairs"])
         if mended and not arguments.quiet:

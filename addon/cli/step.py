@@ -72,16 +72,20 @@ def wanted_of(
     )
 
 
-def write_step_file(way: Place, jobs: Sequence[PatchJob], wanted: SimpleNamespace) -> None:
-    """All parts as one file, coordinates as they are. Raises JobError where a surface is refused."""
+def require_patches(jobs: Sequence[PatchJob]) -> None:
+    """Raises JobError where a surface is refused."""
     faulty = refused(jobs)
-    if faulty and not wanted.insist:
+    if faulty:
         raise JobError(
             words.together(job.warnings()[0] for job in faulty) + " --insist writes them red.",
             "UNRESOLVED",
             "face",
-            faulty[0].patches.unresolved.tolist(),
+            faulty[0].refused,
         )
+
+
+def write_step_file(way: Place, jobs: Sequence[PatchJob], wanted: SimpleNamespace) -> None:
+    """All parts as one file, coordinates as they are."""
     write_whole(way.target, lambda path: write_jobs(path, jobs, wanted.unit, 1.0))
 
 

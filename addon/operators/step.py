@@ -102,7 +102,7 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
             job.note_defects(context)
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        if faulty and not self.insist:
+        if faulty:
             names = ", ".join(job.name for job in faulty)
             self.report(
                 {"ERROR"},

@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
+
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/runner.h"
@@ -24,41 +26,46 @@ py::array to_numpy(const std::vector<T>& values, py::ssize_t columns = 1) {
   return to_numpy(std::move(copy), columns);
 }
 
-py::array points_array(const std::vector<Vec3>& points) {
+// The points of each item, one after another. Items give theirs up: large surfaces are not held
+// twice.
+template <class Items, class PointsOf>
+py::array points_array(Items& items, PointsOf&& points_of) {
+  std::size_t count = 0;
+  for (auto& item : items) count += points_of(item).size();
   Array<double> flat;
-  for (const Vec3& p : points)
-    for (const double x : p) flat.push_back(x);
+  flat.reserve(3 * count);
+  for (auto& item : items) {
+    for (const Vec3& p : points_of(item)) flat.insert(flat.end(), p.begin(), p.end());
+    points_of(item) = {};
+  }
   return to_numpy(std::move(flat), 3);
 }
 
-void add_edges(py::dict& to, const std::vector<SplineEdge>& edges) {
+void add_edges(py::dict& to, std::vector<SplineEdge>& edges) {
   std::vector<std::int32_t> spans, vertices;
   std::vector<std::uint8_t> kinds;
   std::vector<double> errors;
-  std::vector<Vec3> points;
   for (const SplineEdge& edge : edges) {
     spans.push_back(edge.curve.spans);
     vertices.insert(vertices.end(), edge.vertex.begin(), edge.vertex.end());
     kinds.push_back(std::uint8_t(edge.kind));
     errors.push_back(edge.error);
-    points.insert(points.end(), edge.curve.points.begin(), edge.curve.points.end());
   }
   to["edge_spans"] = to_numpy(spans);
   to["edge_vertices"] = to_numpy(vertices, 2);
   to["edge_kind"] = to_numpy(kinds);
   to["edge_error"] = to_numpy(errors);
-  to["edge_points"] = points_array(points);
+  to["edge_points"] =
+      points_array(edges, [](SplineEdge& edge) -> auto& { return edge.curve.points; });
 }
 
-void add_patches(py::dict& to, const SplineSurface& surface) {
+void add_patches(py::dict& to, SplineSurface& surface) {
   std::vector<std::int32_t> spans, loops;
   std::vector<std::int64_t> loop_offsets{0};
   std::vector<std::uint8_t> forward;
-  std::vector<Vec3> points;
   for (const SplinePatch& patch : surface.patches) {
     spans.push_back(patch.spans_u);
     spans.push_back(patch.spans_v);
-    points.insert(points.end(), patch.net.begin(), patch.net.end());
   }
   for (const std::vector<LoopEdge>& loop : surface.loops) {
     for (const LoopEdge& edge : loop) {
@@ -68,7 +75,8 @@ void add_patches(py::dict& to, const SplineSurface& surface) {
     loop_offsets.push_back(std::int64_t(loops.size()));
   }
   to["patch_spans"] = to_numpy(spans, 2);
-  to["patch_points"] = points_array(points);
+  to["patch_points"] =
+      points_array(surface.patches, [](SplinePatch& patch) -> auto& { return patch.net; });
   to["patch_face"] = to_numpy(surface.face);
   to["loop_edges"] = to_numpy(loops);
   to["loop_forward"] = to_numpy(forward);
@@ -91,7 +99,8 @@ py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::in
   Runner().run([&] { surface = fit_splines(refined, options, monitor); }, monitor, nullptr,
                progress);
   py::dict d;
-  d["vertices"] = points_array(surface.vertices);
+  std::array corners{std::move(surface.vertices)};
+  d["vertices"] = points_array(corners, [](std::vector<Vec3>& all) -> auto& { return all; });
   add_edges(d, surface.edges);
   add_patches(d, surface);
   d["angles"] = to_numpy(surface.angles, angles_an_edge);

@@ -110,7 +110,7 @@ Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Ve
   return normal;
 }
 
-Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p) {
+Vec3 area_normal(const Lattice& lattice, Index f, GridPoint p) {
   const int n = lattice.n();
   const bool quad = lattice.quad(f);
   const auto inside = [&](int i, int j) {
@@ -126,7 +126,11 @@ Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p) {
   const Vec3 u = slope(1, 0), v = slope(0, 1), w = slope(-1, 1);
   Vec3 normal = u.cross(v);
   if (!quad) normal += u.cross(w) + w.cross(-v);
-  return normal.normalized();
+  return normal;
+}
+
+Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p) {
+  return area_normal(lattice, f, p).normalized();
 }
 
 }  // namespace fairing

@@ -62,7 +62,8 @@ Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n);
 // cubic as far as their number allows, over the plane of `guess`. Refitted once.
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);
 
-// The normal at a corner of a cell, from its two sides.
+// The normal at a point of the lattice, from its neighbours; as long as the surface there is large.
+Vec3 area_normal(const Lattice& lattice, Index f, GridPoint p);
 Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p);
 
 }  // namespace fairing

@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <tuple>
 
 namespace fairing {
 
@@ -12,13 +14,13 @@ NetSystem::NetSystem(const SplinePatch& known)
   width_ = 3 * Eigen::Index(std::min(rows_, columns_) - 2);
   const Eigen::Index size = width_ * (std::max(rows_, columns_) - 2);
   band_ = Eigen::MatrixXd::Zero(size, (reach + 1) * width_);
-  right_ = Eigen::VectorXd::Zero(size);
+  right_ = balance_ = Eigen::VectorXd::Zero(size);
 }
 
 void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weight,
                     const Vec3& target) {
   struct Unknown {
-    Eigen::Index at;
+    Eigen::Index at, shift;
     double factor;
   };
   std::array<Unknown, 16> of;
@@ -29,17 +31,29 @@ void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weigh
     if (at < 0)
       rest -= term.factor * known_.net[known_.index(term.i, term.j)];
     else
-      of[count++] = {3 * at, term.factor};
+      of[count++] = {3 * at, (reach - 3 * at / width_) * width_, term.factor};
   }
   const Vec3 load = weight * rest;
   for (std::size_t a = 0; a < count; ++a) {
     right_.segment<3>(of[a].at) += of[a].factor * load;
     for (std::size_t b = 0; b <= a; ++b) {
       const double both = of[a].factor * of[b].factor;
-      const auto [column, row] = std::minmax(of[a].at, of[b].at);
-      const Eigen::Index shift = (reach - row / width_) * width_;
-      band_.block<3, 3>(row, column + shift) += both * weight;
+      const auto& [row, column] =
+          of[a].at > of[b].at ? std::tie(of[a], of[b]) : std::tie(of[b], of[a]);
+      band_.block<3, 3>(row.at, column.at + row.shift) += both * weight;
     }
+  }
+}
+
+void NetSystem::balance(std::span<const NetTerm> terms, const Vec3& weight, const Vec3& target) {
+  weighed_ += weight.norm();
+  rest_ += weight.dot(target);
+  for (const NetTerm& term : terms) {
+    const Eigen::Index at = unknown(term.i, term.j);
+    if (at < 0)
+      rest_ -= term.factor * weight.dot(known_.net[known_.index(term.i, term.j)]);
+    else
+      balance_.segment<3>(3 * at) += term.factor * weight;
   }
 }
 
@@ -80,10 +94,9 @@ bool NetSystem::factor() {
   return true;
 }
 
-bool NetSystem::solve(SplinePatch& patch) {
-  if (!factor()) return false;
+void NetSystem::substitute(Eigen::VectorXd& x) {
   const Eigen::Index blocks = band_.rows() / width_;
-  const auto part = [&](Eigen::Index i) { return right_.segment(i * width_, width_); };
+  const auto part = [&](Eigen::Index i) { return x.segment(i * width_, width_); };
   for (Eigen::Index i = 0; i < blocks; ++i) {
     auto own = part(i);
     for (Eigen::Index m = std::max<Eigen::Index>(0, i - reach); m < i; ++m)
@@ -95,6 +108,17 @@ bool NetSystem::solve(SplinePatch& patch) {
     for (Eigen::Index m = i + 1; m <= std::min(blocks - 1, i + reach); ++m)
       own.noalias() -= block(m, i).transpose() * part(m);
     block(i, i).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+  }
+}
+
+bool NetSystem::solve(SplinePatch& patch, double most_balanced) {
+  if (!factor()) return false;
+  substitute(right_);
+  const double off = rest_ - balance_.dot(right_);
+  if (weighed_ > 0 && std::abs(off) <= most_balanced * weighed_) {
+    Eigen::VectorXd moved = balance_;  // the least change of the equations' own solution
+    substitute(moved);
+    right_ += off / balance_.dot(moved) * moved;
   }
   if (!right_.allFinite()) return false;
   for (int i = 1; i + 1 < rows_; ++i)

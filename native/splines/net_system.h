@@ -21,11 +21,14 @@ class NetSystem {
 
   // Adds |weight^(1/2) (sum of factor * control point - target)|².
   void add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weight, const Vec3& target);
+  // Adds weight · (sum of factor * control point - target) to what is to be zero in all.
+  void balance(std::span<const NetTerm> terms, const Vec3& weight, const Vec3& target);
   // Adds scale² |third differences of the net|².
   void add_third_differences(double scale);
   // False where the equations have no solution; the patch stays then. Call it once: it factors the
-  // equations in their place.
-  bool solve(SplinePatch& patch);
+  // equations in their place. What is to be zero is, unless it is more than `most_balanced` for
+  // each unit of weight.
+  bool solve(SplinePatch& patch, double most_balanced);
 
  private:
   // Of the unknowns, by control points; -1: known. The shorter rows make the narrower band.
@@ -39,13 +42,15 @@ class NetSystem {
     return band_.block(row * width_, (reach + column - row) * width_, width_, width_);
   }
   bool factor();
+  void substitute(Eigen::VectorXd& x);
 
   static constexpr Eigen::Index reach = 3;
   const SplinePatch& known_;
   int rows_, columns_;
   Eigen::Index width_;    // of a block
   Eigen::MatrixXd band_;  // the lower half, block beside block
-  Eigen::VectorXd right_;
+  Eigen::VectorXd right_, balance_;
+  double rest_ = 0, weighed_ = 0;  // what the unknowns have to balance; all weights
 };
 
 }  // namespace fairing

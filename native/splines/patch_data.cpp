@@ -8,7 +8,8 @@
 namespace fairing {
 namespace {
 
-constexpr int samples_a_span = 6;
+// Of those that are fitted, each way.
+constexpr int samples_a_span = 4, least_samples = 8;
 constexpr double widest_gap = 1.0 / 64;
 
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
@@ -172,8 +173,10 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
             line_of(share_u, n, {0, n}, {1, 0}), line_of(share_v, n, {0, 0}, {0, 1})};
   }
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
-    PatchSample sample{lattice.position(place.face, p), lattice_normal(lattice, place.face, p),
-                       (1 - v) * below(u) + v * above(u), (1 - u) * left(v) + u * right(v), true};
+    const Vec3 normal = area_normal(lattice, place.face, p);
+    PatchSample sample{
+        lattice.position(place.face, p),  normal.normalized(), (1 - v) * below(u) + v * above(u),
+        (1 - u) * left(v) + u * right(v), normal.norm(),       true};
     if (place.corner < 0) {
       const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
       const double a = share_u[at], b = share_v[at];
@@ -187,7 +190,7 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
 
 void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data) {
   const int n = place.corner < 0 ? lattice.n() : lattice.n() / 2;
-  const int stride = std::max(1, n / (samples_a_span * spans));
+  const int stride = std::max(1, n / std::max(least_samples, samples_a_span * spans));
   std::size_t k = 0;
   for_points(lattice, place, [&](GridPoint, double, double, int i, int j) {
     data.samples[k++].fitted = i % stride == 0 && j % stride == 0;

@@ -14,6 +14,9 @@ namespace {
 // What counts beside distances along the lattice's normals: a cross derivative that leaves the
 // tangent plane of a side, and third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
+// Least squares alone favour a side. As much volume lies beyond the patch as within, where that
+// moves it by less than half of its tolerance on average.
+constexpr double most_moved = 0.5;
 // Tried one after the other until one serves. `slide` is what counts that a sample slides along the
 // patch: on poor surfaces the least lets patches fold. In narrow corners all do, unless `shear`,
 // what the cells of the net being no parallelograms counts, within the patch, keeps their rows apart.
@@ -96,11 +99,13 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   for (const PatchSample& sample : data.samples) {
     if (!sample.fitted) continue;
     Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
+    const std::array<NetTerm, 16> terms = terms_at(patch, sample.u, sample.v);
     if (way) {
       const Vec3 n = patch.at(sample.u, sample.v).normal();
       weight = squared(way->slide) * weight + (1 - squared(way->slide)) * n * n.transpose();
+      system.balance(terms, sample.area * n, sample.at);
     }
-    system.add(terms_at(patch, sample.u, sample.v), weight, sample.at);
+    system.add(terms, weight, sample.at);
   }
   system.add_third_differences(rough);
   if (way && way->shear > 0) add_shear(way->shear, patch, system);
@@ -115,7 +120,7 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
                      n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
-  if (!system.solve(solved)) return false;
+  if (!system.solve(solved, most_moved * data.tolerance)) return false;
   patch = std::move(solved);
   return true;
 }

@@ -12,6 +12,7 @@ namespace fairing {
 struct PatchSample {
   Vec3 at, normal;  // of the lattice
   double u, v;
+  double area;  // that it stands for, to a factor that all share
   bool fitted;  // or only measured
 };
 

@@ -11,6 +11,7 @@ import step_files
 from fake_layout import draw
 from scenes import CUBE, activate, add, fair
 
+from addon import core
 from addon.cad import words
 from addon.ui import main
 
@@ -131,6 +132,14 @@ def test_a_surface_that_folds_is_refused_and_its_faces_are_listed(tmp_path, capf
     activate(folded)
     assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
     assert sum(face.select for face in folded.data.polygons) == 2
+
+
+def test_no_patch_is_fitted_in_vain(tmp_path, monkeypatch):
+    add("Leaf", *FOLDED)
+    native = core.module()._native
+    monkeypatch.setattr(native, "fit_splines", lambda *_: pytest.fail("fitted all the same"))
+    with pytest.raises(RuntimeError, match="Nothing was written"):
+        export(tmp_path / "leaf.step")
 
 
 def test_who_insists_gets_the_faces_marked(tmp_path, capfd):

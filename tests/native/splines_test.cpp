@@ -7,58 +7,10 @@
 
 #include <cmath>
 
+#include "refined_surfaces.h"
+
 namespace fairing::test {
 namespace {
-
-// Control quads over grids of points, refined by what `at` says: no solver takes part.
-struct Refined {
-  int levels;
-  std::vector<double> vertices;
-  std::vector<std::int32_t> triangles, quads;
-
-  RefinedSurface view() const { return {levels, vertices, triangles, quads, {}}; }
-};
-
-// columns x 1 quads over [0, columns] x [0, 1].
-template <class At>
-Refined strip(int columns, int levels, At&& at) {
-  Refined out{levels, {}, {}, {}};
-  const int n = 1 << levels, width = columns * n + 1;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i < width; ++i)
-      for (const double x : at(double(i) / n, double(j) / n)) out.vertices.push_back(x);
-  for (int f = 0; f < columns; ++f)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const int first = j * width + f * n + i;
-        for (const int p : {first, first + 1, first + width + 1, first + width})
-          out.quads.push_back(p);
-      }
-  return out;
-}
-
-// One triangle with corners (0, 0), (1, 0), (0, 1).
-template <class At>
-Refined triangle(int levels, At&& at) {
-  Refined out{levels, {}, {}, {}};
-  const int n = 1 << levels;
-  std::vector<int> row;
-  for (int j = 0; j <= n; ++j) {
-    row.push_back(int(out.vertices.size() / 3));
-    for (int i = 0; i + j <= n; ++i)
-      for (const double x : at(double(i) / n, double(j) / n)) out.vertices.push_back(x);
-  }
-  const auto point = [&](int i, int j) { return row[std::size_t(j)] + i; };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i + j < n; ++i) {
-      for (const int p : {point(i, j), point(i + 1, j), point(i, j + 1)})
-        out.triangles.push_back(p);
-      if (i + j + 1 < n)
-        for (const int p : {point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)})
-          out.triangles.push_back(p);
-    }
-  return out;
-}
 
 Vec3 on_sphere(double u, double v) {
   const double a = 0.6 * (u - 1), b = 0.6 * (v - 0.5);

@@ -28,6 +28,7 @@ HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that st
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
 # The share of the tolerance that the refined surface itself may be off.
 LATTICE_SHARE = 0.5
+CELLS_AT_ONCE = 1 << 14  # that two surfaces are compared at; or one control face
 
 
 def fit_patches(
@@ -90,6 +91,7 @@ def fit_patches(
     else:
         level = whole("levels", levels)
         result = fair(points, polygons, level, **options, **runs.run(0.0, 0.6))
+        run.refuse(run.sharp_faces(result, level, runs.threads))
         found = run.checked(run.fitted(result, level, nan, runs.run(0.6, 1.0)))
     runs.finish()
     return found
@@ -108,13 +110,14 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
         level -= 1
     done, folds = 0.0, False
     coarser = best = None
+    finest = _finest(count, level)
     for at in range(level - 1, LAST_LEVEL + 1):
         part = done + 0.4 * (1 - done)
         result = fair(points, polygons, at, **options, **runs.run(done, part))
         done = part
         if at < level:
             coarser = result
-            folds = run.stays_folded(result, at, _finest(count, level) - at, runs.threads)
+            folds = run.stays_folded(result, at, finest - at, runs.threads)
             continue
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
         error = change_between(coarser, result, at) / 3  # of second order
@@ -123,6 +126,13 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
         if error > LATTICE_SHARE * run.tolerance * size and next_count <= MOST_FINER_POINTS:
             continue
         last = next_count > MOST_POINTS_FOR_FACES
+        sharp = run.sharp_faces(result, at, runs.threads)
+        if sharp and not run.insist:  # its patches would be refused
+            if not last:
+                continue
+            if best is None:
+                run.refuse(sharp)
+            break
         part = 1.0 if last else done + 0.5 * (1 - done)
         found = run.fitted(result, at, error, runs.run(done, part))
         done = part
@@ -192,18 +202,21 @@ class _Run:
         """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
         refused then, unless the caller insists.
         """
-        turns = _native.lattice_turns(
-            result.vertices, *result.faces, result.crease_edges, level, 0.0, threads
-        )
-        bad = turns > min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
-        self._refuse(np.unique(control_polygons(result, level)[bad]).tolist())
-        return bool(bad.any())
+        limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
+        bad = _turning(result, level, limit, 0.0, threads)
+        self.refuse(bad)
+        return bool(bad)
+
+    def sharp_faces(self, result: Result, level: int, threads: int) -> list[int]:
+        """Those where the refined surface itself folds or turns too sharply: no patch serves."""
+        least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
+        return _turning(result, level, TURN_LIMIT, least, threads)
 
     def checked(self, patches: SplinePatches) -> SplinePatches:
-        self._refuse(patches.unresolved.tolist())
+        self.refuse(patches.unresolved.tolist())
         return patches
 
-    def _refuse(self, faces: list[int]) -> None:
+    def refuse(self, faces: list[int]) -> None:
         if faces and not self.insist:
             listed = ", ".join(map(str, faces[:5])) + (", …" if len(faces) > 5 else "")
             noun, verb = ("face", "has") if len(faces) == 1 else ("faces", "have")
@@ -216,26 +229,40 @@ class _Run:
             )
 
 
-def change_between(coarse: Result, fine: Result, levels: int) -> float:
+def _turning(result: Result, level: int, limit: float, least: float, threads: int) -> list[int]:
+    """Input faces with a turn above `limit` between two cells, at least `least` high."""
+    turns = _native.lattice_turns(
+        result.vertices, *result.faces, result.crease_edges, level, least, threads
+    )
+    return np.unique(control_polygons(result, level)[turns > limit]).tolist()
+
+
+def change_between(coarse: Result | None, fine: Result, levels: int) -> float:
     """The largest distance, along normals, between the surface of `levels` and the one of a level
-    less, at the points that both have; mesh units.
+    less, at the points that both have; mesh units. A few control faces at a time.
     """
-    largest = 0.0 if coarse is not None else inf
+    if coarse is None:
+        return inf
+    largest, cells = 0.0, 4**levels
     for corners, few, many in zip((3, 4), coarse.faces, fine.faces):
-        if not len(few):
-            continue
-        n = 2**levels
-        few = few.reshape(-1, n * n // 4, corners)
-        many = many.reshape(-1, n * n, corners)[:, _even_cells(corners, n)]
-        a, b, c = (fine.vertices[many[:, :, k]] for k in (0, 1, corners - 1))
-        normal = np.cross(b - a, c - a)
-        length = np.linalg.norm(normal, axis=2)
-        gap = np.einsum(
-            "fck,fck->fc", a - coarse.vertices[few[:, _all_cells(corners, n), 0]], normal
-        )
-        far = np.abs(gap) / np.where(length > 0, length, inf)
-        largest = max(largest, float(far.max(initial=0)))
+        few, many = few.reshape(-1, cells // 4, corners), many.reshape(-1, cells, corners)
+        shared = _all_cells(corners, 2**levels), _even_cells(corners, 2**levels)
+        at_once = max(1, CELLS_AT_ONCE // cells)
+        for first in range(0, len(few), at_once):
+            part = slice(first, first + at_once)
+            points = coarse.vertices[few[part, shared[0], 0]]
+            far = _distances(points, fine.vertices, many[part, shared[1]])
+            largest = max(largest, float(far.max(initial=0)))
     return largest
+
+
+def _distances(points: np.ndarray, vertices: np.ndarray, cells: np.ndarray) -> np.ndarray:
+    """Of each point from the plane of its cell's first corner."""
+    a, b, c = (vertices[cells[:, :, k]] for k in (0, 1, -1))
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=2)
+    gap = np.einsum("fck,fck->fc", a - points, normal)
+    return np.abs(gap) / np.where(length > 0, length, inf)
 
 
 def _rows(corners: int, n: int) -> tuple[np.ndarray, np.ndarray]:

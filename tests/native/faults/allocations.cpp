@@ -4,10 +4,13 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#if defined(__linux__)
+#include <malloc.h>
+#endif
 
 namespace {
 
-std::atomic<std::int64_t> live{0}, counted{0}, failing{0};
+std::atomic<std::int64_t> live{0}, bytes{0}, peak{0}, counted{0}, failing{0};
 std::atomic<bool> counts{false};
 
 bool fails() {
@@ -38,14 +41,29 @@ void* __wrap_realloc(void* p, std::size_t size) {
 
 namespace {
 
+std::int64_t size_of([[maybe_unused]] void* p) {
+#if defined(__linux__)
+  return std::int64_t(malloc_usable_size(p));
+#else
+  return 0;
+#endif
+}
+
 void* taken(void* p) {
   if (!p) throw std::bad_alloc();
   live.fetch_add(1, std::memory_order_relaxed);
+  const std::int64_t now = bytes.fetch_add(size_of(p)) + size_of(p);
+  std::int64_t most = peak.load();
+  while (now > most && !peak.compare_exchange_weak(most, now)) {
+  }
   return p;
 }
 
 void give_back(void* p) {
-  if (p) live.fetch_sub(1, std::memory_order_relaxed);
+  if (p) {
+    live.fetch_sub(1, std::memory_order_relaxed);
+    bytes.fetch_sub(size_of(p));
+  }
   std::free(p);
 }
 
@@ -66,6 +84,9 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept { give_bac
 namespace fairing::test {
 
 std::int64_t live_allocations() { return live.load(); }
+std::int64_t live_bytes() { return bytes.load(); }
+std::int64_t peak_bytes() { return peak.load(); }
+void restart_peak() { peak = bytes.load(); }
 
 FailingAllocation::FailingAllocation(std::int64_t n) {
   counted = 0;

@@ -11,6 +11,12 @@ namespace fairing::test {
 // address sanitizer.
 std::int64_t live_allocations();
 
+// The bytes of those, and the most that there have been since the last call of restart_peak(). On
+// Linux only: elsewhere 0.
+std::int64_t live_bytes();
+std::int64_t peak_bytes();
+void restart_peak();
+
 // While it exists, the n-th allocation from now on fails, on whatever thread, and no other; 0: none.
 class FailingAllocation {
  public:
