@@ -105,11 +105,11 @@ def test_marked_edges_are_selected_again():
 def test_the_surface_has_straight_edges_where_they_are_marked():
     source = sheet()
     mark(source, "LINEAR", *BOTTOM[:2])
-    surface = fair(levels=3)
+    surface = fair(levels=3, boundary="CURVE")
     assert [straight(surface, source, a, b) for a, b in BOTTOM] == [7, 7, 0]
     assert BOUNDARY not in surface.data.attributes
     plain = sheet("Plain")
-    assert straight(fair(levels=3), plain, *BOTTOM[0]) == 0
+    assert straight(fair(levels=3, boundary="CURVE"), plain, *BOTTOM[0]) == 0
 
 
 def test_marks_of_another_kind_or_number_count_for_nothing():
