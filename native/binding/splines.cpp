@@ -8,6 +8,7 @@
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/runner.h"
+#include "splines/curve_data.h"
 #include "splines/turns.h"
 
 namespace py = pybind11;
@@ -115,7 +116,9 @@ py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::
                       int threads) {
   const Lattice lattice({levels, view(vertices), view(triangles), view(quads), view(crease_edges)});
   Workers workers(threads);
-  return to_numpy(lattice_turns(lattice, make_topology(lattice), least, workers));
+  Topology topology = make_topology(lattice);
+  topology.kinks = CurveSource(lattice, topology).kinks();
+  return to_numpy(lattice_turns(lattice, topology, least, workers));
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ void assemble(const Lattice& lattice, const Topology& topology,
               SplineSurface& out);
 
 // angles_an_edge an edge as assemble() numbers them, radians; NaN where no two patches meet
-// smoothly.
+// smoothly, and at the tips of kinks.
 std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
-                                std::size_t curves, Workers& workers);
+                                const std::vector<FittedCurve>& curves, Workers& workers);
 
 // Of a patch: where it needs more spans.
 struct Directions {
@@ -26,6 +26,7 @@ struct Directions {
 // By patches: along which of its edges with too sharp an angle one is off by a half of it.
 std::vector<Directions> patches_to_refine(const Topology& topology,
                                           const std::vector<FittedPatch>& patches,
-                                          std::size_t curves, double tolerance, Workers& workers);
+                                          const std::vector<FittedCurve>& curves, double tolerance,
+                                          Workers& workers);
 
 }  // namespace fairing

@@ -69,8 +69,13 @@ CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_norm
   const int next = (use.side + 1) % lattice_.corners(use.face);
   CurveData out{edge_points(e), {}, edge.halved};
   const int n = lattice_.n(), stride = n / samples();
+  const auto kink = [&](int corner) {
+    return topology_.kinks[std::size_t(sectors[std::size_t(corner)])] != 0;
+  };
   for (int k = 0; k <= n; k += stride) {
-    if (k > 0 && k < n)
+    if ((k < tip_steps && kink(use.side)) || (n - k < tip_steps && kink(next)))
+      out.normals.push_back(Vec3::Zero());
+    else if (k > 0 && k < n)
       out.normals.push_back(edge_normal(edge, k));
     else
       out.normals.push_back(sector_normals[std::size_t(sectors[std::size_t(k ? next : use.side)])]);
@@ -79,7 +84,7 @@ CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_norm
 }
 
 void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
-                                     const std::vector<FittedCurve>& curves,
+                                     const std::vector<FittedCurve>* curves,
                                      std::vector<Vec3>& tangents) const {
   const Index e = topology_.face_edges[std::size_t(f)][std::size_t(s)];
   const ControlEdge& edge = topology_.edges[std::size_t(e)];
@@ -87,11 +92,30 @@ void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
   bool back = false;
   for (const SideUse& use : edge.uses)
     if (use.face == f && use.side == s) back = use.reversed;
-  const Vec3 tangent = curves[std::size_t(e)].curve.at(at_end != back ? 1.0 : 0.0).tangent;
-  tangents.push_back(tangent.normalized() * (at_end != back ? -1.0 : 1.0));
+  const bool from_end = at_end != back;
+  const Vec3 tangent = curves ? (*curves)[std::size_t(e)].curve.at(from_end ? 1.0 : 0.0).tangent *
+                                    (from_end ? -1 : 1)
+                              : end_tangent(e, from_end);
+  tangents.push_back(tangent.normalized());
 }
 
-Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>& curves) const {
+// Away from an end of a line of the lattice: that of the cubic through its first points.
+Vec3 CurveSource::end_tangent(Index e, bool at_end) const {
+  const SideUse& use = topology_.edges[std::size_t(e)].uses.front();
+  const auto at = [&](int k) {
+    return lattice_.position(lattice_.point(use.face, use.side, at_end ? lattice_.n() - k : k, 0));
+  };
+  return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
+}
+
+std::vector<std::uint8_t> CurveSource::kinks() const {
+  std::vector<std::uint8_t> out;
+  for (std::size_t s = 0; s < topology_.sectors.size(); ++s)
+    out.push_back(sector_normal(Index(s), nullptr).isZero());
+  return out;
+}
+
+Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* curves) const {
   std::vector<Vec3> nearby, tangents;
   Vec3 guess = Vec3::Zero(), centre = Vec3::Zero();
   const int n = lattice_.n();

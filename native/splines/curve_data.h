@@ -16,19 +16,26 @@ class CurveSource {
   CurveData sharp_edge(Index e) const;
   // The normal of the surface at the vertex of a sector. Where creases bound the sector, their
   // `curves` lie in its plane. Zero where these cannot: the surface has a kink there.
-  Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const;
+  Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const {
+    return sector_normal(sector, &curves);
+  }
   CurveData smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const;
   // From the middle of side s of triangle f to its centroid; `edge` is the side's curve.
   CurveData inner(Index f, int s, const FittedCurve& edge) const;
 
+  // By sectors: those, as the lattice's own lines say.
+  std::vector<std::uint8_t> kinks() const;
+
  private:
   int samples() const;
+  Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
+  Vec3 end_tangent(Index e, bool at_end) const;
   std::vector<Vec3> edge_points(Index e) const;
   Vec3 edge_normal(const ControlEdge& edge, int k) const;
   Vec3 on_median(Index f, int s, double row) const;
   Vec3 centroid(Index f) const;
   Vec3 normal_inside(Index f, double i, double j, const Vec3& at) const;
-  void add_crease_tangent(Index f, int s, bool at_end, const std::vector<FittedCurve>& curves,
+  void add_crease_tangent(Index f, int s, bool at_end, const std::vector<FittedCurve>* curves,
                           std::vector<Vec3>& tangents) const;
 
   const Lattice& lattice_;

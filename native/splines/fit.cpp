@@ -43,6 +43,7 @@ class Fitting {
   SplineSurface run() {
     SplineSurface out;
     monitor_.report(Phase::patches, 0);
+    topology_.kinks = CurveSource(lattice_, topology_).kinks();
     out.lattice_turn = lattice_turns(lattice_, topology_, tolerance(), workers_);
     turns_ = out.lattice_turn;
     monitor_.report(Phase::patches, 0.05);
@@ -54,7 +55,7 @@ class Fitting {
     monitor_.report(Phase::patches, 0.7);
     refine_at_edges(0.7);
     if (sharpen()) refine_at_edges(0.85);
-    out.angles = edge_angles(topology_, fitted_, curves_.size(), workers_);
+    out.angles = edge_angles(topology_, fitted_, curves_, workers_);
     assemble(lattice_, topology_, curves_, fitted_, out);
     monitor_.report(Phase::done, 1);
     return out;
@@ -114,7 +115,7 @@ class Fitting {
 
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
-    PatchData data = patch_data(lattice_, place, curves_);
+    PatchData data = patch_data(lattice_, topology_, place, curves_);
     data.tolerance = patch_share * tolerance();
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
     data.may_fold = turns_[std::size_t(place.face)] > hopeless;
@@ -191,7 +192,7 @@ class Fitting {
   // where nothing changed.
   bool add_spans_at_edges() {
     const std::vector<Directions> wanted =
-        patches_to_refine(topology_, fitted_, curves_.size(), options_.normal_tolerance, workers_);
+        patches_to_refine(topology_, fitted_, curves_, options_.normal_tolerance, workers_);
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
     for_each(fitted_.size(), [&](std::size_t p) {
       if (!wanted[p].any()) return;

@@ -38,7 +38,8 @@ struct SplineSurface {
   std::vector<Index> face;                   // the control face of each patch, triangles first
   std::vector<std::vector<LoopEdge>> loops;  // of each patch, counter-clockwise
   std::vector<double> residual, turned;      // of each patch
-  std::vector<double> angles;  // angles_an_edge a smooth edge, evenly along it; else NaN
+  std::vector<double>
+      angles;  // angles_an_edge a smooth edge, evenly along it; NaN in tips and else
   // The sharpest turn of the lattice, by control faces, and whether patches there fold.
   std::vector<double> lattice_turn;
   double size = 0;

@@ -149,7 +149,7 @@ double on_side(const PatchSide& side, double t) {
   return side.reversed ? 1 - along : along;
 }
 
-PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
+PatchData patch_data(const Lattice& lattice, const Topology& topology, const PatchPlace& place,
                      const std::vector<FittedCurve>& curves) {
   PatchData out;
   out.size = lattice.size();
@@ -174,9 +174,13 @@ PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
   }
   for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
     const Vec3 normal = area_normal(lattice, place.face, p);
-    PatchSample sample{
-        lattice.position(place.face, p),  normal.normalized(), (1 - v) * below(u) + v * above(u),
-        (1 - u) * left(v) + u * right(v), normal.norm(),       true};
+    const bool tip = in_tip(lattice, topology, place.face, p);
+    PatchSample sample{.at = lattice.position(place.face, p),
+                       .normal = tip ? Vec3(Vec3::Zero()) : normal.normalized(),
+                       .u = (1 - v) * below(u) + v * above(u),
+                       .v = (1 - u) * left(v) + u * right(v),
+                       .area = normal.norm(),
+                       .fitted = true};
     if (place.corner < 0) {
       const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
       const double a = share_u[at], b = share_v[at];

@@ -10,7 +10,7 @@ namespace fairing {
 
 // Sides are those parts of `curves`, in their own spans. Of the lattice's points so many are fitted
 // as `spans` a direction need; all are measured.
-PatchData patch_data(const Lattice& lattice, const PatchPlace& place,
+PatchData patch_data(const Lattice& lattice, const Topology& topology, const PatchPlace& place,
                      const std::vector<FittedCurve>& curves);
 void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data);
 

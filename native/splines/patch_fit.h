@@ -10,7 +10,7 @@
 namespace fairing {
 
 struct PatchSample {
-  Vec3 at, normal;  // of the lattice
+  Vec3 at, normal;  // of the lattice; zero at the tip of a kink
   double u, v;
   double area;  // that it stands for, to a factor that all share
   bool fitted;  // or only measured

@@ -134,6 +134,19 @@ PatchPlace triangle_patch(const Topology& topology, Index f, int c) {
 
 }  // namespace
 
+bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p) {
+  const int n = lattice.n(), far = n - p.i - p.j;
+  const std::array<int, 4> in_quad{std::max(p.i, p.j), std::max(n - p.i, p.j),
+                                   std::max(n - p.i, n - p.j), std::max(p.i, n - p.j)};
+  const std::array<int, 4> in_triangle{n - far, n - p.i, n - p.j, n};
+  const std::array<int, 4>& steps = lattice.quad(f) ? in_quad : in_triangle;
+  for (int c = 0; c < lattice.corners(f); ++c) {
+    const Index sector = topology.face_sectors[std::size_t(f)][std::size_t(c)];
+    if (steps[std::size_t(c)] < tip_steps && topology.kinks[std::size_t(sector)]) return true;
+  }
+  return false;
+}
+
 Topology make_topology(const Lattice& lattice) {
   Topology out;
   find_edges(lattice, out);

@@ -50,11 +50,20 @@ struct Topology {
   std::vector<std::array<Index, 4>> face_sectors;  // by corner
   std::vector<std::vector<GridPoint>> sectors;     // corners: i the face, j the corner
   std::vector<PatchPlace> patches;
+  // By sectors: whether the surface has a kink there (CurveSource::kinks()).
+  std::vector<std::uint8_t> kinks;
 
   Index curves(const Lattice& lattice) const {
     return Index(edges.size()) + 3 * lattice.triangle_faces();
   }
 };
+
+// A kink is the tip of a cone: cells next to it turn at every level. So many of them, from the tip,
+// say nothing of a surface that is smooth elsewhere; nor do patches there.
+constexpr int tip_steps = 4;
+
+// Whether a point of a control face is in such a tip.
+bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p);
 
 Topology make_topology(const Lattice& lattice);
 

@@ -42,22 +42,24 @@ class Turn {
   double least_, sharpest_ = 0;
 };
 
-double turn_in_quad(const Lattice& lattice, Index f, double least) {
+double turn_in_quad(const Lattice& lattice, const Topology& topology, Index f, double least) {
   const int n = lattice.n();
+  const auto tip = [&](int i, int j) { return in_tip(lattice, topology, f, {i, j}); };
   const auto at = [&](int i, int j) { return lattice.position(f, {i, j}); };
   std::vector<Cell> below(std::size_t(n), Cell{Vec3::Zero(), 0});
   Turn turn(least);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const Cell cell = cell_across(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-      if (i > 0) turn.between(below[std::size_t(i - 1)], cell);
-      if (j > 0) turn.between(below[std::size_t(i)], cell);
+      // the line between two cells
+      if (i > 0 && !tip(i, j) && !tip(i, j + 1)) turn.between(below[std::size_t(i - 1)], cell);
+      if (j > 0 && !tip(i, j) && !tip(i + 1, j)) turn.between(below[std::size_t(i)], cell);
       below[std::size_t(i)] = cell;
     }
   return turn.sharpest();
 }
 
-double turn_in_triangle(const Lattice& lattice, Index f, double least) {
+double turn_in_triangle(const Lattice& lattice, const Topology& topology, Index f, double least) {
   const int n = lattice.n();
   const auto at = [&](int i, int j) { return lattice.position(f, {i, j}); };
   const auto upward = [&](int i, int j) {
@@ -66,6 +68,9 @@ double turn_in_triangle(const Lattice& lattice, Index f, double least) {
   Turn turn(least);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i + j + 1 < n; ++i) {  // the downward cell, and its three neighbours
+      if (in_tip(lattice, topology, f, {i, j}) || in_tip(lattice, topology, f, {i + 1, j}) ||
+          in_tip(lattice, topology, f, {i, j + 1}))
+        continue;
       const Cell down = triangle_cell(at(i + 1, j + 1), at(i, j + 1), at(i + 1, j));
       for (const Cell& up : {upward(i, j), upward(i + 1, j), upward(i, j + 1)})
         turn.between(down, up);
@@ -91,16 +96,23 @@ std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topolo
   std::vector<double> turns(std::size_t(lattice.faces()));
   workers.for_parts(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      turns[f] = lattice.quad(Index(f)) ? turn_in_quad(lattice, Index(f), least)
-                                        : turn_in_triangle(lattice, Index(f), least);
+      turns[f] = lattice.quad(Index(f)) ? turn_in_quad(lattice, topology, Index(f), least)
+                                        : turn_in_triangle(lattice, topology, Index(f), least);
   });
   for (std::size_t e = 0; e < topology.edges.size(); ++e) {
     stop_if_cancelled(e);
     const ControlEdge& edge = topology.edges[e];
     if (edge.kind != EdgeKind::smooth) continue;
     Turn turn(least);
+    const SideUse& first = edge.uses[0];
+    const auto tip = [&](int k) {
+      const bool quad = lattice.quad(first.face);
+      return in_tip(lattice, topology, first.face,
+                    closed_point(quad, lattice.n(), first.side, k, 0));
+    };
     for (int k = 0; k < lattice.n(); ++k)
-      turn.between(beside_edge(lattice, edge.uses[0], k), beside_edge(lattice, edge.uses[1], k));
+      if (!tip(k) && !tip(k + 1))
+        turn.between(beside_edge(lattice, edge.uses[0], k), beside_edge(lattice, edge.uses[1], k));
     for (const SideUse& use : edge.uses) {
       double& of_face = turns[std::size_t(use.face)];
       of_face = std::max(of_face, turn.sharpest());

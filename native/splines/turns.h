@@ -8,8 +8,8 @@
 namespace fairing {
 
 // By control faces, radians: the sharpest angle between the normals of two neighbouring cells, at
-// least one of which is the face's. Creases do not count, nor turns that are lower than `least`: at
-// some control vertices the last cells turn at every level, ever smaller ones.
+// least one of which is the face's. Creases and tips of kinks do not count, nor turns that are lower
+// than `least`: at some control vertices the last cells turn at every level, ever smaller ones.
 std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topology, double least,
                                   Workers& workers);
 

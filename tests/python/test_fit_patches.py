@@ -208,6 +208,24 @@ def test_a_surface_that_is_not_resolved_is_refused_by_name():
     assert set(caught.value.elements) <= set(patches.unresolved.tolist())
 
 
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
+@pytest.mark.parametrize("height", [0.0, 0.2, 0.7])
+def test_straight_borders_may_meet_at_corners(height, energy):
+    """Where they are out of the surface's plane it has a kink, the tip of a cone; nothing folds."""
+    mesh = control_meshes.wavy_patch(height=height)
+    patches = df.fit_patches(*mesh, levels=5, boundary="linear", energy=energy)
+    assert not len(patches.unresolved)
+    assert patches.largest_residual <= 1e-3 * patches.size
+    assert np.degrees(patches.turned.max()) < 10
+    straight = patches.edge_kind == 2
+    assert patches.edge_error[straight].max() <= 1e-12 * patches.size
+    # angles are told everywhere but at the tips
+    told = np.isfinite(patches.edge_angles[patches.edge_kind == 0])
+    assert told.all() == (height == 0.0) and told[:, 8].all()
+    if height == 0.0:
+        assert not len(patches.unmet)
+
+
 def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
     """A leaf bent back onto itself: no patch is fitted, and no finer level is computed."""
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]

@@ -68,6 +68,7 @@ CLOSED = [
     pytest.param(made(meshes.mixed_house), id="triangles and quads"),
 ]
 OTHERS = [
+    pytest.param(made(meshes.wavy_patch, boundary="linear"), id="kinks of straight borders"),
     pytest.param(made(example_meshes.fender), id="fender with its border"),
     stored("geometry-central__cat_head.obj"),
     stored("geometry-central__bob_small.ply", levels=3),
