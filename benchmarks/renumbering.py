@@ -83,7 +83,7 @@ def run() -> dict[str, Any]:
             continue
         reports = [r.report for r in results]
         damped = [any(level["damped"] for level in r["curvature"]) for r in reports]
-        energies = [r["energy"]["result"]["total_curvature"] for r in reports]
+        energies = [r["curvature"][-1]["energy"] for r in reports]
         widths = [(r["pads"]["narrower"], r["pads"]["gone"]) for r in reports]
         out[name] = {"moved": moved, "damped": damped, "energies": energies, "narrowed": widths}
         apart = max(energies) / min(energies) - 1 if min(energies) > 0 else 0.0

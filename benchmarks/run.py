@@ -23,6 +23,7 @@ import million
 import pads
 import paper
 import peers
+import renumbering
 import scaling
 import shared
 import side_by_side
@@ -52,6 +53,7 @@ BENCHMARKS = {
     "drag": drag.run,
     "live": live.run,
     "uneven": uneven.run,
+    "renumbering": renumbering.run,
 }
 
 
