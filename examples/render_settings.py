@@ -121,6 +121,16 @@ FIGURES = {
         ),
         SMOOTH,
     ),
+    "fixed_normals": Figure(
+        meshes.sheet_with_normal,
+        View(3.0, turn=20, elevation=24, height=0.4),
+        (
+            Variant("None fixed"),
+            Variant("30° from upright", make=lambda: meshes.sheet_with_normal(30)),
+            Variant("50° from upright", make=lambda: meshes.sheet_with_normal(50)),
+        ),
+        SMOOTH,
+    ),
     "creases": Figure(
         meshes.rimmed_box,
         View(2.1, turn=30, elevation=28, height=0.5),

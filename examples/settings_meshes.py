@@ -124,6 +124,17 @@ def tent_with_side(boundary):
     return control
 
 
+def sheet_with_normal(degrees=None):
+    """A flat sheet of four quads with the normal in its middle fixed, so far from upright."""
+    vertices = [(x, y, 0.35) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+    faces = [(i, i + 3, i + 4, i + 1) for i in (0, 1, 3, 4)]
+    control = add(_lifted(vertices, 0), faces)
+    if degrees is not None:
+        layer = control.data.attributes.new("fair_normal", "FLOAT_VECTOR", "POINT")
+        layer.data[4].vector = (sin(radians(degrees)), 0, cos(radians(degrees)))
+    return control
+
+
 def _lifted(vertices, height):
     """One more vertex, of no face, which stands on the floor, so that what lies flat does not."""
     return [*vertices, (0, 0, -height)]
