@@ -35,3 +35,10 @@ def mesh_poll_reason(targets: Sequence[Any]) -> str:
     if not targets:
         return "Select a mesh object first"
     return LINKED if any(t.library or t.data.library for t in targets) else ""
+
+
+def edit_mode_reason(context: Any, chosen: str) -> str:
+    """The same of the meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
+    if context.mode != "EDIT_MESH":
+        return f"{chosen} are chosen in Edit Mode: press Tab first"
+    return mesh_poll_reason(context.objects_in_mode_unique_data)

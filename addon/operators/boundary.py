@@ -9,7 +9,7 @@ from bpy.props import EnumProperty
 from ..blender import Answer, Context, registration
 from ..choices import EDGE_BOUNDARIES
 from ..mesh.boundary_marks import mark_selected, select_marked
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import ExplainedPoll, edit_mode_reason
 
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 
@@ -20,9 +20,7 @@ class _OfEdges(ExplainedPoll):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        if context.mode != "EDIT_MESH":
-            return "Border edges are chosen in Edit Mode: press Tab first"
-        return mesh_poll_reason(context.objects_in_mode_unique_data)
+        return edit_mode_reason(context, "Border edges")
 
 
 class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):

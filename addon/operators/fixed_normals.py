@@ -11,7 +11,7 @@ from ..blender import Answer, Context, Object, registration
 from ..mesh import fixed_normals
 from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import ExplainedPoll, edit_mode_reason
 
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
@@ -25,9 +25,7 @@ class _OfVertices(ExplainedPoll):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        if context.mode != "EDIT_MESH":
-            return "Vertices are chosen in Edit Mode: press Tab first"
-        return mesh_poll_reason(context.objects_in_mode_unique_data)
+        return edit_mode_reason(context, "Vertices")
 
 
 class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
