@@ -78,6 +78,10 @@ class InPlaceJob:
         self._arguments = core.fair_arguments(
             self._shape.of_arrays(part.arrays), asked, preferences(), region
         )
+        if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
+            corners = np.isin(part.vertices, core.border_corners(self._arrays))
+            given = self._arguments["corner_vertices"]
+            self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
         if wish.release or not refined:
             self._arguments["interpolation"] = "approximate"
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
@@ -196,6 +200,7 @@ def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
         "energy": wish.energy,
         "tension": wish.tension,
         "interpolation": "EXACT",
+        "boundary": "CURVE" if settings.boundary == "CORNERS" else settings.boundary,
         "repair": "REFUSE",
         "symmetry_plane": "NONE",
     }

@@ -2,7 +2,7 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <regex>
+#include <optional>
 
 namespace fairing {
 namespace {
@@ -38,6 +38,26 @@ const Words* noun_of(ElementKind kind, const std::string& noun) {
   for (const auto& [of, words] : nouns)
     if (of == kind && (noun == words.one || noun == words.many)) return &words;
   return nullptr;
+}
+
+// "12 faces (0, 4, …) have" in a message: what it says, and where it begins and ends.
+struct Listed {
+  std::string noun, verb;
+  std::size_t begin, end;
+};
+
+std::optional<Listed> find_listed(const std::string& message) {
+  const std::size_t open = message.find(" ("), close = message.find(") ", open);
+  if (open == std::string::npos || close == std::string::npos) return std::nullopt;
+  const std::size_t space = message.rfind(' ', open - 1);
+  if (space == std::string::npos) return std::nullopt;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t begin = space;
+  while (begin > 0 && is_digit(message[begin - 1])) --begin;
+  if (begin == space) return std::nullopt;
+  const std::size_t verb = close + 2, end = std::min(message.find(' ', verb), message.size());
+  return Listed{message.substr(space + 1, open - space - 1), message.substr(verb, end - verb),
+                begin, end};
 }
 
 // The text, with the first of these words, in either number, in the one asked for.
@@ -134,18 +154,16 @@ std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words v
 
 std::string relisted(const std::string& message, ElementKind kind,
                      std::span<const std::int64_t> ids) {
-  static const std::regex pattern(R"((\d+) ([a-z]+) \([^)]*\) ([a-z]+))");
-  std::smatch found;
-  if (!std::regex_search(message, found, pattern)) return message;
-  const Words* noun = noun_of(kind, found[2]);
+  const std::optional<Listed> found = find_listed(message);
+  const Words* noun = found ? noun_of(kind, found->noun) : nullptr;
   if (!noun) return message;
-  const auto [one, many] = both_numbers(found[3]);
+  const auto [one, many] = both_numbers(found->verb);
   const Words verb{one.c_str(), many.c_str()};
   const bool is_edge = kind == ElementKind::edge;
   const std::string start = is_edge ? listing_pairs(*noun, ids, verb) : listing(*noun, ids, verb);
   const bool single = ids.size() == (is_edge ? 2u : 1u);
-  return found.prefix().str() + start +
-         with_number(found.suffix(), {" and was ", " and were "}, single);
+  return message.substr(0, found->begin) + start +
+         with_number(message.substr(found->end), {" and was ", " and were "}, single);
 }
 
 }  // namespace fairing
