@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from polygons import polygons
 from scenes import CUBE, add, set_edge_attribute
 
 from addon import core
@@ -232,19 +233,6 @@ def test_different_arguments(a, b):
     assert not are_equal({"k": a}, {"k": b})
 
 
-def sheet(positions, faces, boundary_edge=None):
-    """Polygons as ControlArrays."""
-    sizes = [len(face) for face in faces]
-    pairs = [tuple(sorted(pair)) for face in faces for pair in zip(face, face[1:] + face[:1])]
-    edges = sorted(set(pairs))
-    ids = [edges.index(pair) for pair in pairs]
-    return core.ControlArrays(
-        np.array(positions, float), np.array(edges, np.int32), np.concatenate(faces).astype(np.int32),
-        np.array(ids, np.int32), np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
-        None, None, None, boundary_edge,
-    )  # fmt: skip
-
-
 def grid(columns, rows):
     positions = [(x, y, 0) for y in range(rows + 1) for x in range(columns + 1)]
     wide = columns + 1
@@ -257,35 +245,37 @@ def grid(columns, rows):
 
 
 def test_a_sheet_of_quads_keeps_its_corners():
-    assert core.border_corners(sheet(*grid(3, 2))).tolist() == [0, 3, 8, 11]
+    assert core.border_corners(polygons(*grid(3, 2))).tolist() == [0, 3, 8, 11]
 
 
 def test_small_turns_are_no_corners():
     angles = np.linspace(0, 2 * np.pi, 8, endpoint=False)
     disc = [(np.cos(a), np.sin(a), 0) for a in angles]
-    assert not len(core.border_corners(sheet(disc, [list(range(8))])))
+    assert not len(core.border_corners(polygons(disc, [list(range(8))])))
 
 
 def test_the_open_end_of_a_tube_has_no_corners():
     positions = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
     sides = [[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i] for i in range(4)]
-    assert not len(core.border_corners(sheet(positions, sides)))
+    assert not len(core.border_corners(polygons(positions, sides)))
 
 
 def test_an_edge_with_a_boundary_of_its_own_rounds_its_corners():
-    plain = sheet(*grid(3, 2))
+    plain = polygons(*grid(3, 2))
     marks = np.zeros(len(plain.edges), np.int32)
     marks[plain.edges.tolist().index([0, 1])] = 1
-    assert core.border_corners(sheet(*grid(3, 2), marks)).tolist() == [3, 8, 11]
+    assert core.border_corners(polygons(*grid(3, 2), boundary_edge=marks)).tolist() == [3, 8, 11]
 
 
 def test_borders_do_not_end_in_the_symmetry_plane():
-    assert core.border_corners(sheet(*grid(3, 2)), 0).tolist() == [3, 11]
+    assert core.border_corners(polygons(*grid(3, 2)), 0).tolist() == [3, 11]
 
 
 def test_corners_are_the_default_and_a_choice_of_their_own():
     positions, faces = grid(3, 2)
     for boundary, wanted in (("CORNERS", [0, 3, 8, 11]), ("CURVE", []), ("LINEAR", [])):
-        given = core.fair_arguments(sheet(positions, faces), settings(boundary=boundary), Defaults)
+        given = core.fair_arguments(
+            polygons(positions, faces), settings(boundary=boundary), Defaults
+        )
         assert given["corner_vertices"].tolist() == wanted
         assert given["boundary"] == ("curve" if boundary == "CORNERS" else boundary.lower())

@@ -1,31 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Curvature and folds of surfaces whose answer is known, and how the error shrinks."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from polygons import polygons
 
+from addon.core import ControlArrays
 from addon.inspection import curvature, measures
-
-
-def surface(positions, faces, sharp=None):
-    """Polygon arrays as read.mesh makes them, from lists."""
-    sizes = np.array([len(face) for face in faces], np.int64)
-    corners = np.concatenate([np.asarray(face, np.int32) for face in faces])
-    following = np.concatenate([np.roll(face, -1) for face in faces])
-    ends = np.sort(np.stack([corners, following], axis=1), axis=1)
-    edges, corner_edges = np.unique(ends, axis=0, return_inverse=True)
-    return SimpleNamespace(
-        positions=np.asarray(positions, float),
-        edges=edges.astype(np.int32),
-        corners=corners,
-        corner_edges=corner_edges.ravel().astype(np.int32),
-        offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
-        sharp_edge=None
-        if sharp is None
-        else np.array([tuple(e) in {tuple(sorted(s)) for s in sharp} for e in edges.tolist()]),
-    )
 
 
 def grid(shape, n, m, close_u, close_v, diagonals=True):
@@ -41,7 +24,7 @@ def grid(shape, n, m, close_u, close_v, diagonals=True):
             a, b = i * m + j, (i + 1) % n * m + j
             c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
             faces += [(a, b, c), (a, c, d)] if diagonals else [(a, b, c, d)]
-    return surface(positions, faces)
+    return polygons(positions, faces)
 
 
 def torus(n, diagonals=False):
@@ -85,7 +68,7 @@ def sphere(levels):
                             for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
                         ]
                     )
-    return surface(positions, faces)
+    return polygons(positions, faces)
 
 
 def test_sphere_bulges_with_curvature_one():
@@ -98,8 +81,8 @@ def test_sphere_bulges_with_curvature_one():
 
 
 def test_inside_out_sphere_is_hollow():
-    inside_out = sphere(3)
-    inside_out.corners = inside_out.corners.reshape(-1, 4)[:, ::-1].ravel()
+    ball = sphere(3)
+    inside_out = replace(ball, corners=ball.corners.reshape(-1, 4)[:, ::-1].ravel())
     bent = curvature.curvature(inside_out)
     assert (bent.mean < -0.9).all() and (bent.gauss > 0.9).all()
 
@@ -162,17 +145,17 @@ def test_curvature_stops_at_sharp_edges():
         (2, 2, 1),
     ]
     faces = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)]
-    assert curvature.curvature(surface(positions, faces)).inner.tolist() == [
+    assert curvature.curvature(polygons(positions, faces)).inner.tolist() == [
         i == 4 for i in range(9)
     ]
-    bent = curvature.curvature(surface(positions, faces, [(1, 4), (4, 7)]))
+    bent = curvature.curvature(polygons(positions, faces, [(1, 4), (4, 7)]))
     assert not bent.inner.any() and not bent.mean.any()
 
 
 def test_total_curvature_of_a_sphere_does_not_depend_on_its_size():
     for radius in (1.0, 10.0):
         ball = sphere(4)
-        ball.positions = ball.positions * radius
+        ball = replace(ball, positions=ball.positions * radius)
         assert measures.total_curvature(curvature.curvature(ball)) == pytest.approx(
             8 * np.pi, rel=0.01
         )
@@ -181,18 +164,18 @@ def test_total_curvature_of_a_sphere_does_not_depend_on_its_size():
 def test_folds_of_a_box_are_right_angles():
     box = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    angles, inside = measures.fold_angles(surface(box, faces))
+    angles, inside = measures.fold_angles(polygons(box, faces))
     assert inside.all() and np.allclose(angles, 90)
     turned = [faces[0][::-1], *faces[1:]]
-    assert np.allclose(measures.fold_angles(surface(box, turned))[0], 90)
-    every = surface(box, faces).edges.tolist()
-    assert measures.worst_folds(surface(box, faces, every)) == (0.0, pytest.approx(90))
+    assert np.allclose(measures.fold_angles(polygons(box, turned))[0], 90)
+    every = polygons(box, faces).edges.tolist()
+    assert measures.worst_folds(polygons(box, faces, every)) == (0.0, pytest.approx(90))
 
 
 def test_a_tiny_fold_keeps_its_digits():
     h = 1e-7
     angles, inside = measures.fold_angles(
-        surface([(0, 0, 0), (0, 1, 0), (-1, 0, 0), (1, 0, h)], [(0, 1, 2), (1, 0, 3)])
+        polygons([(0, 0, 0), (0, 1, 0), (-1, 0, 0), (1, 0, h)], [(0, 1, 2), (1, 0, 3)])
     )
     assert angles[inside] == pytest.approx(np.degrees(h), rel=1e-6)
 
@@ -242,19 +225,21 @@ def test_larger_polygons_become_fans_and_lines_nothing():
 
 def test_degenerate_faces_give_finite_numbers():
     positions = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 0), (0, 0, 0)]
-    mesh = surface(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
+    mesh = polygons(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
     bent = curvature.curvature(mesh)
     assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
     assert all(np.isfinite(v) for v in measures.measure(mesh).values())
 
 
 def test_nothing_to_measure():
-    empty = SimpleNamespace(
+    empty = ControlArrays(
         positions=np.empty((0, 3)),
         edges=np.empty((0, 2), np.int32),
         corners=np.empty(0, np.int32),
         corner_edges=np.empty(0, np.int32),
         offsets=np.zeros(1, np.int32),
+        edge_crease=None,
+        vertex_crease=None,
         sharp_edge=None,
     )
     assert measures.measure(empty)["largest_curvature"] == 0.0

@@ -18,7 +18,7 @@ def add_crumpled():
     points = positions(ball.data)
     random = np.random.default_rng(4)
     points = points * (1 + random.uniform(-1, 1, len(points))[:, None])
-    points += 0.3 * random.uniform(-1, 1, points.shape)
+    points += 0.5 * random.uniform(-1, 1, points.shape)
     ball.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
     return ball
 
