@@ -5,6 +5,7 @@ import tracemalloc
 
 import control_meshes
 import discrete_fairing as df
+import example_meshes
 import numpy as np
 import pytest
 from discrete_fairing import fitting
@@ -224,6 +225,31 @@ def test_straight_borders_may_meet_at_corners(height, energy):
     assert told.all() == (height == 0.0) and told[:, 8].all()
     if height == 0.0:
         assert not len(patches.unmet)
+
+
+@pytest.mark.parametrize("axis", [(1, 1, 1), (-1, -1, -1), (-1, -1, 1)])
+def test_kinks_are_the_same_whichever_way_they_look(axis):
+    """A tip has no normals, and so no angle with a patch, whatever its signs."""
+    points, faces = control_meshes.wavy_patch(height=0.2)
+    up = np.divide(axis, np.linalg.norm(axis))
+    across = np.cross(up, [1, 0, 0]) / np.linalg.norm(np.cross(up, [1, 0, 0]))
+    turned = points @ np.stack([np.cross(across, up), across, up])
+    patches = df.fit_patches(turned, faces, levels=4, boundary="linear", insist=True)
+    assert not len(patches.unresolved)
+    assert np.degrees(patches.turned.max()) < 10
+
+
+def test_creases_may_have_corners_all_along():
+    """Curves that end in the kinks there run on; once some turned back, and patches folded."""
+    mesh, creases = example_meshes.hull()
+    patches = df.fit_patches(*mesh, levels=5, crease_edges=creases, corner_angle=0.1)
+    assert np.degrees(patches.turned.max()) < 20
+    assert patches.largest_residual <= 1e-3 * patches.size
+    inside = np.linspace(0, 1, 65)[1:-1]
+    for e in range(len(patches.edge_spans)):
+        points = patches.edge(e)
+        speed = basis(patches.edge_spans[e], inside)[1] @ points @ (points[-1] - points[0])
+        assert speed.min() > 0
 
 
 def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
