@@ -22,7 +22,7 @@ constexpr int refits = 3;
 constexpr double end_share = 0.35;
 constexpr int least_graded = 4;
 // A tangent has at least this cosine with the line of the points nearby.
-constexpr double least_along = 0.5;
+constexpr double least_along = 0.87;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 

@@ -239,6 +239,20 @@ def test_kinks_are_the_same_whichever_way_they_look(axis):
     assert np.degrees(patches.turned.max()) < 10
 
 
+@pytest.mark.parametrize("height", [0.02, 0.03])
+def test_slight_kinks_are_met_and_their_angles_told(height):
+    """A straight border that bends a little at each vertex, out of the surface, bends the surface too:
+    no patch can take that back, and none leaves the surface for it.
+    """
+    points, faces = control_meshes.grid()
+    points[:, 2] = height * (points[:, 0] - 2) ** 2
+    patches = df.fit_patches(points, faces, levels=5, boundary="linear")
+    assert patches.largest_residual <= 1e-4 * patches.size
+    assert patches.largest_angle == pytest.approx(2 * height, rel=0.02)
+    assert np.nanmax(patches.edge_angles[:, 3:-3]) < 2 * patches.normal_tolerance
+    assert patches.unmet.tolist() == [0, 1, 2, 3, 12, 13, 14, 15]  # those at the two borders
+
+
 def test_creases_may_have_corners_all_along():
     """Curves that end in the kinks there run on; once some turned back, and patches folded."""
     mesh, creases = example_meshes.hull()
