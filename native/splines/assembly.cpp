@@ -63,7 +63,8 @@ bool meets_smoothly(const Topology& topology, std::size_t curve) {
   return curve >= topology.edges.size() || topology.edges[curve].kind == EdgeKind::smooth;
 }
 
-// Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals there.
+// Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals
+// there.
 bool in_tip(const Topology& topology, const std::vector<FittedCurve>& curves, std::size_t c,
             double t, Kink least) {
   if (c >= topology.edges.size()) return false;

@@ -45,8 +45,8 @@ struct PatchPlace {
   std::array<PatchSide, 4> side;
 };
 
-// Whether the creases that bound a sector of a vertex lie in one plane there, as in a surface that is
-// smooth; out of it they bend slightly, or so sharply that no patch can be judged at the vertex.
+// Whether the creases that bound a sector of a vertex lie in one plane there, as in a surface that
+// is smooth; out of it they bend slightly, or so sharply that no patch can be judged at the vertex.
 enum class Kink : std::uint8_t { none, slight, sharp };
 
 struct Topology {

@@ -23,6 +23,8 @@ SMOOTH = {
 }
 CAT = SHARED / "good" / "cages" / "geometry-central__cat_head.obj"
 
+STRIPS = SHARED / "good" / "cages" / "opensubdiv-shapes__catmark_quadstrips.obj"
+
 
 @pytest.fixture(scope="module")
 def fitted():
@@ -241,7 +243,7 @@ def test_kinks_are_the_same_whichever_way_they_look(axis):
 
 @pytest.mark.parametrize("height", [0.02, 0.03])
 def test_slight_kinks_are_met_and_their_angles_told(height):
-    """A straight border that bends a little at each vertex, out of the surface, bends the surface too:
+    """A straight border that bends a little at its vertices, out of the surface, bends that too:
     no patch can take that back, and none leaves the surface for it.
     """
     points, faces = control_meshes.grid()
@@ -264,6 +266,13 @@ def test_creases_may_have_corners_all_along():
         points = patches.edge(e)
         speed = basis(patches.edge_spans[e], inside)[1] @ points @ (points[-1] - points[0])
         assert speed.min() > 0
+
+
+@pytest.mark.skipif(not STRIPS.is_file(), reason="no shared meshes")
+def test_curves_that_end_at_a_corner_do_not_cross_there():
+    """Curves that left their lines by 50 degrees at their ends made patches fold."""
+    patches = df.fit_patches(*read_obj(STRIPS), levels=5, corner_angle=np.radians(60))
+    assert np.degrees(patches.turned.max()) < 20
 
 
 def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
