@@ -46,7 +46,11 @@ def surfaces():
     ):
         yield name, mesh, {"crease_edges": creases}
     yield "fender", fender(), CURVED
-    yield "fender, straight border", fender(), {"boundary": "linear", **CURVED}
+    yield "fender, corners kept", fender(), {"corner_vertices": [0, 8, 36, 44]}
+    yield "fender, straight border", fender(), {"boundary": "linear"}
+    mesh, creases = example_meshes.hull()
+    corners = {"crease_edges": creases, "corner_angle": 0.1}
+    yield "hull, creases with corners", mesh, corners
     yield "three handles", shapes.three_handles(), CURVED
     yield "triangles and quads", shapes.mixed_house(), {}
     folder = SHARED / "good"

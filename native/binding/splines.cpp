@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <array>
+#include <limits>
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
@@ -117,7 +118,8 @@ py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::
   const Lattice lattice({levels, view(vertices), view(triangles), view(quads), view(crease_edges)});
   Workers workers(threads);
   Topology topology = make_topology(lattice);
-  topology.kinks = CurveSource(lattice, topology).kinks();
+  // turns count at slight ones
+  topology.kinks = CurveSource(lattice, topology).kinks(std::numeric_limits<double>::infinity());
   return to_numpy(lattice_turns(lattice, topology, least, workers));
 }
 

@@ -63,17 +63,24 @@ bool meets_smoothly(const Topology& topology, std::size_t curve) {
   return curve >= topology.edges.size() || topology.edges[curve].kind == EdgeKind::smooth;
 }
 
-// Whether t of a smooth curve is in the tip of a kink, where it has no normals.
-bool at_kink(const FittedCurve& curve, double t) {
+// Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals
+// there.
+bool in_tip(const Topology& topology, const std::vector<FittedCurve>& curves, std::size_t c,
+            double t, Kink least) {
+  if (c >= topology.edges.size()) return false;
+  const Index sector = topology.edges[c].sectors[t > 0.5 ? 1 : 0];
+  if (topology.kinks[std::size_t(sector)] < least) return false;
+  const FittedCurve& curve = curves[c];
   const auto& at = curve.parameters;
   const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, t);
   const std::size_t k = std::size_t(after - at.begin());
   return curve.normals[k - 1].isZero() || curve.normals[k].isZero();
 }
 
+// At kinks that are `unjudged` or sharper there are none.
 std::vector<double> angles_of(const Topology& topology, const std::vector<FittedPatch>& patches,
                               const std::vector<FittedCurve>& curves, const EdgeNumbers& numbers,
-                              Workers& workers) {
+                              Kink unjudged, Workers& workers) {
   std::vector<double> angles(numbers.uses.size() * angles_an_edge,
                              std::numeric_limits<double>::quiet_NaN());
   workers.for_parts(numbers.first.size() - 1, 16, [&](std::size_t begin, std::size_t end) {
@@ -86,7 +93,7 @@ std::vector<double> angles_of(const Topology& topology, const std::vector<Fitted
         if (uses.size() != 2) continue;
         for (int k = 0; k < angles_an_edge; ++k) {
           const double t = double(k) / (angles_an_edge - 1);
-          if (at_kink(curves[c], (part + t) / parts)) continue;
+          if (in_tip(topology, curves, c, (part + t) / parts, unjudged)) continue;
           angles[e * angles_an_edge + std::size_t(k)] =
               angle_between(normal_beside(topology, patches, uses[0], part, parts, t),
                             normal_beside(topology, patches, uses[1], part, parts, t));
@@ -167,7 +174,8 @@ void assemble(const Lattice& lattice, const Topology& topology,
 
 std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
                                 const std::vector<FittedCurve>& curves, Workers& workers) {
-  return angles_of(topology, patches, curves, EdgeNumbers(topology, curves.size()), workers);
+  return angles_of(topology, patches, curves, EdgeNumbers(topology, curves.size()), Kink::sharp,
+                   workers);
 }
 
 std::vector<Directions> patches_to_refine(const Topology& topology,
@@ -175,7 +183,8 @@ std::vector<Directions> patches_to_refine(const Topology& topology,
                                           const std::vector<FittedCurve>& curves, double tolerance,
                                           Workers& workers) {
   const EdgeNumbers numbers(topology, curves.size());
-  const std::vector<double> angles = angles_of(topology, patches, curves, numbers, workers);
+  const std::vector<double> angles =
+      angles_of(topology, patches, curves, numbers, Kink::slight, workers);
   std::vector<Directions> wanted(patches.size());
   for (std::size_t e = 0; e < numbers.uses.size(); ++e) {
     stop_if_cancelled(e);

@@ -12,7 +12,7 @@ void assemble(const Lattice& lattice, const Topology& topology,
               SplineSurface& out);
 
 // angles_an_edge an edge as assemble() numbers them, radians; NaN where no two patches meet
-// smoothly, and at the tips of kinks.
+// smoothly, and at the tips of sharp kinks.
 std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
                                 const std::vector<FittedCurve>& curves, Workers& workers);
 

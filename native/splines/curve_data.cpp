@@ -64,21 +64,18 @@ Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
 
 CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const {
   const ControlEdge& edge = topology_.edges[std::size_t(e)];
-  const SideUse& use = edge.uses.front();
-  const auto& sectors = topology_.face_sectors[std::size_t(use.face)];
-  const int next = (use.side + 1) % lattice_.corners(use.face);
   CurveData out{edge_points(e), {}, edge.halved};
   const int n = lattice_.n(), stride = n / samples();
-  const auto kink = [&](int corner) {
-    return topology_.kinks[std::size_t(sectors[std::size_t(corner)])] != 0;
+  const auto kink = [&](std::size_t end) {
+    return topology_.kinks[std::size_t(edge.sectors[end])] != Kink::none;
   };
   for (int k = 0; k <= n; k += stride) {
-    if ((k < tip_steps && kink(use.side)) || (n - k < tip_steps && kink(next)))
+    if ((k < tip_steps && kink(0)) || (n - k < tip_steps && kink(1)))
       out.normals.push_back(Vec3::Zero());
     else if (k > 0 && k < n)
       out.normals.push_back(edge_normal(edge, k));
     else
-      out.normals.push_back(sector_normals[std::size_t(sectors[std::size_t(k ? next : use.side)])]);
+      out.normals.push_back(sector_normals[std::size_t(edge.sectors[k ? 1 : 0])]);
   }
   return out;
 }
@@ -108,15 +105,35 @@ Vec3 CurveSource::end_tangent(Index e, bool at_end) const {
   return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
 }
 
-std::vector<std::uint8_t> CurveSource::kinks() const {
-  std::vector<std::uint8_t> out;
-  for (std::size_t s = 0; s < topology_.sectors.size(); ++s)
-    out.push_back(sector_normal(Index(s), nullptr).isZero());
+std::vector<Kink> CurveSource::kinks(double least) const {
+  std::vector<Kink> out;
+  for (std::size_t s = 0; s < topology_.sectors.size(); ++s) {
+    const Vec3 normal = sector_normal(Index(s), nullptr);
+    const std::vector<Vec3> tangents = crease_tangents(Index(s), nullptr);
+    const bool runs_through = tangents.size() == 2 && tangents[0].dot(tangents[1]) < 0;
+    if (normal.isZero())
+      out.push_back(Kink::sharp);
+    else if (runs_through && std::abs(normal.dot(tangents[0] + tangents[1])) > least)
+      out.push_back(Kink::slight);
+    else
+      out.push_back(Kink::none);
+  }
+  return out;
+}
+
+std::vector<Vec3> CurveSource::crease_tangents(Index sector,
+                                               const std::vector<FittedCurve>* curves) const {
+  std::vector<Vec3> out;
+  for (const auto& [f, c] : topology_.sectors[std::size_t(sector)]) {
+    const int corners = lattice_.corners(f);
+    add_crease_tangent(f, c, false, curves, out);
+    add_crease_tangent(f, (c + corners - 1) % corners, true, curves, out);
+  }
   return out;
 }
 
 Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* curves) const {
-  std::vector<Vec3> nearby, tangents;
+  std::vector<Vec3> nearby;
   Vec3 guess = Vec3::Zero(), centre = Vec3::Zero();
   const int n = lattice_.n();
   for (const auto& [f, c] : topology_.sectors[std::size_t(sector)]) {
@@ -127,11 +144,9 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
         if (k + r > 0) nearby.push_back(lattice_.position(lattice_.point(f, c, k, r)));
     centre = lattice_.position(lattice_.point(f, c, 0, 0));
     guess += lattice_normal(lattice_, f, closed_point(quad, n, c, 0, 0));
-    add_crease_tangent(f, c, false, curves, tangents);
-    add_crease_tangent(f, (c + lattice_.corners(f) - 1) % lattice_.corners(f), true, curves,
-                       tangents);
   }
   const Vec3 normal = fitted_normal(centre, nearby, guess.normalized());
+  const std::vector<Vec3> tangents = crease_tangents(sector, curves);
   if (tangents.empty()) return normal;
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);

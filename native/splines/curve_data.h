@@ -23,11 +23,13 @@ class CurveSource {
   // From the middle of side s of triangle f to its centroid; `edge` is the side's curve.
   CurveData inner(Index f, int s, const FittedCurve& edge) const;
 
-  // By sectors: those, as the lattice's own lines say.
-  std::vector<std::uint8_t> kinks() const;
+  // By sectors, as the lattice's own lines say. Kinks of less than `least` radians are none.
+  std::vector<Kink> kinks(double least) const;
 
  private:
   int samples() const;
+  // Away from the vertex, along the creases that bound a sector.
+  std::vector<Vec3> crease_tangents(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 end_tangent(Index e, bool at_end) const;
   std::vector<Vec3> edge_points(Index e) const;

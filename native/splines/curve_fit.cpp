@@ -21,6 +21,8 @@ constexpr int refits = 3;
 // shorter towards both ends, by this share, follow it.
 constexpr double end_share = 0.35;
 constexpr int least_graded = 4;
+// A tangent has at least this cosine with the line of the points nearby, within the surface.
+constexpr double least_along = 0.7;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 
@@ -172,6 +174,24 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   return out;
 }
 
+// Whether the curve, which is near the points at t, runs along them. Points that slide may draw its
+// end beyond its last point: there it turns back, and patches beside it fold.
+bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
+  const std::size_t last = data.points.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    Vec3 line = data.points[std::min(k + 1, last)] - data.points[k ? k - 1 : 0];
+    if (!data.normals.empty()) line -= line.dot(data.normals[k]) * data.normals[k];
+    const Vec3 tangent = curve.at(t[k]).tangent;
+    if (tangent.dot(line) < least_along * tangent.norm() * line.norm()) return false;
+  }
+  constexpr int samples_a_span = 8;
+  const int count = samples_a_span * curve.spans;
+  for (int k = 0; k < count; ++k)
+    if (curve.at(double(k) / count).tangent.dot(curve.at(double(k + 1) / count).tangent) < 0)
+      return false;
+  return true;
+}
+
 FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool to_ends) {
   FittedCurve out;
   out.normals = data.normals;
@@ -187,7 +207,10 @@ FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool
       if (k < last && !data.is_middle(k)) t = foot_of(out.curve, data.points[k], t);
       along.push_back(out.curve.at(t).tangent.normalized());
     }
-    if (round < refits) out.curve = system.solve(out.parameters, along);
+    if (round == refits) break;
+    SplineCurve next = system.solve(out.parameters, along);
+    if (!runs_along(next, data, out.parameters)) break;
+    out.curve = std::move(next);
   }
   out.error = farthest(out.curve, data, out.parameters);
   return out;

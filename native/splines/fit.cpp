@@ -43,7 +43,7 @@ class Fitting {
   SplineSurface run() {
     SplineSurface out;
     monitor_.report(Phase::patches, 0);
-    topology_.kinks = CurveSource(lattice_, topology_).kinks();
+    topology_.kinks = CurveSource(lattice_, topology_).kinks(options_.normal_tolerance);
     out.lattice_turn = lattice_turns(lattice_, topology_, tolerance(), workers_);
     turns_ = out.lattice_turn;
     monitor_.report(Phase::patches, 0.05);

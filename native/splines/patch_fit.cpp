@@ -159,7 +159,8 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     move_to_foot(patch, sample);
     const SurfacePoint p = patch.at(sample.u, sample.v);
     out.residual = std::max(out.residual, (p.at - sample.at).norm());
-    out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
+    if (!sample.normal.isZero())  // with zero the angle is that of the signs: none, or 180 degrees
+      out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
   }
   for (int s = 0; s < 4; ++s)
     for (const SideNormal& n : data.normals[std::size_t(s)]) {

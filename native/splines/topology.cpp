@@ -100,6 +100,12 @@ void find_sectors(const Lattice& lattice, Topology& out) {
       out.face_sectors[std::size_t(f)][std::size_t(c)] = sector;
     }
   }
+  for (ControlEdge& edge : out.edges) {
+    const SideUse& use = edge.uses.front();
+    const auto& around = out.face_sectors[std::size_t(use.face)];
+    const int next = (use.side + 1) % lattice.corners(use.face);
+    edge.sectors = {around[std::size_t(use.side)], around[std::size_t(next)]};
+  }
 }
 
 bool runs_back(const Topology& topology, Index f, int s) {
@@ -142,7 +148,8 @@ bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint
   const std::array<int, 4>& steps = lattice.quad(f) ? in_quad : in_triangle;
   for (int c = 0; c < lattice.corners(f); ++c) {
     const Index sector = topology.face_sectors[std::size_t(f)][std::size_t(c)];
-    if (steps[std::size_t(c)] < tip_steps && topology.kinks[std::size_t(sector)]) return true;
+    if (steps[std::size_t(c)] < tip_steps && topology.kinks[std::size_t(sector)] == Kink::sharp)
+      return true;
   }
   return false;
 }

@@ -24,6 +24,7 @@ struct ControlEdge {
   EdgeKind kind = EdgeKind::boundary;
   bool halved = false;  // beside a triangle: its patches end in the middle
   std::vector<SideUse> uses;
+  std::array<Index, 2> sectors{-1, -1};  // of its first use, at both ends
 };
 
 // Which part of a curve a patch's side is.
@@ -44,14 +45,17 @@ struct PatchPlace {
   std::array<PatchSide, 4> side;
 };
 
+// Whether the creases that bound a sector of a vertex lie in one plane there, as in a surface that
+// is smooth; out of it they bend slightly, or so sharply that no patch can be judged at the vertex.
+enum class Kink : std::uint8_t { none, slight, sharp };
+
 struct Topology {
   std::vector<ControlEdge> edges;
   std::vector<std::array<Index, 4>> face_edges;    // by side
   std::vector<std::array<Index, 4>> face_sectors;  // by corner
   std::vector<std::vector<GridPoint>> sectors;     // corners: i the face, j the corner
   std::vector<PatchPlace> patches;
-  // By sectors: whether the surface has a kink there (CurveSource::kinks()).
-  std::vector<std::uint8_t> kinks;
+  std::vector<Kink> kinks;  // by sectors (CurveSource::kinks())
 
   Index curves(const Lattice& lattice) const {
     return Index(edges.size()) + 3 * lattice.triangle_faces();
@@ -62,7 +66,7 @@ struct Topology {
 // say nothing of a surface that is smooth elsewhere; nor do patches there.
 constexpr int tip_steps = 4;
 
-// Whether a point of a control face is in such a tip.
+// Whether a point of a control face is in such a tip, of a sharp kink.
 bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p);
 
 Topology make_topology(const Lattice& lattice);

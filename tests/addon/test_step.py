@@ -5,6 +5,8 @@ import re
 from math import pi, sqrt
 
 import bpy
+import control_meshes
+import example_meshes
 import numpy as np
 import pytest
 import step_files
@@ -148,6 +150,19 @@ def test_who_insists_gets_the_faces_marked(tmp_path, capfd):
     assert export(path, insist=True) == {"FINISHED"}
     assert "COLOUR_RGB('',1.0,0.0,0.0)" in path.read_text()
     assert "Warning: Leaf: 2 faces" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("sheet", "borders"), [(example_meshes.fender, 26), (control_meshes.grid, 16)]
+)
+def test_an_open_sheet_keeps_its_corners_by_default(tmp_path, capfd, sheet, borders):
+    points, faces = sheet()
+    add("Sheet", points.tolist(), [tuple(map(int, face)) for face in faces])
+    assert export(tmp_path / "sheet.step") == {"FINISHED"}
+    assert "Warning" not in capfd.readouterr().out
+    found = step_files.read(tmp_path / "sheet.step")
+    assert (found.valid, found.solids, found.shells) == (True, 0, 1)
+    assert (found.faces, found.free_edges) == (len(faces), borders)
 
 
 def test_a_missed_tolerance_is_said_and_the_file_written(tmp_path, capfd):

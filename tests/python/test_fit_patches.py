@@ -5,6 +5,7 @@ import tracemalloc
 
 import control_meshes
 import discrete_fairing as df
+import example_meshes
 import numpy as np
 import pytest
 from discrete_fairing import fitting
@@ -21,6 +22,8 @@ SMOOTH = {
     "triangles and quads": (control_meshes.mixed_house(), {"levels": 6, "tolerance": 1e-3}),
 }
 CAT = SHARED / "good" / "cages" / "geometry-central__cat_head.obj"
+
+STRIPS = SHARED / "good" / "cages" / "opensubdiv-shapes__catmark_quadstrips.obj"
 
 
 @pytest.fixture(scope="module")
@@ -224,6 +227,52 @@ def test_straight_borders_may_meet_at_corners(height, energy):
     assert told.all() == (height == 0.0) and told[:, 8].all()
     if height == 0.0:
         assert not len(patches.unmet)
+
+
+@pytest.mark.parametrize("axis", [(1, 1, 1), (-1, -1, -1), (-1, -1, 1)])
+def test_kinks_are_the_same_whichever_way_they_look(axis):
+    """A tip has no normals, and so no angle with a patch, whatever its signs."""
+    points, faces = control_meshes.wavy_patch(height=0.2)
+    up = np.divide(axis, np.linalg.norm(axis))
+    across = np.cross(up, [1, 0, 0]) / np.linalg.norm(np.cross(up, [1, 0, 0]))
+    turned = points @ np.stack([np.cross(across, up), across, up])
+    patches = df.fit_patches(turned, faces, levels=4, boundary="linear", insist=True)
+    assert not len(patches.unresolved)
+    assert np.degrees(patches.turned.max()) < 10
+
+
+@pytest.mark.parametrize("height", [0.02, 0.03])
+def test_slight_kinks_are_met_and_their_angles_told(height):
+    """A straight border that bends a little at its vertices, out of the surface, bends that too:
+    no patch can take that back, and none leaves the surface for it.
+    """
+    points, faces = control_meshes.grid()
+    points[:, 2] = height * (points[:, 0] - 2) ** 2
+    patches = df.fit_patches(points, faces, levels=5, boundary="linear")
+    assert patches.largest_residual <= 1e-4 * patches.size
+    assert patches.largest_angle == pytest.approx(2 * height, rel=0.02)
+    assert np.nanmax(patches.edge_angles[:, 3:-3]) < 2 * patches.normal_tolerance
+    assert patches.unmet.tolist() == [0, 1, 2, 3, 12, 13, 14, 15]  # those at the two borders
+
+
+def test_creases_may_have_corners_all_along():
+    """Curves that end in the kinks there run on; once some turned back, and patches folded."""
+    mesh, creases = example_meshes.hull()
+    patches = df.fit_patches(*mesh, levels=5, crease_edges=creases, corner_angle=0.1)
+    assert np.degrees(patches.turned.max()) < 20
+    assert patches.largest_residual <= 1e-3 * patches.size
+    inside = np.linspace(0, 1, 65)[1:-1]
+    for e in range(len(patches.edge_spans)):
+        points = patches.edge(e)
+        speed = basis(patches.edge_spans[e], inside)[1] @ points @ (points[-1] - points[0])
+        assert speed.min() > 0
+
+
+@pytest.mark.skipif(not STRIPS.is_file(), reason="no shared meshes")
+def test_curves_that_end_at_a_corner_do_not_cross_there():
+    """Curves that left their lines by 50 degrees at their ends made patches fold."""
+    patches = df.fit_patches(*read_obj(STRIPS), levels=5, corner_angle=np.radians(60))
+    assert np.degrees(patches.turned.max()) < 20
 
 
 def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):

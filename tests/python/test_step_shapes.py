@@ -62,6 +62,7 @@ CLOSED = [
     pytest.param(made(meshes.random_hull, **CURVED), id="random hull"),
     pytest.param(made(meshes.torus, **CURVED), id="Clifford torus"),
     pytest.param(with_creases(example_meshes.hull), id="hull with creases"),
+    pytest.param(with_creases(example_meshes.hull, corner_angle=0.1), id="creases with corners"),
     pytest.param(made(example_meshes.branching, **CURVED), id="genus 2"),
     stored("geometry-central__dodecahedron_poly.obj"),
     pytest.param(with_creases(meshes.box_with_creases), id="box with creases"),
@@ -70,6 +71,10 @@ CLOSED = [
 OTHERS = [
     pytest.param(made(meshes.wavy_patch, boundary="linear"), id="kinks of straight borders"),
     pytest.param(made(example_meshes.fender), id="fender with its border"),
+    pytest.param(
+        made(example_meshes.fender, corner_vertices=[0, 8, 45, 53]), id="fender, corners kept"
+    ),
+    pytest.param(made(example_meshes.fender, boundary="linear"), id="fender, straight border"),
     stored("geometry-central__cat_head.obj"),
     stored("geometry-central__bob_small.ply", levels=3),
     stored("gpytoolbox__hemisphere.obj"),

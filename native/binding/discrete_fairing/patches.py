@@ -47,7 +47,8 @@ class SplinePatches:
     edge_error: (E,) float64, how far the curve is from the refined surface at most: across the
         surface; along it too where the edge is a crease or a border.
     edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
-    along creases and boundaries, and at the tips of kinks, where straight borders meet at a corner.
+    along creases and boundaries, and at the tips of sharp kinks, where borders or creases meet at a
+    corner and the surface does not lie in their plane. At slight ones it is the angle of the kink.
     lattice_error: float, how far the refined surface itself is about from the limit of finer ones;
     NaN where `levels` was given.
     unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
