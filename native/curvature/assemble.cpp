@@ -141,9 +141,9 @@ AssembledSystem CurvatureLevel::assemble() const {
       of_u.emplace_back(3 * k + row % 3, c, entry / root[std::size_t(k)]);
       of_w.emplace_back(3 * k + row % 3, c, entry / root[std::size_t(k)]);
     };
-    system.matrix = congruence(jacobian, &connection, apart > 0 ? take_turned : TurnedEntry{});
+    congruence(jacobian, &connection, apart > 0 ? take_turned : TurnedEntry{}).swap(system.matrix);
   } else {
-    system.matrix = congruence(jacobian, nullptr, {});
+    congruence(jacobian, nullptr, {}).swap(system.matrix);
   }
   const MatrixBytes matrix_held(system.matrix);
   if (apart > 0) {

@@ -83,7 +83,7 @@ bool CoarseSolver::factors() {
   if (factor_->points.empty()) return true;
   MemoryLedger::remove(std::exchange(factor_bytes_, 0));  // it takes the place of the last one
   const SparseMatrix lower = system.matrix.triangularView<Eigen::Lower>();
-  system.matrix = SparseMatrix();
+  SparseMatrix().swap(system.matrix);  // assigning leaves the memory
   // As it is, permuted, and as a pattern.
   const CountedBytes held(2 * matrix_bytes(lower) + matrix_bytes(lower) / 3);
   factor_->compute(lower);
