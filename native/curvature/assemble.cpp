@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curvature/congruence.h"
 #include "curvature/level.h"
 #include "sparse/unknown_points.h"
 
@@ -64,6 +65,36 @@ void border(SparseMatrix& k, Index unknowns, Index rows, const SparseMatrix& u,
   k += whole;
 }
 
+// L, and a share of W.
+SparseMatrix connection_matrix(const RingJacobian& rows, double share) {
+  Triplets entries;
+  std::size_t count = 0;
+  visit_rows(rows, [&](Index, const auto& run, std::size_t, const auto&) {
+    count += 3 + 5 * std::size_t(run.slots - 1);
+  });
+  entries.reserve(count);
+  visit_rows(rows, [&](Index p, const RowRun<const float>& run, std::size_t i,
+                       const std::vector<Index>& at) {
+    for (int c = 0; c < 3; ++c)
+      entries.emplace_back(3 * p + c, 3 * p + c, double(run.at(0, 0, i)) + share);
+    for (int s = 1; s < run.slots; ++s) {
+      const Index q = at[std::size_t(s)];
+      const double cosine = run.at(1, s, i), sine = run.at(2, s, i);
+      entries.emplace_back(3 * p, 3 * q, double(run.at(0, s, i)));
+      entries.emplace_back(3 * p + 1, 3 * q + 1, cosine);
+      entries.emplace_back(3 * p + 1, 3 * q + 2, -sine);
+      entries.emplace_back(3 * p + 2, 3 * q + 1, sine);
+      entries.emplace_back(3 * p + 2, 3 * q + 2, cosine);
+    }
+  });
+  const CountedBytes held(count * sizeof(Triplets::value_type));
+  const auto moments = Eigen::Index(3 * rows.grid().size());
+  SparseMatrix connection(moments, moments);
+  connection.setFromTriplets(entries.begin(), entries.end());
+  const CountedBytes twice(2 * matrix_bytes(connection));  // filled by way of its transpose
+  return connection;
+}
+
 }  // namespace
 
 AssembledSystem CurvatureLevel::assemble() const {
@@ -98,39 +129,23 @@ AssembledSystem CurvatureLevel::assemble() const {
   });
   SparseMatrix jacobian(moments, size);
   jacobian.setFromTriplets(entries.begin(), entries.end());
-  const SparseMatrix transposed = jacobian.transpose();
+  entries = {};
+  const MatrixBytes held(jacobian);
   if (varies()) {
-    entries.clear();
-    visit_rows(connection_->rows(), [&](Index p, const RowRun<const float>& run, std::size_t i,
-                                        const std::vector<Index>& at) {
-      for (int c = 0; c < 3; ++c)
-        entries.emplace_back(3 * p + c, 3 * p + c,
-                             double(run.at(0, 0, i)) + shared_.total_curvature_share);
-      for (int s = 1; s < run.slots; ++s) {
-        const Index q = at[std::size_t(s)];
-        const double cosine = run.at(1, s, i), sine = run.at(2, s, i);
-        entries.emplace_back(3 * p, 3 * q, double(run.at(0, s, i)));
-        entries.emplace_back(3 * p + 1, 3 * q + 1, cosine);
-        entries.emplace_back(3 * p + 1, 3 * q + 2, -sine);
-        entries.emplace_back(3 * p + 2, 3 * q + 1, sine);
-        entries.emplace_back(3 * p + 2, 3 * q + 2, cosine);
-      }
-    });
-    SparseMatrix connection(moments, moments);
-    connection.setFromTriplets(entries.begin(), entries.end());
-    const SparseMatrix turned = connection * jacobian;
-    for (Index c = 0; c < unknowns && apart > 0; ++c)
-      for (SparseMatrix::InnerIterator entry(turned, c); entry; ++entry) {
-        const Index k = large.find(Index(entry.row()) / 3);
-        if (k < 0 || !(root[std::size_t(k)] > 0)) continue;
-        const Index row = 3 * k + Index(entry.row()) % 3;
-        of_u.emplace_back(row, c, entry.value() / root[std::size_t(k)]);
-        of_w.emplace_back(row, c, entry.value() / root[std::size_t(k)]);
-      }
-    system.matrix = transposed * turned;
+    const SparseMatrix connection =
+        connection_matrix(connection_->rows(), shared_.total_curvature_share);
+    const MatrixBytes connection_held(connection);
+    const auto take_turned = [&](Index c, Index row, double entry) {
+      const Index k = large.find(row / 3);
+      if (k < 0 || !(root[std::size_t(k)] > 0)) return;
+      of_u.emplace_back(3 * k + row % 3, c, entry / root[std::size_t(k)]);
+      of_w.emplace_back(3 * k + row % 3, c, entry / root[std::size_t(k)]);
+    };
+    congruence(jacobian, &connection, apart > 0 ? take_turned : TurnedEntry{}).swap(system.matrix);
   } else {
-    system.matrix = transposed * jacobian;
+    congruence(jacobian, nullptr, {}).swap(system.matrix);
   }
+  const MatrixBytes matrix_held(system.matrix);
   if (apart > 0) {
     SparseMatrix u(apart, unknowns), w(varies() ? apart : 0, unknowns);
     u.setFromTriplets(of_u.begin(), of_u.end());

@@ -203,7 +203,7 @@ Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start)
 }
 
 bool Hierarchy::is_too_hard(std::size_t index) const {
-  return may_factor(index) && MemoryLedger::fits(factor_bytes(unknowns_[index])) &&
+  return may_factor(index) && MemoryLedger::fits(factor_price_ * factor_bytes(unknowns_[index])) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index), factor_price_);
 }
 

@@ -22,6 +22,10 @@ constexpr std::size_t vector_room = 16;
 constexpr int most_of_single = 32;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
+// Of its entries, as it is stored.
+inline std::size_t matrix_bytes(const SparseMatrix& matrix) {
+  return std::size_t(matrix.nonZeros()) * (sizeof(double) + sizeof(int));
+}
 
 // A level's operator as a matrix, for a direct solve.
 //

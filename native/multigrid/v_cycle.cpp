@@ -77,12 +77,16 @@ bool CoarseSolver::lessen_trace() {
 }
 
 bool CoarseSolver::factors() {
-  MemoryLedger::remove(std::exchange(factor_bytes_, 0));
   AssembledSystem system = op_.assemble();
   strengthen_diagonal(system, trace_);
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return true;
-  factor_->compute(system.matrix);
+  MemoryLedger::remove(std::exchange(factor_bytes_, 0));  // it takes the place of the last one
+  const SparseMatrix lower = system.matrix.triangularView<Eigen::Lower>();
+  SparseMatrix().swap(system.matrix);  // assigning leaves the memory
+  // As it is, permuted, and as a pattern.
+  const CountedBytes held(2 * matrix_bytes(lower) + matrix_bytes(lower) / 3);
+  factor_->compute(lower);
   // A pivot that is no number is left to the steps, which refuse what comes of it.
   if (factor_->ldlt->info() != Eigen::Success ||
       (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
