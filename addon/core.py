@@ -18,7 +18,6 @@ MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall t
 
 # half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
 _COSINE_OF_CORNER = 0.5
-_IN_PLANE = 1e-6  # share of the mesh's size: vertices nearer to a symmetry plane lie in it
 
 
 @cache
@@ -227,7 +226,7 @@ def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarra
         marked = arrays.boundary_edge[arrays.corner_edges] != 0
         turns &= ~(marked | marked[before])
     if plane is not None and count:
-        near = _IN_PLANE * np.ptp(arrays.positions, axis=0).max()
+        near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
         turns &= np.abs(points[:, plane]) > near
     return np.sort(arrays.corners[turns]).astype(np.int32)
 

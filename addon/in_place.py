@@ -79,7 +79,8 @@ class InPlaceJob:
             self._shape.of_arrays(part.arrays), asked, preferences(), region
         )
         if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
-            corners = np.isin(part.vertices, core.border_corners(self._arrays))
+            whole = core.border_corners(self._shape.of_arrays(self._arrays))
+            corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
         if wish.release or not refined:

@@ -108,9 +108,9 @@ def marked_can():
     return control
 
 
-def tent():
+def tent(height=1.5):
     """An open sheet of four quads, drawn up in the middle."""
-    vertices = [(x, y, 1.5 * (1 - max(abs(x), abs(y)))) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+    vertices = [(x, y, height * (1 - max(abs(x), abs(y)))) for x in (-1, 0, 1) for y in (-1, 0, 1)]
     faces = [(i, i + 3, i + 4, i + 1) for i in (0, 1, 3, 4)]
     return add(_lifted(vertices, 0.35), faces)
 
@@ -126,9 +126,7 @@ def tent_with_side(boundary):
 
 def sheet_with_normal(degrees=None):
     """A flat sheet of four quads with the normal in its middle fixed, so far from upright."""
-    vertices = [(x, y, 0.35) for x in (-1, 0, 1) for y in (-1, 0, 1)]
-    faces = [(i, i + 3, i + 4, i + 1) for i in (0, 1, 3, 4)]
-    control = add(_lifted(vertices, 0), faces)
+    control = tent(0)
     if degrees is not None:
         layer = control.data.attributes.new("fair_normal", "FLOAT_VECTOR", "POINT")
         layer.data[4].vector = (sin(radians(degrees)), 0, cos(radians(degrees)))

@@ -16,10 +16,6 @@ std::string list(Words noun, std::size_t count, Item item, Words verb) {
   return text + (count > shown ? ", …) " : ") ") + (count == 1 ? verb.one : verb.many);
 }
 
-std::string pair_of(std::span<const std::int64_t> ids, std::size_t i) {
-  return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
-}
-
 // Both numbers of an English verb. What is past is the same in both, but for "was".
 std::pair<std::string, std::string> both_numbers(const std::string& verb) {
   for (const Words& irregular : {Words{"is", "are"}, Words{"has", "have"}, Words{"was", "were"}})
@@ -149,7 +145,10 @@ std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb) {
 }
 
 std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
-  return list(noun, ids.size() / 2, [&](std::size_t i) { return pair_of(ids, i); }, verb);
+  const auto pair = [&](std::size_t i) {
+    return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
+  };
+  return list(noun, ids.size() / 2, pair, verb);
 }
 
 std::string relisted(const std::string& message, ElementKind kind,

@@ -89,10 +89,12 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
       predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
                    options_.energy, options_.tension > 0, options_.method == Method::back_leg,
                    options_.interpolation == Interpolation::approximate);
-  size.bytes += std::min(mended_bytes, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  const auto add_bytes = [&](std::int64_t more) {  // as far as they can be counted
+    size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  };
+  add_bytes(mended_bytes);
   normals_ = choose_normals(mesh_, options_);
-  size.bytes += std::min(std::int64_t(Couples::bytes(mesh_, normals_.fixed)),
-                         std::numeric_limits<std::int64_t>::max() - size.bytes);
+  add_bytes(std::int64_t(Couples::bytes(mesh_, normals_.fixed)));
   // What mending took in passing.
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   require_fit(size, options_);

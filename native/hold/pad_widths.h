@@ -17,12 +17,11 @@ constexpr double crumpled = 2.0;
 
 constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
-// What a surface on pads may bend more than one on point forces.
+// How much more than on point forces a surface on pads may bend, as factors.
 struct PadLimits {
-  double slack;  // of a star, so many mean stars' above `crumpled`: what hardly bends may bend more
-  double
-      whole;  // of all stars, times that on point forces. While it is more, the mesh is crumpled, or all pads too wide
-  double strict;    // on a crumpled mesh: of a star, in place of the first
+  double slack;     // a star's, in mean stars above `crumpled`: what hardly bends may bend more
+  double whole;     // all stars': above it the mesh is crumpled, or all pads are too wide
+  double strict;    // a star's on a crumpled mesh, in place of `crumpled`
   int calm_rounds;  // in which all pads are halved where the mesh is not crumpled
 };
 // The plate's own energy is another, so that pads cost little total curvature or gain some. The

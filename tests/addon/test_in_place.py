@@ -270,13 +270,17 @@ def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
     assert (properties["levels"], properties["factor"], properties["joint"]) == (1, 0.5, "TANGENT")
 
 
-def test_corners_of_the_mesh_stay():
-    points = [(x, y, 0.5 * (x == 2 and y == 2)) for y in range(5) for x in range(5)]
+@pytest.mark.parametrize("slant, scale", [(0, 1), (0.7, 3)])
+def test_corners_of_the_mesh_stay(slant, scale):
+    """Also where only the object's scale makes them: at 125 degrees the border would go round."""
+    points = [(x - slant * y, y, 0.5 * (x == 2 and y == 2)) for y in range(5) for x in range(5)]
     faces = [
         (5 * y + x, 5 * y + x + 1, 5 * y + x + 6, 5 * y + x + 5) for y in range(4) for x in range(4)
     ]
     target = add("Sheet", points, faces)
-    select(target, lambda ids: max(max(points[v][:2]) for v in ids) < 3)
+    target.scale.y = scale
+    select(target, lambda ids: max(max(v % 5, v // 5) for v in ids) < 3)
     after = fair(target, levels=2)
+    after[:, 0] += slant * after[:, 1]
     border = after[(after[:, :2] < 0.1).any(axis=1)]
     assert len(border) > 16 and np.abs(border[:, :2].min(axis=1)).max() < 1e-6

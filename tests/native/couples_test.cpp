@@ -119,10 +119,7 @@ TEST(Couples, OfOneSetAreNotNeighbours) {
 TEST(Couples, HoldTheNormals) {
   for (const OwnedPolygonMesh& input : {octahedron(), torus(6, 5), grid(5, 4)})
     for (const double size : {0.0, 1.0}) {
-      OwnedPolygonMesh bent = input;
-      for (std::size_t i = 0; i < bent.coordinates.size(); i += 3)
-        bent.coordinates[i + 2] +=
-            0.2 * std::sin(2 * bent.coordinates[i] + bent.coordinates[i + 1]);
+      const OwnedPolygonMesh bent = waved(input, 0.2);
       FairOptions options;
       options.pad_size = size;
       options.relative_residual = 1e-11;

@@ -333,4 +333,10 @@ OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads) {
   return mesh;
 }
 
+OwnedPolygonMesh waved(OwnedPolygonMesh mesh, double height) {
+  std::vector<double>& x = mesh.coordinates;
+  for (std::size_t i = 0; i < x.size(); i += 3) x[i + 2] += height * std::sin(2 * x[i] + x[i + 1]);
+  return mesh;
+}
+
 }  // namespace fairing::test

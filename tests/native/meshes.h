@@ -30,6 +30,9 @@ OwnedPolygonMesh two_tetrahedra();               // two components
 // Every quad of a mesh of quads, cut from its first corner.
 OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads);
 
+// The mesh with z raised by `height` sin(2x + y).
+OwnedPolygonMesh waved(OwnedPolygonMesh mesh, double height);
+
 // With a boundary.
 OwnedPolygonMesh single_triangle();
 OwnedPolygonMesh single_quad();

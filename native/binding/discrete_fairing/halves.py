@@ -223,9 +223,11 @@ def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
         raise fairing_error(
             "INDEX_OUT_OF_RANGE",
             _native.relisted(
-                f"0 {kind} () are named in {name} but not in the mesh: ", kind, unknown
-            )
-            + f"ids run from 0 to {count - 1}.",
+                f"0 {kind} () are named in {name} but not in the mesh: "
+                f"ids run from 0 to {count - 1}.",
+                kind,
+                unknown,
+            ),
             unknown,
             kind,
         )
