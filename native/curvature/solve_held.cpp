@@ -19,11 +19,12 @@ constexpr double solve_gain = 0.1, least_gain = 0.5;
 // multipliers, by their gap.
 constexpr double force_gain = 0.3, force_gain_of_ends = 0.1, coarse_force_tolerance = 2e-2;
 constexpr double gap_gain = 0.1;
-constexpr int most_corrections = 6;
-// Solves with other multipliers; and where a solve is a factor's.
+// Solves with other loads, and with other ends; more where a factor solves. Loads that do not settle
+// with their ends make steps that burst.
+constexpr int most_corrections = 6, most_cheap_corrections = 20;
+constexpr int most_rounds = 12, most_cheap_rounds = 40;
 // Loads that have been corrected so often, or have settled, tell which ends are right.
 constexpr int telling = 2;
-constexpr int most_rounds = 12, most_cheap_rounds = 40;
 
 // Omega: the points' areas, with what else weighs the energy.
 Array<double> areas_of(const Array<float>& shape, Workers& workers) {
@@ -179,6 +180,11 @@ struct GaussNewtonSystem::HeldSolve {
     ++report.pad_corrections;
   }
 
+  bool is_out_of_corrections(const LevelSolve& solved) const {
+    const bool cheap = solved.direct && hold;
+    return report.pad_corrections >= (cheap ? most_cheap_corrections : most_corrections);
+  }
+
   bool is_out_of_rounds(const LevelSolve& solved) const {
     return report.constraint_rounds >= (solved.direct ? most_cheap_rounds : most_rounds);
   }
@@ -215,7 +221,7 @@ struct GaussNewtonSystem::HeldSolve {
       const bool loads = loads_settled(), tells = loads || ++corrections >= telling,
                  turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
       if (turned) corrections = 0;
-      last = !turned && (loads || report.pad_corrections >= most_corrections);
+      last = !turned && (loads || is_out_of_corrections(solved));
       if (last && (solved.direct || !hold)) return end(solved);
       if (last) continue;
       correct(steps);

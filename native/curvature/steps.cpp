@@ -51,6 +51,10 @@ constexpr double allowed_rise = 0.1;
 // Decrement below which the energy says nothing about a step any more.
 constexpr double unchecked_decrement = 1e-2;
 
+// A step gains the whole energy at the most, a decrement of one. Loads that no solve has settled
+// claim more, and their work hides any rise of the energy. A little of it leads on nevertheless.
+constexpr double largest_decrement = 10;
+
 // Decrement below which steps are accelerated: each then leaves a fixed share of the error.
 constexpr double accelerated_decrement = 0.1;
 constexpr std::size_t accelerated_steps = 3;  // that are remembered
@@ -146,7 +150,8 @@ class TotalCurvatureMethod final : public StepMethod {
   // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
   bool is_acceptable(const StepReport& step, double energy) const override {
     return !is_checked(step) ||
-           !(energy > it_.current.energy * (1 + allowed_rise * step.decrement));
+           (step.decrement <= largest_decrement &&
+            !(energy > it_.current.energy * (1 + allowed_rise * step.decrement)));
   }
 
   bool accept(const StepReport& step, const StepCount& count,
