@@ -49,7 +49,7 @@ def stretched_sheet(count: int = 400, stretch: float = 100.0, seed: int = 1, she
     plane = np.random.default_rng(seed).uniform(size=(count, 2))
     faces = Delaunay(plane * [stretch, 1] if sheared else plane).simplices.astype(int)
     a, b, c = (plane[faces[:, k]] for k in range(3))
-    clockwise = np.cross(b - a, c - a) < 0
+    clockwise = np.linalg.det(np.stack([b - a, c - a], axis=1)) < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
     wave = 0.1 * np.sin(5 * plane[:, 0]) * np.cos(4 * plane[:, 1])
     return np.stack([plane[:, 0] * (1 if sheared else stretch), plane[:, 1], wave], -1), faces
