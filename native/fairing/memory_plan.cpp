@@ -87,7 +87,7 @@ std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
     if (c.points(l) - c.vertices <= std::int64_t(direct_limit_of_hard)) hard = l;
   if (hard < 0) return on_finest;
   const std::int64_t points = c.points(hard);
-  const double factor = double(factor_entry) * columns_of_variation(c, hard, points);
+  const double factor = double(matrix_entry) * columns_of_variation(c, hard, points);
   return std::int64_t(factor * double(points)) + std::max(on_finest, mixed(c, 1450, 1930) * points);
 }
 
@@ -105,10 +105,9 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, st
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.points(l);
   const std::int64_t rows = (varies ? 2 * row + moments : row + block_bytes(c)) +
                             (tense ? row / 3 : 0),
-                     on_finest = surfaces * c.points(levels);
+                     on_finest = surfaces * c.points(levels), usual = on_finest + factor;
   return rows * all_points + normal_matrices +
-         (varies ? std::max(hard_bytes(c, levels, on_finest), on_finest + factor)
-                 : on_finest + factor);
+         (varies ? std::max(hard_bytes(c, levels, on_finest), usual) : usual);
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level

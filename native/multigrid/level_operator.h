@@ -22,9 +22,9 @@ constexpr std::size_t vector_room = 16;
 constexpr int most_of_single = 32;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-// Of its entries, as it is stored.
+constexpr std::size_t matrix_entry = sizeof(double) + sizeof(int);  // bytes, as it is stored
 inline std::size_t matrix_bytes(const SparseMatrix& matrix) {
-  return std::size_t(matrix.nonZeros()) * (sizeof(double) + sizeof(int));
+  return std::size_t(matrix.nonZeros()) * matrix_entry;
 }
 
 // A level's operator as a matrix, for a direct solve.

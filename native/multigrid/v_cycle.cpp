@@ -92,7 +92,7 @@ bool CoarseSolver::factors() {
       (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
     return false;
   factor_numbers_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros());
-  factor_bytes_ = factor_numbers_ * (sizeof(double) + sizeof(int));
+  factor_bytes_ = factor_numbers_ * matrix_entry;
   MemoryLedger::add(factor_bytes_);
   return true;
 }

@@ -59,10 +59,9 @@ constexpr std::size_t direct_limit = 6000, direct_limit_of_hard = 80000;
 constexpr std::size_t direct_limit_of_steps = 16000;
 
 // About what a factor of so many unknowns of a plate takes. Minimum degree leaves some 40 + 4 log2 n
-// entries a column, each a number and an index.
-constexpr std::size_t factor_entry = sizeof(double) + sizeof(int);
+// entries a column.
 constexpr std::size_t factor_bytes(std::size_t unknowns) {
-  return factor_entry * unknowns * (40 + 4 * std::size_t(std::bit_width(unknowns)));
+  return matrix_entry * unknowns * (40 + 4 * std::size_t(std::bit_width(unknowns)));
 }
 
 // One level as the cycle sees it.

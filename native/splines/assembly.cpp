@@ -65,8 +65,8 @@ bool meets_smoothly(const Topology& topology, std::size_t curve) {
 
 // Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals
 // there.
-bool in_tip(const Topology& topology, const std::vector<FittedCurve>& curves, std::size_t c,
-            double t, Kink least) {
+bool at_kink(const Topology& topology, const std::vector<FittedCurve>& curves, std::size_t c,
+             double t, Kink least) {
   if (c >= topology.edges.size()) return false;
   const Index sector = topology.edges[c].sectors[t > 0.5 ? 1 : 0];
   if (topology.kinks[std::size_t(sector)] < least) return false;
@@ -93,7 +93,7 @@ std::vector<double> angles_of(const Topology& topology, const std::vector<Fitted
         if (uses.size() != 2) continue;
         for (int k = 0; k < angles_an_edge; ++k) {
           const double t = double(k) / (angles_an_edge - 1);
-          if (in_tip(topology, curves, c, (part + t) / parts, unjudged)) continue;
+          if (at_kink(topology, curves, c, (part + t) / parts, unjudged)) continue;
           angles[e * angles_an_edge + std::size_t(k)] =
               angle_between(normal_beside(topology, patches, uses[0], part, parts, t),
                             normal_beside(topology, patches, uses[1], part, parts, t));
