@@ -87,7 +87,8 @@ void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate
   iterate.linearize();
   iterate.is_linearized = true;
   report.plate_energy = report.start_energy = iterate.op().fairness();
-  if (below.points.empty()) return;
+  // Among flat surfaces rounding would choose.
+  if (below.points.empty() || report.start_energy < flat_energy) return;
   Candidates candidates(iterate, plate, report);
   candidates.try_change(below, plate_below);
   if (report.start_energy > far_above * below.energy)

@@ -6,6 +6,7 @@
 #include "curvature/local_damping.h"
 #include "curvature/options.h"
 #include "curvature/system.h"
+#include "hold/pad_widths.h"
 
 namespace fairing {
 
@@ -61,9 +62,6 @@ constexpr double damped_decrement = 3e-2;
 
 // Plain steps have to come to this decrement in time; on coarse levels they end there.
 constexpr double plain_decrement = 1e-3;
-
-// An energy that is rounding: a sphere has 8 pi, a plane none.
-constexpr double flat_energy = 1e-16;
 
 // A surface found in another way may have this many times the energy of the one it replaces: the
 // equation's solution lies beside the minimum of the discrete energy.

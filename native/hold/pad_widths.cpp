@@ -39,7 +39,9 @@ struct Part {
   double thrown = 0;  // how much more stars bend that are thrown about
   std::size_t stars = 0;
 
-  bool over(const PadLimits& limits) const { return sum > limits.whole * of_needles; }
+  bool over(const PadLimits& limits) const {
+    return sum > limits.whole * of_needles && sum > flat_energy;
+  }
   // Not for the sake of some stars: all pads are somewhat too wide.
   bool calm(const PadLimits& limits) const {
     return over(limits) && thrown < 0.5 * (sum - of_needles);
@@ -94,7 +96,7 @@ std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
     const bool over = part.over(limits);
     const double most = over ? limits.strict : crumpled, above = over ? 0 : part.slack(limits);
     const double excess = energy[v] / (most * of_needles[v] + above);
-    if (!pads.began_under(v) || !(excess > 1)) continue;
+    if (!pads.began_under(v) || !(energy[v] > flat_energy) || !(excess > 1)) continue;
     const int times = round >= patient_rounds
                           ? to_nothing
                           : 1 + int(std::log2(std::min(excess, std::ldexp(1.0, to_nothing - 1))));

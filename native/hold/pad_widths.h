@@ -15,6 +15,9 @@ constexpr int widths_level = 2;
 // A star, or a surface, that bends so many times as much as on point forces is thrown about.
 constexpr double crumpled = 2.0;
 
+// An energy that is rounding: a sphere has 8 pi, a plane none.
+constexpr double flat_energy = 1e-16;
+
 constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
 // How much more than on point forces a surface on pads may bend, as factors.

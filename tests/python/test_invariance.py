@@ -2,6 +2,7 @@
 """Fairing commutes with rigid motion, scaling, relabelling and mirroring, to 1e-9 of the size."""
 
 import control_meshes as meshes
+import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
@@ -79,6 +80,19 @@ def test_relabelling(name, exponent):
     moved, turned, _ = relabelled(vertices, faces)
     other = tight.fair(moved, turned, 2, metric_exponent=exponent)
     assert_same_surface(other.vertices, plain.vertices, size_of(vertices))
+
+
+@pytest.mark.parametrize("name", ["single_triangle", "grid"])
+def test_rounding_decides_nothing_on_flat_meshes(name):
+    """Of two flat surfaces neither bends less: the start and the pads are not to hang on rounding."""
+    vertices, faces = meshes.ALL[name]()
+    vertices = vertices * [1, 1, 0]
+    plain = df.fair(vertices, faces, 2, energy="total_curvature")
+    for seed in range(3):
+        turn = random_rotation(seed)
+        moved, turned, _ = relabelled(vertices @ turn.T, faces, seed)
+        other = df.fair(moved, turned, 2, energy="total_curvature")
+        assert_same_points(other.vertices @ turn, plain.vertices, TOLERANCE * size_of(vertices))
 
 
 @pytest.mark.parametrize("name, exponent", CASES)
