@@ -75,29 +75,42 @@ constexpr double farthest = 1e3;
 // Plain steps after damped ones: such as have not reached plain_decrement by then never will.
 constexpr int polishing_patience = 3;
 
-// Steps in the norm of the operator, as it is linearized where the latest one begins.
+// A step, and what it changes of the loads on pads.
+struct HeldStep {
+  Array<double> along;  // the normals, 1 number a point
+  NormalLoads loads;    // empty: there are none
+};
+
+// Steps in the norm of the operator, as it is linearized where the latest one begins. Loads follow
+// from the surface: they go along, and are not judged by.
 struct StepSpace {
-  using Vector = Array<double>;
+  using Vector = HeldStep;
 
   SurfaceIterate* iterate;
 
   Vector product(const Vector& a) const {
-    Vector out(a.size());
-    iterate->op().apply(a.data(), out.data());
+    Vector out{Array<double>(a.along.size()), {}};
+    iterate->op().apply(a.along.data(), out.along.data());
     return out;
   }
   double dot(const Vector& a, const Vector& b) const {
-    return sum(iterate->workers(), a.size(), [&](std::size_t i) { return a[i] * b[i]; });
+    return sum(iterate->workers(), a.along.size(),
+               [&](std::size_t i) { return a.along[i] * b.along[i]; });
   }
   void add(double factor, const Vector& a, const Vector& b, Vector& to) const {
-    for_each_index(iterate->workers(), to.size(),
-                   [&](std::size_t i) { to[i] += factor * (a[i] + b[i]); });
+    for_each_index(iterate->workers(), to.along.size(),
+                   [&](std::size_t i) { to.along[i] += factor * (a.along[i] + b.along[i]); });
+    for (std::size_t v = 0; v < to.loads.size(); ++v)
+      to.loads[v] += factor * (a.loads[v] + b.loads[v]);
   }
   void subtract(const Vector& a, Vector& from) const {
-    for_each_index(iterate->workers(), from.size(), [&](std::size_t i) { from[i] -= a[i]; });
+    for_each_index(iterate->workers(), from.along.size(),
+                   [&](std::size_t i) { from.along[i] -= a.along[i]; });
+    for (std::size_t v = 0; v < from.loads.size(); ++v) from.loads[v] -= a.loads[v];
   }
   void scale(double factor, Vector& a) const {
-    for (double& entry : a) entry *= factor;
+    for (double& entry : a.along) entry *= factor;
+    for (auto& load : a.loads) load *= factor;
   }
 };
 
@@ -133,7 +146,7 @@ class TotalCurvatureMethod final : public StepMethod {
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
     step.decrement = std::sqrt(gain / it_.current.energy);
-    if (step.decrement < accelerated_decrement) it_.step = anderson_.change(it_.step);
+    if (step.decrement < accelerated_decrement) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
@@ -180,6 +193,20 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
  private:
+  // Loads go along: those of a plain step would lag behind the surface, and the next step make up
+  // for it. The first step's are fitted, and change from nothing known.
+  void accelerate() {
+    const NormalLoads& before = it_.current.held.loads;
+    const bool with_loads = !damping_ && !it_.system.is_bound();
+    if (with_loads && before.size() != held_.loads.size()) return anderson_.forget();
+    HeldStep step{std::move(it_.step), {}};
+    if (with_loads) step.loads = held_.loads;
+    for (std::size_t v = 0; v < step.loads.size(); ++v) step.loads[v] -= before[v];
+    step = anderson_.change(step);
+    for (std::size_t v = 0; v < step.loads.size(); ++v) held_.loads[v] = before[v] + step.loads[v];
+    it_.step = std::move(step.along);
+  }
+
   bool is_checked(const StepReport& step) const {
     return damping_ && !(step.decrement < unchecked_decrement);
   }
