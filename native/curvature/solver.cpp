@@ -52,6 +52,9 @@ void dilate_vertices(const ControlMesh& mesh, std::vector<std::uint8_t>& marks) 
 
 // On pads the least total curvature is another's least: it may be a little above the plate's.
 constexpr double most_over_plate = 1.2;
+// So many times as far from the mesh's centre as the plate: a surface that has folded there is a
+// spike. One that has not may be the large sphere through a flat cap.
+constexpr double farthest_over_plate = 2;
 
 }  // namespace
 
@@ -207,7 +210,8 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
   if (system_.pads()) leave_folds(start, report);
   unfolding_.run(start, report);
   if (hold_.any()) fix_held(report);
-  if (!(report.energy <= energy_bound(report))) fall_back(plate, report);
+  if (!(report.energy <= energy_bound(report)) || (report.folds > 0 && is_thrown(plate)))
+    fall_back(plate, report);
   if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
   solved_folds_ = report.folds = unfolding_.find().count();
   solved_energy_ = report.energy;
@@ -244,6 +248,14 @@ void GaussNewtonSolver::fall_back(const Array<double>& plate, CurvatureLevelRepo
   iterate_.linearize();
   report.energy = iterate_.op().fairness();
   report.converged = report.accurate = false;
+}
+
+// However long a spike of folds is, it costs the same energy.
+bool GaussNewtonSolver::is_thrown(const Array<double>& plate) {
+  const auto extent = [&](const Array<double>& x) {
+    return largest(iterate_.workers(), x.size(), [&](std::size_t i) { return x[i]; });
+  };
+  return !(extent(surface()) <= farthest_over_plate * extent(plate));
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {

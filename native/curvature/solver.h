@@ -65,6 +65,8 @@ class GaussNewtonSolver {
   bool is_settled(const CurvatureLevelReport& report) {
     return report.converged && report.energy <= energy_bound(report);
   }
+  // Whether a part of the surface lies far from the mesh.
+  bool is_thrown(const Array<double>& plate);
   void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
   double tension_of(const Array<double>& x);
   void leave_out_tension(const StepStart& start, const Array<double>& plate,
