@@ -3,10 +3,17 @@
 
 #include <cmath>
 
+#include "parallel/memory_news.h"
 #include "parallel/reductions.h"
 #include "sparse/unknown_points.h"
 
 namespace fairing {
+namespace {
+
+// Of a normal matrix: a point with a regular ring, and all that may be taken for blocks.
+constexpr std::size_t bytes_of_square = 460, most_bytes_of_square = std::size_t(1) << 28;
+
+}  // namespace
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
     : shared_(shared), grid_(grid), rows_(grid), suits_square_(NormalMatrix::suits(rows_)) {}
@@ -22,14 +29,18 @@ void CurvatureLevel::apply_rows(const float* x, float* y) {
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
     return;
   }
-  if (std::exchange(square_is_old_, false)) {
-    if (square_vertices_ != shared_.unknowns.vertex)
-      square_.reset();  // some have been held, or let go
-    if (!square_) square_ = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
-    square_vertices_ = shared_.unknowns.vertex;
-    square_->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
-  }
-  square_->apply(x, shared_.workers, y);
+  square().apply(x, shared_.workers, y);
+}
+
+// As it is now.
+NormalMatrix& CurvatureLevel::square() const {
+  if (!square_is_old_) return *square_;
+  if (square_vertices_ != shared_.unknowns.vertex) square_.reset();  // some were held, or let go
+  if (!square_) square_ = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
+  square_vertices_ = shared_.unknowns.vertex;
+  square_->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
+  square_is_old_ = false;
+  return *square_;
 }
 
 template <class T>
@@ -84,6 +95,18 @@ void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<f
             m[3] > 0 ? m[c] + float(moment[c * run.count + i] / double(m[3])) : 0.0f;
     }
   });
+}
+
+SymmetricRows CurvatureLevel::rows() const {
+  const std::size_t bytes = bytes_of_square * grid_.size();
+  if (varies() || !NormalMatrix::is_linear(rows_) || bytes > most_bytes_of_square ||
+      !MemoryLedger::fits(square_ ? 0 : bytes))
+    return {};
+  if (!square_) announce_memory(bytes);
+  SymmetricRows out = square().rows(shared_.workers);
+  for (std::size_t v = 0; v < shared_.weights.size(); ++v) out.add_to_diagonal(v, float(weight(v)));
+  for (std::size_t p = 0; p < damping_.size(); ++p) out.add_to_diagonal(p, damping_[p]);
+  return out;
 }
 
 void CurvatureLevel::set_damping(const Array<float>& mu) {

@@ -99,12 +99,14 @@ class CurvatureLevel final : public LevelOperator {
   bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
+  SymmetricRows rows() const override;
 
  private:
   struct Tensors;
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
   template <class T>
   void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
+  NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
   const Unknowns& force_rows() const {
@@ -123,10 +125,11 @@ class CurvatureLevel final : public LevelOperator {
   const GridLevel& grid_;
   double bending_ = 0, tension_ = 0;
   int linearizations_ = 0;
-  RingJacobian rows_;                          // sqrt(w) J
-  std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
-  std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
-  bool suits_square_, square_is_old_ = true;
+  RingJacobian rows_;                                  // sqrt(w) J
+  mutable std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
+  mutable std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
+  mutable bool square_is_old_ = true;
+  bool suits_square_;
   std::unique_ptr<Connection> connection_;  // minimum variation only
   std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature/normal_matrix.h"
 
+#include <algorithm>
+
 #include "parallel/cancel.h"
 #include "sparse/unknown_points.h"
 
@@ -20,8 +22,11 @@ constexpr std::size_t sums = 6;
 }  // namespace
 
 bool NormalMatrix::suits(const RingJacobian& rows) {
+  return rows.grid().n() <= most_pieces_of_matrix && is_linear(rows);
+}
+
+bool NormalMatrix::is_linear(const RingJacobian& rows) {
   const GridLevel& grid = rows.grid();
-  if (grid.n() > most_pieces_of_matrix) return false;
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
     const auto slots = std::size_t(rows.of(vertex_run(v)).slots);
@@ -149,6 +154,20 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
       }
     }
   });
+}
+
+SymmetricRows NormalMatrix::rows(Workers& workers) const {
+  SymmetricRows out;
+  out.first.assign(column_begin_.begin(), column_begin_.end());
+  out.entry.resize(column_.size());
+  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      for (std::size_t k = out.first[p]; k < out.first[p + 1]; ++k)
+        out.entry[k] = {column_[k], number_[k]};
+      std::sort(out.entry.data() + out.first[p], out.entry.data() + out.first[p + 1]);
+    }
+  });
+  return out;
 }
 
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curvature/ring_jacobian.h"
+#include "sparse/matrix.h"
 
 namespace fairing {
 
@@ -16,8 +17,9 @@ constexpr int most_pieces_of_matrix = 8;
 
 class NormalMatrix {
  public:
-  // Whether a level is better served so: few points a face, and no rings so large that their
-  // squares are not linear.
+  // Whether no rings are so large that their squares are not linear.
+  static bool is_linear(const RingJacobian& rows);
+  // Whether a level is better served so: few points a face beside that.
   static bool suits(const RingJacobian& rows);
 
   // The pattern: the unknowns that share a ring. The grid of `rows` must outlive it. Throws
@@ -29,6 +31,9 @@ class NormalMatrix {
 
   // y <- the matrix times x; zero where a point is no unknown.
   void apply(const float* x, Workers& workers, float* y) const;
+
+  // A row a point, empty where it is no unknown.
+  SymmetricRows rows(Workers& workers) const;
 
  private:
   using LocalColumn = std::uint16_t;

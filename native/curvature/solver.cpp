@@ -83,6 +83,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (system_.stand_on(pads_)) iterate_.current.held.loads.clear();
+  system_.allow_blocks(stepping_ != Stepping::damped);
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   if (system_.pads() && level == std::clamp(widths_level, system_.base(), system_.finest()))
@@ -128,6 +129,8 @@ void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
   const CurvatureLevelReport plain_report = std::exchange(report, start.report);
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
+  // A crumpled surface is hard for blocks too, and what they leave of a solve upsets the loads.
+  system_.allow_blocks(false);
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
   steps_.run_damped(damping, report);
   if (is_accurate) steps_.polish_damped(report);

@@ -24,6 +24,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
+  out.may_block = out.operators_change = true;
   // As for the thin plate: the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;

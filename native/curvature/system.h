@@ -74,6 +74,9 @@ class GaussNewtonSystem {
   Symmetrizer& symmetrizer() { return symmetrizer_; }
   Workers& workers() { return shared_.workers; }
 
+  // Whether the smoother may work on blocks from here on (Hierarchy).
+  void allow_blocks(bool allowed) { hierarchy_.allow_blocks(allowed); }
+
   // How many times as much as usual a large factor costs (Hierarchy).
   void set_factor_price(std::size_t times) { hierarchy_.set_factor_price(times); }
 

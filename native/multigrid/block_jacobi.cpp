@@ -168,10 +168,12 @@ std::unique_ptr<BlockJacobi> BlockJacobi::make(const LevelOperator& op, Workers&
   return out;
 }
 
-void BlockJacobi::refactor() {
+bool BlockJacobi::refactor() {
   const SymmetricRows rows = op_.rows();
+  if (rows.first.empty()) return false;
   const CountedBytes counted(rows.bytes());
   factor(rows);
+  return true;
 }
 
 void BlockJacobi::factor(const SymmetricRows& rows) {

@@ -24,8 +24,9 @@ class BlockJacobi {
   BlockJacobi(const BlockJacobi&) = delete;
   BlockJacobi& operator=(const BlockJacobi&) = delete;
 
-  // Call after the operator has changed. Each block keeps its points.
-  void refactor();
+  // Call after the operator has changed. Each block keeps its points. False: the operator has no rows
+  // any more, and the blocks are of no use.
+  bool refactor();
 
   // x <- L^-1 x, and x <- L^-T x
   void forward(float* x) const;

@@ -27,6 +27,8 @@ constexpr int most_degree_over_factor = 12;
 // with. Odd degrees gain less than the even ones below them.
 constexpr double slow_gain = 0.5;
 constexpr int degree_of_blocks = 2;
+// With more, blocks cost more than what they are there for.
+constexpr int most_degree_of_blocks = 8;
 
 // Solves with a factor, each on the residual that the one before has left.
 constexpr int refinement_steps = 3;
@@ -90,7 +92,7 @@ void Hierarchy::complete() {
 void Hierarchy::refresh(std::size_t top, bool spectrum) {
   if (coarse_->direct() && top >= cycle_.base) refactor();
   for (std::size_t l = 0; l <= top; ++l)
-    if (cycle_.levels[l].blocks) cycle_.levels[l].blocks->refactor();
+    if (cycle_.levels[l].blocks && !cycle_.levels[l].blocks->refactor()) leave_blocks();
   if (spectrum)
     for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
 }
@@ -168,6 +170,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
                              LevelSolve& out) {
   const bool adapt = adapts(out.direct);
   PcgLimits rest = limits;
+  if (options_.operators_change) pace_[index] = {};
   for (;;) {
     if (adapt && wants_blocks(index, pace_[index])) take_blocks(index);
     estimate_eigenvalues(index);
@@ -178,6 +181,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
             return false;
           if (adapt && so_far.iterations % probe_interval == first_probe)
             raise_degree(index, so_far, limits.tolerance);
+          if (adapt && blocks_fail(index)) return false;
           return !adapt || !is_too_hard(index);
         });
     if (adapt) pace_[index] = pace_[index].after(result, rest.from_start);
@@ -186,9 +190,13 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
     out.residuals.insert(out.residuals.end(), result.history.begin() + (first ? 0 : 1),
                          result.history.end());
     rest.max_iterations -= result.iterations;
-    if (!adapt || result.converged || rest.max_iterations <= 0 ||
-        !wants_blocks(index, pace_[index]))
+    if (!adapt || result.converged || rest.max_iterations <= 0) return result;
+    if (blocks_fail(index)) {
+      options_.may_block = false;
+      leave_blocks();
+    } else if (!wants_blocks(index, pace_[index])) {
       return result;
+    }
     rest.from_start = false;
     rest.residual_scale = result.residual_scale;
     rest.energy_scale = result.energy_scale;
@@ -209,9 +217,16 @@ bool Hierarchy::is_too_hard(std::size_t index) const {
 
 // Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
 bool Hierarchy::wants_blocks(std::size_t index, const Pace& pace) const {
-  if (!options_.may_block || cycle_.levels[index].blocks) return false;
+  if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
+  if (options_.operators_change && factors_cheaply(index)) return false;
   return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
          (pace.iterations >= first_probe && pace.gained < slow_gain * pace.iterations);
+}
+
+// Where a factor may follow, and blocks want as many steps as the diagonal.
+bool Hierarchy::blocks_fail(std::size_t index) const {
+  return options_.operators_change && cycle_.levels[index].blocks &&
+         cycle_.degree > most_degree_of_blocks;
 }
 
 void Hierarchy::take_blocks(std::size_t index) {
@@ -223,6 +238,23 @@ void Hierarchy::take_blocks(std::size_t index) {
     options_.may_block = level.blocks != nullptr;
   }
   if (options_.may_block) cycle_.degree = degree_of_blocks;
+}
+
+void Hierarchy::allow_blocks(bool allowed) {
+  blocks_allowed_ = allowed;
+  if (!allowed) leave_blocks();
+}
+
+// What wanted blocks is hard: it is factored next, if it may be.
+void Hierarchy::leave_blocks() {
+  for (std::size_t l = 0; l < cycle_.levels.size(); ++l) {
+    CycleLevel& level = cycle_.levels[l];
+    if (!level.blocks) continue;
+    level.blocks.reset();
+    level.largest_eigenvalue = 0;
+    cycle_.degree = may_factor(l) ? degree_of_hard(unknowns_[l], factors_cheaply(l), factor_price_)
+                                  : VCycle::usual_degree;
+  }
 }
 
 bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,

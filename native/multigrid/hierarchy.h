@@ -22,6 +22,9 @@ struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen from how the solves go
   bool always_factor = false;  // the coarsest level is ill-conditioned, however large
   bool may_block = false;      // whether the smoother may work on blocks (block_jacobi.h)
+  // The operators change from solve to solve: each is judged alone. A level whose factor is cheap
+  // is factored sooner than it takes blocks.
+  bool operators_change = false;
   // Unknowns of a level up to which a factor costs little.
   std::size_t cheap_factor = direct_limit_of_hard;
   // From this level on, the coarsest being 0, the largest eigenvalue is that of the level below.
@@ -57,6 +60,9 @@ class Hierarchy {
   // Whether the smoother adapts.
   void set_adapting(bool adapts) { adapts_ = adapts; }
   bool is_adapting() const { return adapts_; }
+
+  // Whether the smoother may work on blocks from here on; if not, those that are there go.
+  void allow_blocks(bool allowed);
 
   // How many times as much as usual a large factor costs.
   void set_factor_price(std::size_t times) { factor_price_ = times; }
@@ -100,6 +106,8 @@ class Hierarchy {
   bool is_too_hard(std::size_t index) const;
   bool wants_blocks(std::size_t index, const Pace& pace) const;
   void take_blocks(std::size_t index);
+  bool blocks_fail(std::size_t index) const;
+  void leave_blocks();
   PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
                     const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   void promote_to_coarsest(std::size_t index);
@@ -111,6 +119,7 @@ class Hierarchy {
   Workers& workers_;
   HierarchyOptions options_;
   bool adapts_ = true;
+  bool blocks_allowed_ = true;
   std::size_t factor_price_ = 1;
   std::vector<std::size_t> unknowns_;
   std::vector<Pace> pace_;  // with the diagonal

@@ -83,7 +83,8 @@ class VCycle {
   std::vector<CycleLevel> levels;  // coarsest first
   CoarseSolver* coarse = nullptr;  // of levels[base]
   std::size_t base = 0;
-  int degree = 6;  // of the smoother, before and after
+  static constexpr int usual_degree = 6;
+  int degree = usual_degree;  // of the smoother, before and after
 
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.

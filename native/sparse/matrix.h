@@ -128,6 +128,12 @@ struct MatrixColumns {
   std::vector<std::size_t> first;
   std::vector<std::pair<Index, float>> entry;
 
+  // To an entry that is there.
+  void add_to_diagonal(std::size_t c, float number) {
+    for (std::size_t k = first[c]; k < first[c + 1]; ++k)
+      if (entry[k].first == Index(c)) entry[k].second += number;
+  }
+
   std::size_t bytes() const {
     return first.capacity() * sizeof(first[0]) + entry.capacity() * sizeof(entry[0]);
   }

@@ -133,9 +133,7 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
 
 SymmetricRows PlateMatrix::rows() const {
   SymmetricRows out = rows_.by_columns();
-  for (std::size_t v = 0; 3 * v < weight_.size(); ++v)
-    for (std::size_t k = out.first[v]; k < out.first[v + 1]; ++k)
-      if (out.entry[k].first == Index(v)) out.entry[k].second += weight_[3 * v];
+  for (std::size_t v = 0; 3 * v < weight_.size(); ++v) out.add_to_diagonal(v, weight_[3 * v]);
   return out;
 }
 

@@ -64,3 +64,23 @@ def test_blocks_follow_weights():
 def test_even_meshes_keep_the_diagonal(make):
     result = fair(*make(), 5, measure=False)
     assert not any(level["blocks"] for level in result.report["levels"])
+
+
+def test_blocks_serve_total_curvature():
+    """It took 78 iterations with the diagonal, of a degree that rose to forty."""
+    hull = random_hull(40)  # 39,000 unknowns on level 5
+    result = fair(*hull, 5, energy="total_curvature", measure=False)
+    level = result.report["curvature"][-1]
+    assert level["accurate"] and not level["damped"]
+    assert level["work"]["iterations"] <= 55
+    radii = np.linalg.norm(result.vertices, axis=1)
+    assert np.abs(radii / np.linalg.norm(hull[0][0]) - 1).max() < 1e-5
+
+
+def test_minimum_variation_leaves_blocks():
+    """Its matrix has no rows to give, and it goes on with what total curvature began."""
+    hull = random_hull(20)
+    result = fair(*hull, 5, energy="minimum_variation", measure=False)
+    assert result.report["curvature"][-1]["converged"]
+    radii = np.linalg.norm(result.vertices, axis=1)
+    assert np.abs(radii / np.linalg.norm(hull[0][0]) - 1).max() < 1e-6
