@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "curvature/solver.h"
@@ -112,15 +111,5 @@ class FairingContext {
   std::unique_ptr<GaussNewtonSolver> gauss_newton_;
   bool has_adapted_ = false;
 };
-
-// Who watches is told of a run that is about to take more than the report predicts.
-void expect_memory(const Report& report);
-
-// Reports the peak, with a warning when the run has taken markedly more than was predicted.
-void warn_of_memory(const MemoryLedger& ledger, Report& report);
-
-// Adds a warning when the finest level has not converged; `of` begins it.
-void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
-                      Report& report);
 
 }  // namespace fairing

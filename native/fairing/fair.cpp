@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fairing/extremes.h"
+#include "fairing/warnings.h"
 #include "parallel/cancel.h"
 
 namespace fairing {

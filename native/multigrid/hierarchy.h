@@ -96,20 +96,26 @@ class Hierarchy {
     Pace after(const PcgResult& result, bool from_start) const;
   };
 
-  bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
   void refactor();
+  PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
+                    const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   bool solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,
                            LevelSolve& out);
   void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
                     double* x, LevelSolve& out);
   void estimate_eigenvalues(std::size_t top);
+
+  // adaptation.cpp
+  bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
+  // After each iteration: whether it is to go on as it is. Raises the degree.
+  bool goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
+  // After one that did not: whether it is to go on with another smoother.
+  bool changes_smoother(std::size_t index);
   bool is_too_hard(std::size_t index) const;
   bool wants_blocks(std::size_t index, const Pace& pace) const;
   void take_blocks(std::size_t index);
   bool blocks_fail(std::size_t index) const;
   void leave_blocks();
-  PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
-                    const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   void promote_to_coarsest(std::size_t index);
   bool knows_factor_below(std::size_t index) const;
   bool may_factor(std::size_t index) const;

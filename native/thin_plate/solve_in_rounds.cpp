@@ -18,7 +18,6 @@
 
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
-#include "parallel/reductions.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -57,64 +56,6 @@ double force_tolerance(double relative_residual) {
 constexpr double angle_per_force = 0.4, coarse_angle = 2e-2;
 
 }  // namespace
-
-// r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
-void ThinPlateSolver::residual_on_pads(int level, std::span<const Vec3> targets, const double* x,
-                                       double* r) {
-  const auto add_couples = [&] {
-    if (has_couples(level)) couples_->add(moments_, r);
-  };
-  if (!pads_ && !is_placed_) {
-    residual(level, targets, x, r);
-    return add_couples();
-  }
-  apply_thin_plate(grid(level), shared_.double_rows, pads_ ? pads_->rows() : shared_.unknowns, {},
-                   workers_, shared_.double_slots, x, r);
-  for_each_index(workers_, 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
-  if (pads_) pads_->add_loads(loads_, r);
-  if (is_placed_) take_pulls(r);
-  take_point_forces<3>(
-      shared_.unknowns, shared_.weights, pads_.get(), loads_,
-      [&](std::size_t v) -> Vec3 {
-        return is_placed_ && constraint_->placed(v)
-                   ? Vec3(pulls_[v] / shared_.weights[v])
-                   : Vec3(targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
-      },
-      forces_, r);
-  add_couples();
-}
-
-// Placed vertices do not give way: what their rows ask for is the force that holds them there.
-void ThinPlateSolver::take_pulls(const double* r) {
-  pulls_.assign(std::size_t(mesh_.vertex_count()), Vec3::Zero());
-  for (std::size_t v = 0; v < pulls_.size(); ++v) {
-    if (!constraint_->placed(v)) continue;
-    pulls_[v] = -Eigen::Map<const Vec3>(r + 3 * v);
-    if (pads_ && pads_->under(v)) pulls_[v] += pads_->total(v) * loads_[v];
-  }
-}
-
-// Loads are densities and hardly change from level to level; what does is the hats' samples. The
-// coarsest level has so few that M f, what loads do, changes less than the whole of each.
-void ThinPlateSolver::start_loads(int level) {
-  loads_.resize(std::size_t(mesh_.vertex_count()));
-  if (level == base_) {
-    std::fill(loads_.begin(), loads_.end(), Vec3::Zero());
-    return;
-  }
-  pads_->set_level(grid(level - 1));
-  if (level == base_ + 1) {
-    Loads effect;
-    pads_->multiply_mass<3>(loads_, effect);
-    pads_->set_level(grid(level));
-    pads_->divide_by_mass<3>(effect, loads_);
-    return;
-  }
-  for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] *= pads_->total(v);
-  pads_->set_level(grid(level));
-  for (std::size_t v = 0; v < loads_.size(); ++v)
-    if (pads_->under(v)) loads_[v] /= pads_->total(v);
-}
 
 // One level's rounds.
 struct ThinPlateSolver::Rounds {

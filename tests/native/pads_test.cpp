@@ -7,6 +7,7 @@
 
 #include "curvature/total_curvature.h"
 #include "fairing/context.h"
+#include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "hold/load_steps.h"
 #include "meshes.h"

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run says of itself: that it takes more memory than was predicted, or has not converged.
+#pragma once
+
+#include <string>
+
+#include "fairing/options.h"
+#include "fairing/report.h"
+#include "parallel/memory.h"
+
+namespace fairing {
+
+// Who watches is told of a run that is about to take more than the report predicts.
+void expect_memory(const Report& report);
+
+// Reports the peak, with a warning when the run has taken markedly more than was predicted.
+void warn_of_memory(const MemoryLedger& ledger, Report& report);
+
+// Adds a warning when the finest level has not converged; `of` begins it.
+void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+                      Report& report);
+
+}  // namespace fairing

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a hierarchy adapts: the smoother's degree, blocks in place of the diagonal, factors.
+#include <algorithm>
+#include <cmath>
+
+#include "multigrid/hierarchy.h"
+
+namespace fairing {
+namespace {
+
+// Iterations after which the smoother's degree is thought over: the first time, and from then on.
+constexpr int first_probe = 6, probe_interval = 10;
+// So many iterations are to remain after that: few enough that conjugate gradients and their sums
+// cost little beside the smoother, whose work hardly changes with the degree.
+constexpr double iterations_wanted = 14;
+// Of one probe, and of all.
+constexpr double most_rise = 8;
+constexpr int most_degree = 96;
+// What a level's first solve may raise of the degree that the level below ended with.
+constexpr double most_rise_between_levels = 2;
+// After a level has become the coarsest, which takes the hardest part away.
+constexpr int most_degree_over_factor = 12;
+
+// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 18 to
+// 1e-4, where even meshes take five to ten. Blocks serve better then, with this degree to begin
+// with. Odd degrees gain less than the even ones below them.
+constexpr double slow_gain = 0.5;
+constexpr int degree_of_blocks = 2;
+// With more, blocks cost more than what they are there for.
+constexpr int most_degree_of_blocks = 8;
+
+// Numbers a column of a narrow level's factor; that of a plate has some 80.
+constexpr std::size_t most_numbers_of_narrow = 20;
+
+// Of a level larger than direct_limit_of_hard that is factored nevertheless: half of what one of that
+// size takes on an even mesh.
+constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
+
+// The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
+// what a factor costs, and above hopeless_degree a factor is cheaper whatever it costs (without
+// that, minimum variation of Suzanne went on for minutes).
+constexpr int least_degree_of_hard = 8;
+constexpr std::size_t hopeless_degree = 60;
+int degree_of_hard(std::size_t unknowns, bool is_cheap, std::size_t price) {
+  const std::size_t dear = is_cheap ? unknowns / 5000 : price * unknowns / 1000;
+  return int(std::min<std::size_t>(least_degree_of_hard + dear, hopeless_degree));
+}
+
+}  // namespace
+
+// A narrow level, as a disc of thin faces about one vertex, has a factor of few numbers however large
+// it is; the factor of the level below tells.
+bool Hierarchy::knows_factor_below(std::size_t index) const {
+  return index == cycle_.base + 1 && coarse_->direct();
+}
+
+bool Hierarchy::may_factor(std::size_t index) const {
+  if (unknowns_[index] <= direct_limit_of_hard) return true;
+  if (!knows_factor_below(index)) return false;
+  const double growth =
+      double(unknowns_[index]) / double(std::max<std::size_t>(unknowns_[index - 1], 1));
+  return growth * double(coarse_->factor_numbers()) <= double(most_factor_numbers);
+}
+
+bool Hierarchy::factors_cheaply(std::size_t index) const {
+  return unknowns_[index] <= options_.cheap_factor ||
+         (knows_factor_below(index) &&
+          coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
+}
+
+Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start) const {
+  const double last = result.history.back();
+  double gain = last > 0 ? std::log(result.history.front() / last) : 0.0;
+  if (from_start && result.energy_error > 0) gain = std::max(gain, -std::log(result.energy_error));
+  return {iterations + result.iterations, gained + gain};
+}
+
+bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
+  if (wants_blocks(index, pace_[index].after(so_far, limits.from_start))) return false;
+  if (so_far.iterations % probe_interval == first_probe)
+    raise_degree(index, so_far, limits.tolerance);
+  return !blocks_fail(index) && !is_too_hard(index);
+}
+
+bool Hierarchy::changes_smoother(std::size_t index) {
+  if (!blocks_fail(index)) return wants_blocks(index, pace_[index]);
+  options_.may_block = false;
+  leave_blocks();
+  return true;
+}
+
+bool Hierarchy::is_too_hard(std::size_t index) const {
+  return may_factor(index) && MemoryLedger::fits(factor_price_ * factor_bytes(unknowns_[index])) &&
+         cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index), factor_price_);
+}
+
+// Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
+bool Hierarchy::wants_blocks(std::size_t index, const Pace& pace) const {
+  if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
+  if (options_.operators_change && factors_cheaply(index)) return false;
+  return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
+         (pace.iterations >= first_probe && pace.gained < slow_gain * pace.iterations);
+}
+
+// Where a factor may follow, and blocks want as many steps as the diagonal.
+bool Hierarchy::blocks_fail(std::size_t index) const {
+  return options_.operators_change && cycle_.levels[index].blocks &&
+         cycle_.degree > most_degree_of_blocks;
+}
+
+void Hierarchy::take_blocks(std::size_t index) {
+  for (std::size_t l = cycle_.base; l <= index && options_.may_block; ++l) {
+    CycleLevel& level = cycle_.levels[l];
+    if (level.blocks || (l == cycle_.base && coarse_->direct())) continue;
+    level.blocks = BlockJacobi::make(*level.op, workers_);
+    level.largest_eigenvalue = 0;
+    options_.may_block = level.blocks != nullptr;
+  }
+  if (options_.may_block) cycle_.degree = degree_of_blocks;
+}
+
+void Hierarchy::allow_blocks(bool allowed) {
+  blocks_allowed_ = allowed;
+  if (!allowed) leave_blocks();
+}
+
+// What wanted blocks is hard: it is factored next, if it may be.
+void Hierarchy::leave_blocks() {
+  for (std::size_t l = 0; l < cycle_.levels.size(); ++l) {
+    CycleLevel& level = cycle_.levels[l];
+    if (!level.blocks) continue;
+    level.blocks.reset();
+    level.largest_eigenvalue = 0;
+    cycle_.degree = may_factor(l) ? degree_of_hard(unknowns_[l], factors_cheaply(l), factor_price_)
+                                  : VCycle::usual_degree;
+  }
+}
+
+// From here on this level is the coarsest, solved directly.
+void Hierarchy::promote_to_coarsest(std::size_t index) {
+  coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, 0, true);
+  is_factor_old_ = false;
+  ++factors_;
+  cycle_.coarse = coarse_.get();
+  cycle_.base = index;
+  cycle_.degree = std::min(cycle_.degree, most_degree_over_factor);
+}
+
+// What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows,
+// so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
+void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double tolerance) {
+  // The first iterations are the easy ones; the latest tell more.
+  const int window = std::min(result.iterations, probe_interval);
+  const double gained =
+      std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
+  const double missing =
+      std::log(std::max(result.residual / tolerance, result.energy_error / tolerance));
+  const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
+  if (ahead <= iterations_wanted) return;
+  int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
+  if (cycle_.levels[index].blocks) degree += degree % 2;
+  cycle_.degree = std::min(degree, most_degree);
+}
+
+void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance) {
+  if (!adapts(last.direct) || last.blocks || last.iterations < 4) return;
+  const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
+  const double wanted =
+      last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
+  cycle_.degree = std::clamp(int(std::ceil(wanted)), cycle_.degree, most_degree);
+}
+
+}  // namespace fairing
