@@ -2,15 +2,20 @@
 // What holds the plate, before the rounds that correct it (solve_in_rounds.cpp): how a level starts
 // with loads and couples, what is left of the forces, and which slopes a couple makes.
 #include <algorithm>
+#include <utility>
 
 #include "hold/couples.h"
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
+#include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
 namespace {
+
+// Loads converge as the square of the mesh width.
+constexpr double change_left_by_level = 0.25;
 
 // To what couples are tried out: slopes need no more to be corrected by.
 constexpr double trial_tolerance = 0.03;
@@ -54,9 +59,12 @@ void ThinPlateSolver::take_pulls(const double* r) {
 }
 
 // Loads are densities and hardly change from level to level; what does is the hats' samples. The
-// coarsest level has so few that M f, what loads do, changes less than the whole of each.
+// coarsest level has so few that M f, what loads do, changes less than the whole of each. Finer
+// ones change by a quarter of what the level before has changed, which tells the next; but for loads
+// that go with weights.
 void ThinPlateSolver::start_loads(int level) {
   loads_.resize(std::size_t(mesh_.vertex_count()));
+  if (level <= base_ + 1) whole_below_.clear();
   if (level == base_) {
     std::fill(loads_.begin(), loads_.end(), Vec3::Zero());
     return;
@@ -70,6 +78,11 @@ void ThinPlateSolver::start_loads(int level) {
     return;
   }
   for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] *= pads_->total(v);
+  if (level > widths_level && !constraint_) {
+    const Loads before = std::exchange(whole_below_, loads_);
+    for (std::size_t v = 0; v < before.size(); ++v)
+      loads_[v] += change_left_by_level * (loads_[v] - before[v]);
+  }
   pads_->set_level(grid(level));
   for (std::size_t v = 0; v < loads_.size(); ++v)
     if (pads_->under(v)) loads_[v] /= pads_->total(v);

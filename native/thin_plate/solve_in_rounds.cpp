@@ -18,6 +18,7 @@
 
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
+#include "hold/pad_widths.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -27,6 +28,8 @@ namespace {
 // tolerances: these gain little more. The first one on a fine level begins with loads that are
 // nearly right, and what it leaves would be read as a force.
 constexpr double solve_gain = 0.15, solve_gain_of_bounds = 0.2, first_gain_of_fine = 0.02;
+// The same where two or three corrections of loads are to be enough.
+constexpr double solve_gain_of_few = 0.3, first_gain_of_few = 0.007;
 constexpr int fine = 16;  // pieces of an edge
 // What a correction leaves of the forces, before two of them have said it.
 constexpr double first_ratio = 0.3;
@@ -48,8 +51,9 @@ constexpr int most_rounds = 16, most_cheap_rounds = 60;
 // What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
 // within 1e-5 of the mesh's size and normals within 0.02 degrees, with 1e-2 five times that; who
 // asks for an exact surface gets exact loads.
+constexpr double coarsest_force_tolerance = 2e-3;
 double force_tolerance(double relative_residual) {
-  return std::clamp(10 * std::sqrt(relative_residual), 1e-6, 2e-3);
+  return std::clamp(10 * std::sqrt(relative_residual), 1e-6, coarsest_force_tolerance);
 }
 
 // Of fixed normals, radians: a twentieth of a degree where forces are as rough as they may be.
@@ -83,8 +87,15 @@ struct ThinPlateSolver::Rounds {
 
   double gain_wanted() const {
     if (constraint && !solver.is_placed_) return solve_gain_of_bounds;
-    const bool first = report.pad_corrections == 0 && solver.grid(level).n() >= fine;
-    return first ? first_gain_of_fine : solve_gain;
+    const bool few = expects_few(), first = report.pad_corrections == 0;
+    if (first && solver.grid(level).n() >= fine)
+      return few ? first_gain_of_few : first_gain_of_fine;
+    return few && !first ? solve_gain_of_few : solve_gain;
+  }
+  // Where no more is asked than can be seen; not where widths hang on it, or the way of steps.
+  bool expects_few() const {
+    return level > widths_level && !constraint && !solver.options_.starts_steps &&
+           force_tolerance(solver.options_.relative_residual) == coarsest_force_tolerance;
   }
 
   void solve() {

@@ -155,6 +155,7 @@ class ThinPlateSolver {
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;
   Loads loads_, forces_;              // on the pads; left at the control vertices on them
+  Loads whole_below_;                 // what hats carried on the level below a start; or empty
   std::unique_ptr<Couples> couples_;  // null: no normal is fixed
   Moments moments_;                   // of the couples
   bool is_placed_ = false;            // whether the constraint has placed vertices

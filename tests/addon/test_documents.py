@@ -23,6 +23,9 @@ LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|mesh|view3d)\.(fair(?:ing)?_\w+)")
 ANY_OPERATOR = re.compile(r"\bbpy\.ops\.(\w+)\.(\w+)")
+# A source file as documents name it: from the top, or from the folder that they are about.
+SOURCE = re.compile(r"`((?!out/)[\w./-]+/[\w.-]+\.(?:cpp|h|py|sh|toml|json))`")
+PLACES = ("", "native/", "addon/", "tests/")
 MACHINE = re.compile(
     r"(?<![\w.])/(?:work|home|root|Users|tmp|usr|opt|mnt|media|var)/|\bfile://|\b[A-Z]:\\",
     re.IGNORECASE,
@@ -74,6 +77,15 @@ def operators(text):
     return {*OPERATOR.findall(text), *ANY_OPERATOR.findall(text)}
 
 
+def missing_sources(text):
+    """Files that `text` names and that are not there."""
+    return [
+        name
+        for name in SOURCE.findall(text)
+        if not any((ROOT / place / name).exists() for place in PLACES)
+    ]
+
+
 def exists(module, name):
     return name in dir(getattr(bpy.ops, module))
 
@@ -98,6 +110,11 @@ def test_links_lead_somewhere(path):
 @pytest.mark.parametrize("path", DOCUMENTS, ids=named)
 def test_operators_exist(path):
     assert {pair for pair in operators(path.read_text("utf-8")) if not exists(*pair)} == set()
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=named)
+def test_sources_are_there(path):
+    assert missing_sources(path.read_text("utf-8")) == []
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=named)
@@ -169,6 +186,14 @@ def test_an_operator_that_does_not_exist_is_seen(text):
 )
 def test_a_machine_path_is_seen(text):
     assert MACHINE.search(text)
+
+
+def test_a_missing_source_is_seen():
+    assert missing_sources("`native/nowhere.h` and `hold/nowhere.cpp`") == [
+        "native/nowhere.h",
+        "hold/nowhere.cpp",
+    ]
+    assert missing_sources("`hold/pads.h`, `addon/core.py`, `out/bench/NAME.json`, `a.h`") == []
 
 
 def test_a_setting_is_not_said_by_a_longer_name():

@@ -243,10 +243,10 @@ def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
 
 
 def test_a_fine_level_takes_few_iterations():
-    """Measured: 9 where point forces take 5."""
-    report = df.fair(*meshes.rough_ball(roughness=0.25), 4).report
-    assert report["levels"][-1]["iterations"] <= 11
-    assert not report["levels"][-1]["blocks"]
+    """Measured: 7 where point forces take 5; 9 from loads that had only been prolongated."""
+    level = df.fair(*meshes.rough_ball(roughness=0.25), 4).report["levels"][-1]
+    assert level["iterations"] <= 8 and level["pad_corrections"] <= 2
+    assert not level["blocks"]
 
 
 def test_a_drag_takes_hardly_any_iterations():
