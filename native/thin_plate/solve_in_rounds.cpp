@@ -87,10 +87,10 @@ struct ThinPlateSolver::Rounds {
 
   double gain_wanted() const {
     if (constraint && !solver.is_placed_) return solve_gain_of_bounds;
-    const bool few = expects_few(), first = report.pad_corrections == 0;
-    if (first && solver.grid(level).n() >= fine)
-      return few ? first_gain_of_few : first_gain_of_fine;
-    return few && !first ? solve_gain_of_few : solve_gain;
+    const bool few = expects_few();
+    if (report.pad_corrections > 0) return few ? solve_gain_of_few : solve_gain;
+    if (solver.grid(level).n() < fine) return solve_gain;
+    return few ? first_gain_of_few : first_gain_of_fine;
   }
   // Where no more is asked than can be seen; not where widths hang on it, or the way of steps.
   bool expects_few() const {

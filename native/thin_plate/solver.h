@@ -118,6 +118,7 @@ class ThinPlateSolver {
   struct Rounds;
   LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
                               double* x);
+  // What holds the plate, before those rounds (forces.cpp).
   void take_pulls(const double* r);
   void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
