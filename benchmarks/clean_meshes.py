@@ -19,8 +19,8 @@ import from_tests
 import numpy as np
 import rivals
 import self_intersections
-import surface_measures as measures
 import table
+from from_tests import measures
 
 LEVELS, FEWER, MANY = 3, 2, 600  # levels; those of meshes with more faces
 DECREMENT = (

@@ -13,9 +13,9 @@ from typing import Any
 import discrete_fairing as df
 import from_tests
 import numpy as np
-import surface_measures as measures
 import table
 from fitted_curvature import FittedCurvature
+from from_tests import measures
 
 ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
 COLLECTED = {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modules of the tests that benchmarks use: small control meshes, and readers of the collection
-beside the project."""
+"""Modules of the tests that benchmarks use: small control meshes, readers of the collection beside
+the project, and measures of a surface."""
 
 import importlib
 import importlib.util
@@ -9,6 +9,10 @@ from pathlib import Path
 from types import ModuleType
 
 TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
+sys.path.append(str(TESTS))  # last: benchmarks has a control_meshes of its own
+
+measures = importlib.import_module("surface_measures")
+judge = importlib.import_module("surface_judge")
 
 
 def small_meshes() -> ModuleType:
@@ -38,9 +42,9 @@ def inscribed() -> ModuleType:
 
 def readers() -> tuple[ModuleType, ModuleType]:
     """mesh_files and shared_data."""
-    if str(TESTS) not in sys.path:
-        sys.path.append(str(TESTS))
-    import mesh_files
-    import shared_data
+    return importlib.import_module("mesh_files"), importlib.import_module("shared_data")
 
-    return mesh_files, shared_data
+
+def hard_meshes() -> tuple[ModuleType, ModuleType]:
+    """bevelled_boxes and thin_meshes."""
+    return importlib.import_module("bevelled_boxes"), importlib.import_module("thin_meshes")

@@ -12,8 +12,8 @@ import curvature_peaks
 import discrete_fairing as df
 import from_tests
 import numpy as np
-import surface_measures as measures
 import table
+from from_tests import measures
 
 SIZES = (0.0, 0.25, 0.5, 1.0)
 LEVELS = 3

@@ -9,6 +9,7 @@ import platform
 import time
 from pathlib import Path
 
+import bevels
 import cancel
 import charts
 import cholesky
@@ -47,6 +48,7 @@ BENCHMARKS = {
     "subdivision": subdivision.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
+    "bevels": bevels.run,
     "energies": energies.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,

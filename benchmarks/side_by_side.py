@@ -17,9 +17,9 @@ from typing import Any
 import from_tests
 import numpy as np
 import rivals
-import surface_measures as measures
 import table
 import timing
+from from_tests import measures
 
 ROOT = Path(__file__).resolve().parent.parent
 LEVELS, FREE_FORM_LEVELS = (

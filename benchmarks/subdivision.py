@@ -10,8 +10,8 @@ import from_tests
 import numpy as np
 import rivals
 import side_by_side
-import surface_measures as measures
 import table
+from from_tests import measures
 
 LEVELS = 3
 SHARE = 0.5  # of the other's largest deviation
