@@ -170,8 +170,8 @@ void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelRepo
     for (std::size_t v = 0; v < energy.size(); ++v)
       if (folds[v] > folds_of_needles[v])
         energy[v] = std::max(energy[v], price_of_folds * (of_needles[v] + mean));
-    const std::vector<int> halvings = halvings_of_pads(system_.grid(0), *system_.pads(),
-                                                       curvature_limits, energy, of_needles, round);
+    const std::vector<int> halvings =
+        halvings_of_pads(system_.grid(0), *system_.pads(), energy, of_needles, round);
     if (halvings.empty()) break;
     narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
   }

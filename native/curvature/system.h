@@ -137,7 +137,7 @@ class GaussNewtonSystem {
   Hierarchy hierarchy_;
   Symmetrizer symmetrizer_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
-  std::vector<double> given_widths_;
+  std::vector<double> given_shares_;
   StepWork work_;
   HoldAlongNormals* hold_ = nullptr;
   std::vector<double> stiffness_;  // of the surface at control vertices, along the normals

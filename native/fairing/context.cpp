@@ -24,12 +24,11 @@
 namespace fairing {
 namespace {
 
-PadReport widths_of(const Pads& pads, std::size_t vertices, double size) {
+PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
   PadReport out;
-  const auto begin = pads.widths().begin();
-  out.widths.assign(begin, begin + std::ptrdiff_t(vertices));
   for (std::size_t v = 0; v < vertices; ++v) {
-    out.narrower += pads.under(v) && out.widths[v] < size;
+    out.widths.push_back(pads.under(v) ? unit * pads.reach(v) : 0.0);
+    out.narrower += pads.under(v) && !pads.is_whole(v);
     out.gone += pads.began_under(v) && !pads.under(v);
   }
   return out;
@@ -171,9 +170,6 @@ ThinPlateSolver& FairingContext::system() {
     options.max_iterations = options_.max_iterations;
     options.smoother_degree = options_.smoother_degree;
     options.pad_size = options_.width_of_pads();
-    options.star_energies = [this](const GridLevel& grid, const double* x) {
-      return total_curvature_of_stars(grid, *workers_, x);
-    };
     options.chart = options_.chart;
     options.normals = normals_.fixed;
     options.starts_steps = options_.energy != Energy::thin_plate;
@@ -257,7 +253,7 @@ void FairingContext::report_held(Report& report) {
   const Pads* const pads =
       gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : system().pads();
   if (pads)
-    report.pads = widths_of(*pads, std::size_t(mesh_.input_vertices), options_.width_of_pads());
+    report.pads = report_of(*pads, std::size_t(mesh_.input_vertices), frame_.scale);
   report_normals(normals_, report.levels.back(), report);
 }
 

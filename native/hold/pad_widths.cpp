@@ -10,6 +10,11 @@
 namespace fairing {
 namespace {
 
+// How much more than on point forces a surface on pads may bend, as factors: a star, in mean stars
+// above `crumpled`, since what hardly bends may bend more; all stars, above which the mesh is
+// crumpled or all pads are too wide; and a star on a crumpled mesh.
+constexpr double slack_of_star = 2, most_of_all = 1.2, most_of_crumpled = 1.1;
+constexpr int calm_rounds = 1;     // in which all pads are halved where the mesh is not crumpled
 constexpr int patient_rounds = 4;  // afterwards pads go at once, without halves
 constexpr int farthest = 4;        // rings around a star, in which pads may be why it bends
 
@@ -39,14 +44,10 @@ struct Part {
   double thrown = 0;  // how much more stars bend that are thrown about
   std::size_t stars = 0;
 
-  bool over(const PadLimits& limits) const {
-    return sum > limits.whole * of_needles && sum > flat_energy;
-  }
+  bool over() const { return sum > most_of_all * of_needles && sum > flat_energy; }
   // Not for the sake of some stars: all pads are somewhat too wide.
-  bool calm(const PadLimits& limits) const {
-    return over(limits) && thrown < 0.5 * (sum - of_needles);
-  }
-  double slack(const PadLimits& limits) const { return limits.slack * of_needles / double(stars); }
+  bool calm() const { return over() && thrown < 0.5 * (sum - of_needles); }
+  double slack() const { return slack_of_star * of_needles / double(stars); }
 };
 
 std::vector<Index> parts_of(const ControlMesh& mesh) {
@@ -54,8 +55,8 @@ std::vector<Index> parts_of(const ControlMesh& mesh) {
                                     : number_sheets(mesh).of_vertex;
 }
 
-std::vector<Part> judge(const std::vector<Index>& part_of, const PadLimits& limits,
-                        const std::vector<double>& energy, const std::vector<double>& of_needles) {
+std::vector<Part> judge(const std::vector<Index>& part_of, const std::vector<double>& energy,
+                        const std::vector<double>& of_needles) {
   std::vector<Part> parts(part_of.size());
   for (std::size_t v = 0; v < energy.size(); ++v) {
     Part& part = parts[std::size_t(part_of[v])];
@@ -65,7 +66,7 @@ std::vector<Part> judge(const std::vector<Index>& part_of, const PadLimits& limi
   }
   for (std::size_t v = 0; v < energy.size(); ++v) {
     Part& part = parts[std::size_t(part_of[v])];
-    if (energy[v] > crumpled * of_needles[v] + part.slack(limits))
+    if (energy[v] > crumpled * of_needles[v] + part.slack())
       part.thrown += energy[v] - of_needles[v];
   }
   return parts;
@@ -82,19 +83,19 @@ void halve_ring(const GridLevel& control, const Pads& pads, Index v, std::vector
 }  // namespace
 
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
-                                  const PadLimits& limits, const std::vector<double>& energy,
+                                  const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round) {
   const std::vector<Index> part_of = parts_of(control.mesh());
-  const std::vector<Part> parts = judge(part_of, limits, energy, of_needles);
+  const std::vector<Part> parts = judge(part_of, energy, of_needles);
   std::vector<int> halvings(energy.size(), 0);
   for (std::size_t v = 0; v < energy.size(); ++v) {
     const Part& part = parts[std::size_t(part_of[v])];
-    if (part.calm(limits)) {
-      halvings[v] = round < limits.calm_rounds && pads.under(v) ? 1 : 0;
+    if (part.calm()) {
+      halvings[v] = round < calm_rounds && pads.under(v) ? 1 : 0;
       continue;
     }
-    const bool over = part.over(limits);
-    const double most = over ? limits.strict : crumpled, above = over ? 0 : part.slack(limits);
+    const bool over = part.over();
+    const double most = over ? most_of_crumpled : crumpled, above = over ? 0 : part.slack();
     const double excess = energy[v] / (most * of_needles[v] + above);
     if (!pads.began_under(v) || !(energy[v] > flat_energy) || !(excess > 1)) continue;
     const int times = round >= patient_rounds

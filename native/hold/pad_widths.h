@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How wide each pad is. A wide pad asks a crumpled mesh for more than it can give: between folds
-// and on thin fins the loads throw the surface about, and its curvature is many times what point
-// forces leave. There the pad gives way. A coarse level shows enough.
+// Pads that give way under the steps of total curvature. Between folds and on thin fins the loads
+// throw the surface about, and its curvature is many times what point forces leave. There a pad is
+// narrower than it reaches by itself (pad_reach.h), or gone. A coarse level shows enough.
 #pragma once
 
 #include "grid/grid_level.h"
@@ -20,24 +20,12 @@ constexpr double flat_energy = 1e-16;
 
 constexpr int to_nothing = 8;  // halvings, after which a pad is gone
 
-// How much more than on point forces a surface on pads may bend, as factors.
-struct PadLimits {
-  double slack;     // a star's, in mean stars above `crumpled`: what hardly bends may bend more
-  double whole;     // all stars': above it the mesh is crumpled, or all pads are too wide
-  double strict;    // a star's on a crumpled mesh, in place of `crumpled`
-  int calm_rounds;  // in which all pads are halved where the mesh is not crumpled
-};
-// The plate's own energy is another, so that pads cost little total curvature or gain some. The
-// surface of least total curvature can only lose by them: on a nearly flat hull it would soon be
-// marked again, for the sake of hardly any energy.
-constexpr PadLimits plate_limits{0.5, 1.1, 1.05, 4}, curvature_limits{2, 1.2, 1.1, 1};
-
 // How often each pad is to be halved; empty: all may stay. `energy` and `of_needles` are the total
 // curvatures of the star of each control vertex, of the surface on pads and of that on point
 // forces; `round` counts earlier answers. `control` is level 0. All stars are judged before any pad
 // changes, so that the order of vertices does not matter. Where sheets meet, each is judged alone.
 std::vector<int> halvings_of_pads(const GridLevel& control, const Pads& pads,
-                                  const PadLimits& limits, const std::vector<double>& energy,
+                                  const std::vector<double>& energy,
                                   const std::vector<double>& of_needles, int round);
 
 // Halves them. Loads keep the whole force: hats have areas.
@@ -45,10 +33,10 @@ template <int N>
 void narrow_pads(const std::vector<int>& halvings, Pads& pads, LoadsOf<N>& loads) {
   for (std::size_t v = 0; v < halvings.size(); ++v) {
     if (halvings[v] == 0) continue;
-    const double before = pads.widths()[v];
+    const double before = pads.shares()[v];
     pads.narrow(v, halvings[v]);
     if (loads.empty()) continue;
-    const double ratio = pads.under(v) ? before / pads.widths()[v] : 0.0;
+    const double ratio = pads.under(v) ? before / pads.shares()[v] : 0.0;
     loads[v] *= ratio * ratio;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hold/pad_reach.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 
@@ -15,7 +16,10 @@ namespace {
 constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
 constexpr int mass_steps = 12;  // each halves the error
 
-constexpr double least_share = 0.125;  // of the width asked for: narrower pads are points
+constexpr double least_share = 0.125;  // of the reach asked for: narrower pads are points
+
+// Of an edge: what reaches less far meets no point of any level.
+constexpr double least_reach = 1.0 / (1 << 16);
 
 }  // namespace
 
@@ -25,12 +29,15 @@ Pads::Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& 
   const double exponent = charts.kind == ChartKind::tangent ? 1.0 : charts.exponent;
   for (const FlatFace& flat : flatten(mesh, exponent)) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
-  width_.assign(vertices, 0.0);
+  share_.assign(vertices, 0.0);
+  for (const auto& [ahead, back] : pad_reaches(mesh))
+    inverse_.push_back(
+        {1 / std::max(size * ahead, least_reach), 1 / std::max(size * back, least_reach)});
   for (std::size_t v = 0; v < vertices; ++v) {
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
     if (!held || !mesh.vertex_fit(Index(v)) || mesh.vertex_part(Index(v)) != RegionPart::inside)
       continue;
-    width_[v] = size;
+    share_[v] = 1;
     rows_.vertex[v] = 1;
     rows_.any_vertex = true;
     ++count_;
@@ -49,31 +56,58 @@ Pads::Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& 
   total_.resize(vertices);
 }
 
+double Pads::reach(std::size_t v) const {
+  double farthest = 0;
+  for (const Spoke& spoke : mesh_->ring(Index(v))) {
+    const Edge& edge = mesh_->edges[std::size_t(spoke.edge)];
+    const double length = (mesh_->positions[std::size_t(edge.vertex[1])] -
+                           mesh_->positions[std::size_t(edge.vertex[0])])
+                              .norm();
+    farthest = std::max(farthest, length / inverse_reach(spoke));
+  }
+  return farthest;
+}
+
 void Pads::narrow(std::size_t v, int halvings) {
   if (!under(v)) return;
-  width_[v] = std::ldexp(width_[v], -halvings);
   grid_ = nullptr;
-  if (width_[v] >= least_share * size_) return;
-  width_[v] = 0;
+  share_[v] = std::ldexp(share_[v], -halvings);
+  for (const Spoke& spoke : mesh_->ring(Index(v)))
+    inverse_reach(spoke) = std::min(std::ldexp(inverse_reach(spoke), halvings), 1 / least_reach);
+  if (share_[v] < least_share) leave(v);
+}
+
+void Pads::leave(std::size_t v) {
+  if (!under(v)) return;
+  grid_ = nullptr;
+  share_[v] = 0;
   std::fill(value_.begin() + row_begin_[v], value_.begin() + row_begin_[v + 1], 0.0);
   rows_.vertex[v] = unknowns_.vertex[v];
   rows_.any_vertex = --count_ > 0 || unknowns_.any_vertex;
 }
 
-double Pads::hat(double lambda, std::size_t v) const {
-  return width_[v] > 0 ? std::max(0.0, 1 - (1 - lambda) / width_[v]) : 0.0;
+double Pads::inverse_along(const Face& face, std::size_t side, bool from_second) const {
+  const Side& at = mesh_->sides[std::size_t(face.first_side) + side];
+  return inverse_[std::size_t(at.edge)][at.reversed != from_second ? 1 : 0];
 }
 
 Pads::RowHat Pads::row_hat(const Face& face, std::size_t corner, int j) const {
-  const auto v = std::size_t(face.vertex[corner]);
-  if (!under(v)) return {0, 0, 0, 0};
-  const double step = 1.0 / grid_->n(), inverse = 1 / width_[v];
-  const bool leftmost = corner == 0 || corner == 3;
-  if (face.quad())
-    return {hat(corner < 2 ? 1 - j * step : j * step, v), leftmost ? 1.0 : 0.0,
-            leftmost ? -step : step, inverse};
-  const double at[3] = {1 - j * step, 0, j * step}, slope[3] = {-step, step, 0};
-  return {1, at[corner], slope[corner], inverse};
+  if (!under(std::size_t(face.vertex[corner]))) return {0, 0, 0};
+  const auto size = std::size_t(face.size);
+  const double step = 1.0 / grid_->n(), up = j * step, ahead = inverse_along(face, corner, false),
+               back = inverse_along(face, (corner + size - 1) % size, true);
+  if (face.quad()) {
+    const bool along = corner % 2 == 0;  // the side ahead runs along the rows
+    const double in_row = along ? ahead : back, across = along ? back : ahead;
+    const double factor = std::max(0.0, 1 - (corner < 2 ? up : 1 - up) * across);
+    if (corner == 0 || corner == 3) return {factor, 1, -step * in_row};
+    return {factor, 1 - in_row, step * in_row};
+  }
+  switch (corner) {
+    case 0: return {1, 1 - up * back, -step * ahead};
+    case 1: return {1, 1 - up * ahead - (1 - up) * back, step * back};
+    default: return {1, 1 - (1 - up) * ahead, step * (ahead - back)};
+  }
 }
 
 double Pads::vertex_weight(std::size_t v, const double* weight) const {
@@ -134,12 +168,10 @@ std::vector<Pads::Element> Pads::elements_of_edges(const double* weight) const {
   workers_->for_parts(
       elements.size(), element_grain(n) * std::size_t(n), [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
-          const Edge& edge = mesh_->edges[e];
-          const auto a = std::size_t(edge.vertex[0]), b = std::size_t(edge.vertex[1]);
           const double of_metric = metric_weight_of_edge_point(e);
           const double* own = weight ? weight + grid_->edge_base(Index(e)) : nullptr;
           for (int k = 1; k < n; ++k) {
-            const double lambda = double(k) / n, hats[2] = {hat(1 - lambda, a), hat(lambda, b)};
+            const double t = double(k) / n, hats[2] = {hat(e, 0, t), hat(e, 1, 1 - t)};
             elements[e].add(own ? *own++ : of_metric, hats, 2);
           }
         }
@@ -163,7 +195,7 @@ void Pads::set_level(const GridLevel& grid, Array<double> weights) {
 void Pads::fill_matrix() {
   const std::vector<Element> faces = elements_of_faces(weights()),
                              edges = elements_of_edges(weights());
-  workers_->for_parts(width_.size(), 256, [&](std::size_t begin, std::size_t end) {
+  workers_->for_parts(share_.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       diagonal_[v] = total_[v] = 0;
       if (!under(v)) continue;
@@ -207,7 +239,7 @@ void Pads::add_any(const LoadsOf<N>& loads, double* r) const {
   const auto add = [](double* to, double factor, const Eigen::Matrix<double, N, 1>& load) {
     for (int a = 0; a < N; ++a) to[a] += factor * load[a];
   };
-  for_each_index(*workers_, width_.size(), [&](std::size_t v) {
+  for_each_index(*workers_, share_.size(), [&](std::size_t v) {
     if (under(v)) add(r + N * v, vertex_weight(v, weight), loads[v]);
   });
   workers_->for_parts(n > 1 ? mesh_->edges.size() : 0, element_grain(n) * std::size_t(n),
@@ -219,10 +251,10 @@ void Pads::add_any(const LoadsOf<N>& loads, double* r) const {
                           const auto first = std::size_t(grid.edge_base(Index(e)));
                           const double of_metric = metric_weight_of_edge_point(e);
                           for (int k = 1; k < n; ++k) {
-                            const double lambda = double(k) / n;
+                            const double t = double(k) / n;
                             const std::size_t p = first + std::size_t(k) - 1;
                             add(r + N * p, weight ? weight[p] : of_metric,
-                                hat(1 - lambda, a) * loads[a] + hat(lambda, b) * loads[b]);
+                                hat(e, 0, t) * loads[a] + hat(e, 1, 1 - t) * loads[b]);
                           }
                         }
                       });
@@ -259,8 +291,8 @@ void Pads::add_loads(const NormalLoads& loads, double* r) const { add_any<1>(loa
 NormalLoads Pads::gather(const Array<double>& r) const {
   const std::vector<Element> faces = elements_of_faces(r.data()),
                              edges = elements_of_edges(r.data());
-  NormalLoads out(width_.size(), Eigen::Matrix<double, 1, 1>::Zero());
-  for_each_index(*workers_, width_.size(), [&](std::size_t v) {
+  NormalLoads out(share_.size(), Eigen::Matrix<double, 1, 1>::Zero());
+  for_each_index(*workers_, share_.size(), [&](std::size_t v) {
     if (!under(v)) return;
     double sum = r[v];
     for (const Spoke& spoke : mesh_->ring(Index(v))) {

@@ -7,15 +7,19 @@
 //
 // with Omega the weights of a level's points. A point force makes a surface r^2 log r and its
 // curvature a logarithm: a spot at every control vertex. A load is as smooth as its hat. (In one
-// dimension, with hats as wide as the intervals, (*) is the interpolating quintic spline.) The hat
-// of width s is, with lambda the barycentric coordinate of c in a control triangle,
+// dimension, with hats as wide as the intervals, (*) is the interpolating quintic spline.)
 //
-//   phi_c = max(0, 1 - (1 - lambda) / s),
+// With s_ca the share of a control edge that the pad under c reaches over (pad_reach.h), the hat is,
+// in a triangle with corners c, a, b and in a quad c, a, d, b,
 //
-// and in a quad the product of two such in its own coordinates. s -> 0 is the point force.
+//   phi_c = max(0, 1 - lambda_a / s_ca - lambda_b / s_cb),
+//   phi_c = max(0, 1 - xi / s_ca) max(0, 1 - eta / s_cb),
+//
+// with lambda barycentric and (xi, eta) the quad's own coordinates. s -> 0 is the point force.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "grid/accumulate.h"
@@ -33,23 +37,26 @@ using NormalLoads = LoadsOf<1>;
 
 class Pads {
  public:
-  // `size` in (0, 1] is the width of all pads, until one is narrowed. A pad is under every control
-  // vertex that is fixed or has a weight, off all curves and inside the region. Positions of `mesh`
-  // in working coordinates.
+  // `size` in (0, 1] is what all reaches are multiplied by. A pad is under every control vertex
+  // that is fixed or has a weight, off all curves and inside the region. Positions of `mesh` in
+  // working coordinates.
   Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns, double size,
        Workers& workers, const VertexWeights& weights = {});
 
   // False where no control vertex stands on a pad.
   bool any() const { return count_ > 0; }
-  bool under(std::size_t v) const { return width_[v] > 0; }
+  bool under(std::size_t v) const { return share_[v] > 0; }
   // The same before any pad was narrowed.
   bool began_under(std::size_t v) const { return row_begin_[v + 1] > row_begin_[v]; }
-  bool is_whole(std::size_t v) const { return width_[v] == size_; }
-  // Of each control vertex; 0 where it stands on none.
-  const std::vector<double>& widths() const { return width_; }
-  // Halves a width so many times; below an eighth of `size` the pad is gone, and the vertex held by
-  // a point force. Call set_level() before what follows it.
+  bool is_whole(std::size_t v) const { return share_[v] == 1; }
+  // Of each control vertex: what narrowing has left of its pad's reach; 0 where it stands on none.
+  const std::vector<double>& shares() const { return share_; }
+  // How far a pad reaches along the edges around, at the most; 0 without a pad.
+  double reach(std::size_t v) const;
+  // Halves a reach so many times; below an eighth the pad is gone, and the vertex held by a point
+  // force, as leave() has it at once. Call set_level() before what follows them.
   void narrow(std::size_t v, int halvings);
+  void leave(std::size_t v);
   // The unknowns and the control vertices on pads: the rows of K that (*) speaks of.
   const Unknowns& rows() const { return rows_; }
 
@@ -86,14 +93,24 @@ class Pads {
   };
   // The hat of a corner along one row of a face's points, at point (i, j).
   struct RowHat {
-    double factor, at, slope, inverse;
+    double factor, at, slope;
 
-    double operator()(int i) const {
-      return factor * std::max(0.0, 1 - (1 - (at + slope * i)) * inverse);
-    }
+    double operator()(int i) const { return factor * std::max(0.0, at + slope * i); }
   };
   RowHat row_hat(const Face& face, std::size_t corner, int j) const;
-  double hat(double lambda, std::size_t v) const;
+  // Of the pad under end `h` of an edge, a share `t` of the edge away from it.
+  double hat(std::size_t e, std::size_t h, double t) const {
+    return under(std::size_t(mesh_->edges[e].vertex[h])) ? std::max(0.0, 1 - t * inverse_[e][h])
+                                                         : 0.0;
+  }
+  double& inverse_reach(const Spoke& spoke) {
+    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
+  }
+  double inverse_reach(const Spoke& spoke) const {
+    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
+  }
+  // 1 / s_ca along the side from `corner` to the next, seen from its first or its second corner.
+  double inverse_along(const Face& face, std::size_t side, bool from_second) const;
 
   // Weights of points: `weight` where there are such, otherwise by the metric.
   double vertex_weight(std::size_t v, const double* weight) const;
@@ -111,8 +128,9 @@ class Pads {
   Workers* workers_;
   double size_;
   const GridLevel* grid_ = nullptr;
-  std::vector<double> area_;   // of each control face, in the control metric
-  std::vector<double> width_;  // of each control vertex' pad; 0: none
+  std::vector<double> area_;                    // of each control face, in the control metric
+  std::vector<double> share_;                   // of each control vertex' pad; 0: none
+  std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
   std::size_t count_ = 0;
   Unknowns unknowns_, rows_;
   Array<double> weight_;  // of the level's points; empty: those of the metric

@@ -89,8 +89,12 @@ bool Hierarchy::changes_smoother(std::size_t index) {
   return true;
 }
 
+bool Hierarchy::fits_factor(std::size_t index) const {
+  return may_factor(index) && MemoryLedger::fits(factor_price_ * factor_bytes(unknowns_[index]));
+}
+
 bool Hierarchy::is_too_hard(std::size_t index) const {
-  return may_factor(index) && MemoryLedger::fits(factor_price_ * factor_bytes(unknowns_[index])) &&
+  return fits_factor(index) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index), factor_price_);
 }
 

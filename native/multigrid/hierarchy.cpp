@@ -86,7 +86,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
     if (out.converged) return out;
   }
   PcgResult result = iterate(index, limits, residual, x, each, out);
-  if (!result.converged && adapts(out.direct) && is_too_hard(index)) {
+  if (!result.converged && adapts(out.direct) &&
+      (is_too_hard(index) || (result.broke_down && fits_factor(index)))) {
     promote_to_coarsest(index);
     solve_direct(*coarse_, limits, residual, x, out);
     if (out.converged) return out;

@@ -119,6 +119,7 @@ class Hierarchy {
   void promote_to_coarsest(std::size_t index);
   bool knows_factor_below(std::size_t index) const;
   bool may_factor(std::size_t index) const;
+  bool fits_factor(std::size_t index) const;  // in memory too
   bool factors_cheaply(std::size_t index) const;
   void raise_degree(std::size_t index, const PcgResult& result, double tolerance);
 

@@ -159,7 +159,10 @@ class Iteration {
     });
     level_.op->apply(p_, q_);
     const double pq = sum(workers_, size_, [&](std::size_t i) { return double(p_[i]) * q_[i]; });
-    if (!(pq > 0) || !std::isfinite(pq)) return false;  // rounding leaves nothing to gain
+    if (!(pq > 0) || !std::isfinite(pq)) {  // rounding leaves nothing to gain
+      result_.broke_down = true;
+      return false;
+    }
     length_of_step_ = pr / pq;
     go(T(length_of_step_));
     error_left_.gained(unit_ * unit_ * length_of_step_ * pr);

@@ -31,6 +31,7 @@ struct PcgResult {
   double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
   bool converged = false;
   bool enough = false;                          // as PcgLimits::enough says
+  bool broke_down = false;                      // rounding has left no way down
   double residual_scale = 0, energy_scale = 0;  // what both are relative to
   std::vector<double> history;                  // relative residual, the start's first
 };

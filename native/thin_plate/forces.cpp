@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/ring.h"
 #include "hold/couples.h"
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
-#include "hold/pad_widths.h"
+#include "hold/strays.h"
 #include "parallel/reductions.h"
 #include "thin_plate/solver.h"
 
@@ -78,7 +79,7 @@ void ThinPlateSolver::start_loads(int level) {
     return;
   }
   for (std::size_t v = 0; v < loads_.size(); ++v) loads_[v] *= pads_->total(v);
-  if (level > widths_level && !constraint_) {
+  if (level > level_of_first_loads && !constraint_) {
     const Loads before = std::exchange(whole_below_, loads_);
     for (std::size_t v = 0; v < before.size(); ++v)
       loads_[v] += change_left_by_level * (loads_[v] - before[v]);
@@ -86,6 +87,20 @@ void ThinPlateSolver::start_loads(int level) {
   pads_->set_level(grid(level));
   for (std::size_t v = 0; v < loads_.size(); ++v)
     if (pads_->under(v)) loads_[v] /= pads_->total(v);
+}
+
+bool ThinPlateSolver::leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x) {
+  if (!pads_) return false;
+  bool any = false;
+  const auto leave = [&](Index v) {
+    any |= pads_->under(std::size_t(v));
+    pads_->leave(std::size_t(v));
+  };
+  for (const Index v : thrown_stars(grid(level), workers_, targets, x)) {
+    leave(v);
+    visit_ring(grid(0), v, [&](Index u, std::size_t) { leave(u); });
+  }
+  return any;
 }
 
 // Couples stay what they are as a whole.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "grid/grid_level.h"
@@ -17,16 +16,17 @@ struct ThinPlateOptions {
   int levels = 3;  // of refinement; the finest has edges in 2^levels pieces
   // Of the finest level's residual and error, as in PcgLimits::tolerance.
   double relative_residual = 1e-4;
-  int max_iterations = 200;  // a level
-  int smoother_degree = 0;   // 0: chosen from how the coarse levels converge
-  double pad_size = 0;       // of the pads under control vertices (pads.h); 0: point forces
-  // What pads are judged by: the energy of a surface on a level, in its own metric, over the star
-  // of each control vertex. Null: all pads stay as wide as asked.
-  std::function<std::vector<double>(const GridLevel&, const double*)> star_energies;
+  int max_iterations = 200;          // a level
+  int smoother_degree = 0;           // 0: chosen from how the coarse levels converge
+  double pad_size = 0;               // of the pads under control vertices (pads.h); 0: point forces
   ChartOptions chart;                // the metric that pads are measured in
   std::vector<FixedNormal> normals;  // held on all levels but the coarsest
   bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
 };
+
+// The level on which hats first have points enough: on finer ones loads hardly change, and how they
+// do can be foretold.
+constexpr int level_of_first_loads = 2;
 
 // Of fixed normals, radians: more than is ever left of one that has settled.
 constexpr double largest_angle_left = 1e-3;

@@ -18,7 +18,6 @@
 
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
-#include "hold/pad_widths.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -82,7 +81,7 @@ struct ThinPlateSolver::Rounds {
   double tilt = 0;  // of a tangent plane from a fixed one; a normal may look to the wrong side
 
   double* residual() { return solver.hierarchy_.state().residual.data(); }
-  bool top() const { return level == solver.top() && !solver.judges_; }
+  bool top() const { return level == solver.top(); }
   double wanted_gap() const { return top() ? gap_wanted : coarse_plate_gap; }
 
   double gain_wanted() const {
@@ -92,9 +91,9 @@ struct ThinPlateSolver::Rounds {
     if (solver.grid(level).n() < fine) return solve_gain;
     return few ? first_gain_of_few : first_gain_of_fine;
   }
-  // Where no more is asked than can be seen; not where widths hang on it, or the way of steps.
+  // Where no more is asked than can be seen; not where the way of steps hangs on it.
   bool expects_few() const {
-    return level > widths_level && !constraint && !solver.options_.starts_steps &&
+    return level > level_of_first_loads && !constraint && !solver.options_.starts_steps &&
            force_tolerance(solver.options_.relative_residual) == coarsest_force_tolerance;
   }
 

@@ -2,10 +2,11 @@
 #include "thin_plate/solver.h"
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "grid/linear.h"
 #include "hold/hold_in_space.h"
-#include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 #include "thin_plate/membrane.h"
 
@@ -233,6 +234,7 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
     const Array<double>& below = surface_below(l, x);
     const Scales scale = scales(l, targets, x.data());
+    const Loads loads = loads_, whole = whole_below_;
     start_level(l, targets, below, x);
     if (l == top() && on_prediction) on_prediction(x.data());
     const auto tolerance = [&](int level) {
@@ -242,10 +244,15 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
     if (l == base_) energy_below = energy(l, x.data());
     const PcgLimits limits = limits_of(tolerance(l), scale, energy_below);
     if (l == top()) finest_limits_ = limits;
-    if (pads_ && !widths_chosen_ && l == std::clamp(widths_level, base_, top()))
-      reports.push_back(choose_widths(l, targets, limits, x));
-    else
-      reports.push_back(solve_level(l, targets, limits, x.data()));
+    reports.push_back(solve_level(l, targets, limits, x.data()));
+    if (leave_thrown_pads(l, targets, x.data())) {
+      std::tie(loads_, whole_below_) = std::tie(loads, whole);
+      start_level(l, targets, below, x);
+      const LevelReport thrown =
+          std::exchange(reports.back(), solve_level(l, targets, limits, x.data()));
+      reports.back().iterations += thrown.iterations;
+      reports.back().pad_corrections += thrown.pad_corrections;
+    }
     if (l < top()) energy_below = energy(l, x.data());
     if (l < top())
       hierarchy_.choose_degree(pads_ || constraint_ || has_couples(l) ? pace_ : reports.back(),

@@ -92,8 +92,7 @@ class ThinPlateSolver {
 
   // On the pads, of the surface that was solved for last; empty without pads.
   Loads& loads() { return loads_; }
-  // Null without. The first surface that is solved for from nothing narrows them where it must
-  // (pad_widths.cpp); then widths stay, so that surfaces are linear in the control vertices.
+  // Null without.
   const Pads* pads() const { return pads_.get(); }
   // What fixes normals; null where none is.
   const Couples* couples() const { return couples_.get(); }
@@ -122,15 +121,14 @@ class ThinPlateSolver {
   void take_pulls(const double* r);
   void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
   void start_loads(int level);
+  // Where x has been thrown off the mesh, point forces take the place of pads. Whether any has.
+  bool leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x);
   // Whether couples fix normals on a level: not where hats have no points.
   bool has_couples(int level) const {
     return couples_ && level >= std::min(Couples::first_level, top());
   }
   void start_couples(int level);
   void measure_couples(int level);
-  // The surface of a level in place of solve_level(), and the widths of pads on the way.
-  LevelReport choose_widths(int level, std::span<const Vec3> targets, const PcgLimits& limits,
-                            Array<double>& x);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
   void report_done(int level, double done);  // of the finest level's solve, from 0 to 1
   void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
@@ -149,9 +147,7 @@ class ThinPlateSolver {
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
-  std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
-  bool widths_chosen_ = false;
-  bool judges_ = false;                // what is solved for only tells which widths will do
+  std::unique_ptr<Pads> pads_;         // null: control vertices are held by point forces
   HoldInSpace* constraint_ = nullptr;  // while a surface is solved for from nothing
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;

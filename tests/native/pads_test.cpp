@@ -197,9 +197,9 @@ TEST(Pads, NarrowToNothing) {
   pads.narrow(3, 1);
   pads.narrow(4, 2);
   pads.narrow(4, 2);
-  EXPECT_EQ(pads.widths()[2], 1);
-  EXPECT_EQ(pads.widths()[3], 0.5);
-  EXPECT_EQ(pads.widths()[4], 0);
+  EXPECT_EQ(pads.shares()[2], 1);
+  EXPECT_EQ(pads.shares()[3], 0.5);
+  EXPECT_EQ(pads.shares()[4], 0);
   EXPECT_FALSE(pads.under(4));
   EXPECT_TRUE(pads.began_under(4));
   EXPECT_EQ(pads.rows().vertex[3], 1);
@@ -217,7 +217,7 @@ TEST(Pads, NarrowToNothing) {
     for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
     EXPECT_NEAR(total, pads.total(std::size_t(v)), 1e-14);
   }
-  for (std::size_t v = 0; v < pads.widths().size(); ++v) pads.narrow(v, 4);
+  for (std::size_t v = 0; v < pads.shares().size(); ++v) pads.narrow(v, 4);
   EXPECT_FALSE(pads.any());
   EXPECT_FALSE(pads.rows().any_vertex);
 }

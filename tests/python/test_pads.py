@@ -165,27 +165,83 @@ def ball_and_its_images():
     return vertices, faces, distance.argmin(1)
 
 
+def shortest_and_longest_edges(vertices, faces):
+    """Of each vertex."""
+    shortest, longest = np.full(len(vertices), np.inf), np.zeros(len(vertices))
+    for face in faces:
+        for a, b in zip(face, np.roll(face, 1)):
+            length = np.linalg.norm(vertices[a] - vertices[b])
+            for v in (a, b):
+                shortest[v] = min(shortest[v], length)
+                longest[v] = max(longest[v], length)
+    return shortest, longest
+
+
 @pytest.mark.parametrize("seed", (1, 3, 4))
 @pytest.mark.parametrize("size", (0.5, 1.0))
-def test_pads_give_way_where_a_mesh_is_crumpled(seed, size):
+def test_pads_are_quiet_on_a_crumpled_mesh(seed, size):
     mesh = meshes.rough_ball(seed, 1)
     needles, pads = (tight.fair(*mesh, levels=2, pad_size=s) for s in (0, size))
-    assert energy(pads) < 1.1 * energy(needles)
+    assert energy(pads) < 1.15 * energy(needles)
     assert pads.report["converged"]
-    found = pads.report["pads"]
-    widths = np.array(found["widths"])
-    assert len(widths) == len(mesh[0])
-    assert set(widths) <= {0, size, size / 2, size / 4, size / 8}
-    assert found["narrower"] == ((widths > 0) & (widths < size)).sum() > 0
-    assert found["gone"] == (widths == 0).sum()
+    assert pads.report["pads"]["narrower"] == pads.report["pads"]["gone"] == 0
     assert np.array_equal(pads.vertices[: len(mesh[0])], mesh[0])
 
 
-@pytest.mark.parametrize("name", ("creature", "icosahedron", "torus", "three_handles"))
-def test_smooth_meshes_keep_all_widths(name):
-    report = tight.fair(*getattr(meshes, name)(), levels=3, pad_size=0.5).report
-    assert set(report["pads"]["widths"]) == {0.5}
-    assert report["pads"]["narrower"] == report["pads"]["gone"] == 0
+@pytest.mark.parametrize("name", ("creature", "torus", "three_handles", "rough_ball"))
+def test_widths_are_lengths_of_the_mesh(name):
+    """No pad reaches farther than 1.5 times the shortest edge at its vertex, or than the longest."""
+    mesh = getattr(meshes, name)()
+    shortest, longest = shortest_and_longest_edges(*mesh)
+    for size in (0.5, 1.0):
+        widths = np.array(tight.fair(*mesh, levels=2, pad_size=size).report["pads"]["widths"])
+        assert (widths <= size * np.minimum(1.5 * shortest, longest) * (1 + 1e-12)).all()
+        assert (widths > 0).all()
+
+
+@pytest.mark.parametrize("name", ("icosahedron", "octahedron", "cube"))
+def test_inscribed_meshes_have_whole_pads(name):
+    """However sharp their corners are: the mesh turns along each edge as an arc does."""
+    mesh = getattr(meshes, name)()
+    shortest, _ = shortest_and_longest_edges(*mesh)
+    widths = np.array(tight.fair(*mesh, levels=2).report["pads"]["widths"])
+    assert np.allclose(widths, shortest, rtol=1e-6)
+
+
+def test_pads_are_narrow_between_a_corner_and_a_flat_place():
+    """A cube whose faces are divided at their centres."""
+    corners, quads = meshes.cube()
+    centres = [corners[q].mean(0) for q in quads]
+    vertices = np.vstack([corners, centres])
+    faces = [
+        [q[i], q[(i + 1) % 4], len(corners) + f] for f, q in enumerate(quads) for i in range(4)
+    ]
+    shortest, _ = shortest_and_longest_edges(vertices, faces)
+    needles, pads = (tight.fair(vertices, faces, levels=3, pad_size=s) for s in (0, 1))
+    widths = np.array(pads.report["pads"]["widths"])
+    assert (widths[len(corners) :] < 0.5 * shortest[len(corners) :]).all()
+    assert energy(pads) < 1.15 * energy(needles)
+
+
+def test_nothing_beyond_a_crease_changes_a_pad():
+    """Two sheets meet in a crease; one is bent there in two ways, the other stays."""
+    vertices, faces = meshes.flat_patch()
+    middle = np.median(np.unique(vertices[:, 0].round(9)))
+    ridge = np.flatnonzero(np.abs(vertices[:, 0] - middle) < 1e-9)
+    edges = [
+        (a, b)
+        for face in faces
+        for a, b in zip(face, np.roll(face, 1))
+        if a in ridge and b in ridge
+    ]
+    found = []
+    for slope in (0.0, 2.0):
+        bent = vertices.copy()
+        bent[:, 2] += slope * np.maximum(0, vertices[:, 0] - middle)
+        found.append(tight.fair(bent, faces, levels=2, crease_edges=edges))
+    left = vertices[:, 0] < middle - 1e-9
+    widths = [np.array(r.report["pads"]["widths"]) for r in found]
+    assert left.any() and np.allclose(widths[0][left], widths[1][left], rtol=1e-9)
 
 
 def test_without_pads_there_are_no_widths():
@@ -211,11 +267,12 @@ def test_widths_stay_while_vertices_move():
     vertices, faces = meshes.rough_ball(roughness=1)
     solver = tight.Solver(vertices, faces, levels=2, pad_size=0.5)
     first = solver.solve().report["pads"]
-    assert first["narrower"] > 0
     round_ball, _ = meshes.rough_ball(roughness=0)
     assert solver.solve(round_ball).report["pads"] == first
     solver.rebase(round_ball)
-    assert set(solver.solve(round_ball).report["pads"]["widths"]) == {0.5}
+    again = solver.solve(round_ball).report["pads"]
+    assert again != first
+    assert again == tight.fair(round_ball, faces, levels=2, pad_size=0.5).report["pads"]
 
 
 @pytest.mark.parametrize("size", (-0.1, 1.5))
@@ -268,12 +325,50 @@ def test_a_drag_takes_hardly_any_iterations():
     assert off <= 5e-5 * np.ptp(vertices, axis=0).max()
 
 
-def test_few_pads_give_way_on_a_rough_mesh():
-    """One that is gone bends the stars beside it, which must not take theirs away in turn."""
-    vertices, faces = meshes.torus(100, 70)
+def rough_torus(columns=100, rows=70, share=0.12):
+    """Its vertices moved at random by shares of the mean edge."""
+    vertices, faces = meshes.torus(columns, rows)
     edge = np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean()
     noise = np.random.default_rng(1).uniform(-1, 1, vertices.shape)
-    report = df.fair(vertices + 0.12 * edge * noise, faces, levels=2).report
+    return vertices + share * edge * noise, np.asarray(faces)
+
+
+def test_a_rough_mesh_takes_few_iterations():
+    report = df.fair(*rough_torus(), levels=2).report
     assert report["converged"]
-    assert report["pads"]["gone"] < 20 and report["pads"]["narrower"] < 300
-    assert report["iterations"][-1] < 70
+    assert report["iterations"][-1] < 20
+
+
+def piece_of(vertices, faces, core, rings):
+    """The faces of `core` with so many rings around: vertices, faces, ids of both."""
+    inside = np.zeros(len(vertices), bool)
+    chosen = np.zeros(len(faces), bool)
+    chosen[core] = True
+    for _ in range(rings + 1):
+        inside[faces[chosen]] = True
+        chosen |= inside[faces].any(1)
+    ids = np.flatnonzero(chosen)
+    used, local = np.unique(faces[ids], return_inverse=True)
+    return vertices[used], local.reshape(-1, faces.shape[1]), used, ids
+
+
+def test_a_piece_with_ten_rings_around_is_as_in_the_whole():
+    """Pads are chosen by what is around a vertex, so no decision travels."""
+    vertices, faces = rough_torus(80, 40, 0.15)
+    whole = df.fair(vertices, faces, levels=2, relative_residual=1e-9)
+    core = np.flatnonzero(
+        (np.abs(vertices[faces].mean(1) - vertices[faces[0]].mean(0)).max(1)) < 0.3
+    )
+    assert 5 < len(core) < 500
+    local = piece_of(vertices, faces, core, rings=10)
+    piece = df.fair(local[0], local[1], levels=2, relative_residual=1e-9)
+    size = np.ptp(vertices, axis=0).max()
+    # the points inside the core's faces, found by position
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(whole.vertices)
+    inner = np.isin(local[3], core)
+    quads = piece.faces[1] if faces.shape[1] == 4 else piece.faces[0]
+    points = np.unique(quads.reshape(len(local[3]), -1)[inner])
+    off, _ = tree.query(piece.vertices[points])
+    assert off.max() < 1e-6 * size

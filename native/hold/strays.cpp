@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hold/strays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "grid/accumulate.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Of a star's size: what is farther from its centre is at least the star's size away from the star.
+constexpr double thrown = 2.0;
+
+using Distances = std::array<double, 4>;  // from each corner, squared
+
+void take(const double* point, const Vec3& from, double& farthest) {
+  const double d = (Eigen::Map<const Vec3>(point) - from).squaredNorm();
+  farthest = std::max(farthest, std::isfinite(d) ? d : std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+std::vector<Index> thrown_stars(const GridLevel& grid, Workers& workers,
+                                std::span<const Vec3> control, const double* x) {
+  const ControlMesh& mesh = grid.mesh();
+  const int n = grid.n();
+  std::vector<Distances> of_face(mesh.faces.size(), Distances{}),
+      of_edge(mesh.edges.size(), Distances{});
+  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& face = mesh.faces[f];
+      const auto first = std::size_t(grid.face_base(Index(f)));
+      const std::size_t inside =
+          std::size_t(n - 1) * std::size_t(face.quad() ? n - 1 : n - 2) / (face.quad() ? 1 : 2);
+      for (std::size_t i = 0; i < inside; ++i) {
+        stop_if_cancelled(i);
+        for (std::size_t c = 0; c < std::size_t(face.size); ++c)
+          take(x + 3 * (first + i), control[std::size_t(face.vertex[c])], of_face[f][c]);
+      }
+    }
+  });
+  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t e = begin; e < end; ++e)
+                        for (int k = 1; k < n; ++k)
+                          for (std::size_t h = 0; h < 2; ++h)
+                            take(x + 3 * std::size_t(grid.edge_point(Index(e), k)),
+                                 control[std::size_t(mesh.edges[e].vertex[h])], of_edge[e][h]);
+                    });
+  std::vector<Index> out;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& centre = control[std::size_t(v)];
+    double farthest = 0, size = 0;
+    for (const Spoke& spoke : mesh.ring(v)) {
+      farthest = std::max(farthest, of_edge[std::size_t(spoke.edge)][spoke.outward ? 0 : 1]);
+      if (spoke.face < 0) continue;
+      const Face& face = mesh.faces[std::size_t(spoke.face)];
+      farthest = std::max(farthest, of_face[std::size_t(spoke.face)][std::size_t(spoke.corner)]);
+      for (std::size_t c = 0; c < std::size_t(face.size); ++c)
+        size = std::max(size, (control[std::size_t(face.vertex[c])] - centre).squaredNorm());
+    }
+    if (farthest > thrown * thrown * size) out.push_back(v);
+  }
+  return out;
+}
+
+}  // namespace fairing
