@@ -80,9 +80,8 @@ def one(case: Case, size: float) -> dict[str, Any]:
         )
     except df.FairingError as error:
         return {"refused": error.code}
-    triangles = result.triangles.astype(np.int64)
     report = result.report
-    entry = asdict(from_tests.judge.judge(vertices, faces, result.vertices, triangles))
+    entry = asdict(from_tests.judge.judge(vertices, faces, result))
     entry |= {
         "converged": bool(report["converged"]),
         "warnings": len(report.get("warnings", ())),
@@ -90,6 +89,7 @@ def one(case: Case, size: float) -> dict[str, Any]:
         "seconds": seconds,
     }
     if family == "clean":
+        triangles = result.triangles.astype(np.int64)
         found = curvature_peaks.ratios(result.vertices, triangles, len(vertices))
         entry["peaks"] = curvature_peaks.summary(found)["over_mean"] if len(found) else None
     return entry

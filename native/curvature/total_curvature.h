@@ -11,15 +11,19 @@
 
 namespace fairing {
 
-// The sum of area times density (point_curvature.h) over the points of a level that carry a fit:
-// not those of curves and corners, nor of a boundary in any mode; so the half cells along these
-// count for nothing. x: 3 numbers a point.
+// By cotangents and angles (cotangent_curvature.h), with k1^2 + k2^2 = 4 H^2 - 2 K: not by the fits
+// of the Gauss-Newton steps, which say many times too much where triangles are thin. Over the points
+// that carry a fit: not those of curves and corners, nor of a boundary in any mode; so the half
+// cells along these count for nothing. x: 3 numbers a point.
 //
-// Second order in the spacing on a smooth closed surface. Finite for any finite x: a point that
-// coincides with a neighbour counts for nothing. Bit-identical for any number of threads.
+// Second order in the spacing on a smooth closed surface. On a mesh inscribed in a sphere, where
+// the polyhedron's area lets H fall short of K, k1^2 + k2^2 is not taken below 2 H^2. Finite for any
+// finite x. Bit-identical for any number of threads.
 double total_curvature(const GridLevel& grid, Workers& workers, const double* x);
 
-// The same over the star of each control vertex: its faces, the edges at it, and itself.
+// As the Gauss-Newton steps have it, area times density (point_curvature.h), over the star of each
+// control vertex: its faces, the edges at it, and itself. A point that coincides with a neighbour
+// counts for nothing.
 std::vector<double> total_curvature_of_stars(const GridLevel& grid, Workers& workers,
                                              const double* x);
 

@@ -33,13 +33,14 @@ def triangles_of(faces) -> np.ndarray:
     return np.array(fans, np.int64).reshape(-1, 3)
 
 
-def judge(vertices: np.ndarray, faces, points: np.ndarray, triangles: np.ndarray) -> Figures:
-    """The figures of the surface (points, triangles) of a control mesh (vertices, faces)."""
-    angles = measures.dihedrals(points, triangles)
+def judge(vertices: np.ndarray, faces, result) -> Figures:
+    """The figures of a result of df.fair for a control mesh (vertices, faces)."""
+    points = result.vertices
+    angles = measures.dihedrals(points, result.triangles.astype(np.int64))
     middle = (vertices.min(0) + vertices.max(0)) / 2
     sharpest = measures.largest_dihedral(vertices, triangles_of(faces))
     return Figures(
-        energy=measures.total_curvature(points, triangles) / (8 * np.pi),
+        energy=measures.total_curvature_of_faces(points, *result.faces) / (8 * np.pi),
         angle=float(np.quantile(angles, 0.999)),
         largest_angle=float(angles.max()),
         folds=int((angles > max(SHARP, sharpest) + ROUNDING).sum()),

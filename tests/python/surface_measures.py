@@ -42,6 +42,13 @@ def total_curvature(points: np.ndarray, triangles: np.ndarray) -> float:
     return float(four_h2.sum() - 2 * defect[inner].sum())
 
 
+def total_curvature_of_faces(points: np.ndarray, triangles: np.ndarray, quads: np.ndarray) -> float:
+    """The same with quads: the mean of both ways to cut all of them."""
+    cuts = (([0, 1, 2], [0, 2, 3]), ([1, 2, 3], [1, 3, 0]))
+    cut = [np.concatenate([triangles, quads[:, a], quads[:, b]]).astype(np.int64) for a, b in cuts]
+    return (total_curvature(points, cut[0]) + total_curvature(points, cut[1])) / 2
+
+
 def rim(triangles: np.ndarray) -> np.ndarray:
     """The vertices on edges with one side."""
     edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), 1)

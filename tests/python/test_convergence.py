@@ -185,7 +185,7 @@ def test_total_curvature_of_a_sphere_is_its_own(name):
     for _ in range(4):
         measured = tight.fair(points, faces, 0).report["energy"]["result"]["total_curvature"]
         errors.append(abs(measured / (8 * np.pi) - 1))
-        points, faces = butterfly.refine(points, faces)
+        points, faces = meshes.refine_triangles(points, faces)  # butterfly's would fold the hull
         points = points / np.linalg.norm(points, axis=1)[:, None]
     assert (
         all(fine < 0.4 * coarse for coarse, fine in zip(errors, errors[1:])) and errors[-1] < 0.01
