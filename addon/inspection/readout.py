@@ -27,6 +27,13 @@ ROWS = (
     ("Last decrement", "decrement", "{:.1e}"),
     ("Faces", "faces", "{:,}"),
 )
+_FORMS = {key: form for _, key, form in ROWS}
+# said wherever there is a column Before
+NO_SURFACE = (
+    "Before is the control mesh. Its few vertices are no surface: they say nothing of curvature, "
+    "and its folds are those between flat faces."
+)
+_OF_SURFACES = {"total_curvature", "largest_curvature", "curvature_98"}
 
 
 def take(context: Context, target: Object, source: Object | None = None) -> dict[str, Any]:
@@ -43,7 +50,7 @@ def take(context: Context, target: Object, source: Object | None = None) -> dict
     if source is not None:
         before, control = _measured(context, source)
         # on its few vertices a coarse mesh always looks calmer than it is
-        before["total_curvature"] = None
+        before |= dict.fromkeys(_OF_SURFACES)
         after["deviation"] = largest_deviation(control, positions)
     record = {"after": after, "before": before, "counts": mesh_changes.watch(context, target.data)}
     memory.keep(target, "readout", record)
@@ -57,11 +64,8 @@ def is_stale(target: Object, record: dict[str, Any]) -> bool:
 
 def table(record: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Rows (label, before, after) of texts; lines that nobody knows anything about are left out."""
-    before, after = record["before"] or {}, record["after"]
-    rows = [
-        (label, _text(before.get(key), form), _text(after.get(key), form))
-        for label, key, form in ROWS
-    ]
+    before = dict(record["before"] or {}) | dict.fromkeys(_OF_SURFACES)  # older files have them
+    rows = [(label, text(before, key), text(record["after"], key)) for label, key, _ in ROWS]
     return [row for row in rows if row[1] or row[2]]
 
 
@@ -71,5 +75,7 @@ def _measured(context: Context, target: Object) -> tuple[dict[str, Any], np.ndar
     return measure(arrays), arrays.positions
 
 
-def _text(value: Any, form: str) -> str:
-    return "" if value is None else form.format(value)
+def text(figures: dict[str, Any], key: str) -> str:
+    """One of the ROWS as it is shown; empty where nobody knows it."""
+    value = figures.get(key)
+    return "" if value is None else _FORMS[key].format(value)

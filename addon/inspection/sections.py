@@ -25,6 +25,10 @@ class Section:
     curvature: np.ndarray  # (k,) positive where the side of the normals bulges
     closed: bool
 
+    @property
+    def length(self) -> float:
+        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+
 
 def heights(points: np.ndarray, axis: int, count: int) -> np.ndarray:
     """(count,) where planes across `axis` (0 to 2) cut (n, 3) points: in the middles of even parts."""
@@ -46,10 +50,9 @@ def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
 def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.ndarray]:
     """(k, 3) the ends of the teeth of each section, on the side that bulges.
 
-    All have one scale: the curvature that 95 % stay under makes a tooth of a share of `diagonal`.
+    All have one scale: the usual curvature makes a tooth of a share of `diagonal`.
     """
-    bent = [np.abs(section.curvature) for section in found]
-    usual = float(np.percentile(np.concatenate(bent), 95.0)) if bent else 0.0
+    usual = _usual_curvature(found)
     if usual <= 0.0:
         return [section.points for section in found]
     length = scale * _TOOTH * diagonal / usual
@@ -58,6 +61,18 @@ def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.
         s.points + s.normals * (length * np.clip(s.curvature, -limit, limit))[:, None]
         for s in found
     ]
+
+
+def _usual_curvature(found: list[Section]) -> float:
+    """What 95 % of a section stay under, in the middle of all sections by their lengths: short ones
+    that bend tightly, as at a bow, do not flatten the combs of the long ones.
+    """
+    if not found:
+        return 0.0
+    bent = np.array([np.percentile(np.abs(section.curvature), 95.0) for section in found])
+    order = np.argsort(bent)
+    passed = np.cumsum(np.array([section.length for section in found])[order])
+    return float(bent[order[np.searchsorted(passed, 0.5 * passed[-1])]])
 
 
 def segments(lines: list[np.ndarray]) -> np.ndarray:

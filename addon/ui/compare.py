@@ -48,8 +48,8 @@ def measured_surfaces(active: Object | None) -> list[tuple[Object, dict]]:
 def figures(target: Object, record: dict) -> tuple[str, str, str]:
     """Energy, total curvature and worst fold, as texts."""
     after = record["after"]
-    name = energy_name(target.discrete_fairing.energy)
-    return name, f"{after['total_curvature']:.4g}", f"{after['worst_fold']:.2f}°"
+    curvature, fold = (readout.text(after, key) for key in ("total_curvature", "worst_fold"))
+    return energy_name(target.discrete_fairing.energy), curvature, fold
 
 
 register, unregister = registration(VIEW3D_PT_fairing_compare)

@@ -124,6 +124,8 @@ def _draw_readout(layout: bpy.types.UILayout, target: Object, record: dict[str, 
     for row in (heads, *readout.table(record)):
         for column, text in zip(columns, row, strict=True):
             column.label(text=text)
+    if record["before"]:
+        draw_notice(layout, readout.NO_SURFACE, icon="INFO")
 
 
 CLASSES = (VIEW3D_PT_fairing_inspect,)

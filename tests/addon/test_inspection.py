@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, snapshot
 
 from addon.inspection import display, measures, readout
@@ -231,9 +232,22 @@ def test_readout_has_before_and_after():
     assert record["before"]["worst_fold"] == pytest.approx(90)
     rows = {label: (before, after) for label, before, after in readout.table(record)}
     assert rows["Worst fold"][1] == "90.00°" and rows["Off the vertices"] == ("", "0.1")
-    before, after = rows["Total curvature"]
-    assert before == "" and float(after) > 0, "of a coarse mesh it says nothing"
+    for label in ("Total curvature", "Largest curvature", "98 % lie below"):
+        before, after = rows[label]
+        assert before == "" and float(after) > 0, "of a coarse mesh it says nothing"
     assert not [text for row in rows.values() for text in row if "nan" in text]
+
+
+def test_the_panel_says_that_control_vertices_are_no_surface():
+    source, target = faired_pair()
+    activate(target)
+    record = readout.take(bpy.context, target, source)
+    said = " ".join(draw(panel.VIEW3D_PT_fairing_inspect))
+    assert "vertices are no surface" in said
+    old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
+    assert all(before == "" for _, before, _ in readout.table(old)), "older files have more"
+    readout.take(bpy.context, target)
+    assert "no surface" not in " ".join(draw(panel.VIEW3D_PT_fairing_inspect))
 
 
 def test_readout_says_how_the_steps_went():

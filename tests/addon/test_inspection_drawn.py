@@ -156,6 +156,35 @@ def test_sections_end_at_borders_and_break_at_sharp_edges():
     assert max(np.abs(section.curvature).max() for section in found) < 1e-6
 
 
+def pointed(length=6.0, rows=60, around=48):
+    """A body like a hull's under water and above: round amidships, its ends drawn out to a stem."""
+    x = length * np.sin(np.linspace(-1.57, 1.57, rows + 1))
+    angle = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
+    breadth = (1.0 - (x / length) ** 2) ** 2
+    across = np.stack([breadth[:, None] * np.cos(angle), np.tile(np.sin(angle), (rows + 1, 1))], 2)
+    points = np.concatenate([np.repeat(x, around)[:, None], across.reshape(-1, 2)], axis=1)
+    faces = [
+        (i * around + j, i * around + k, (i + 1) * around + k, (i + 1) * around + j)
+        for i in range(rows)
+        for j, k in zip(range(around), [*range(1, around), 0])
+    ]
+    target = add("Hull", points.tolist(), faces)
+    bpy.ops.object.shade_smooth()
+    return target
+
+
+def tooth_lengths(found):
+    """(k,) of each section."""
+    ends = sections.combs(found, 12.0)
+    return [np.linalg.norm(e - s.points, axis=1) for s, e in zip(found, ends, strict=True)]
+
+
+def test_a_bow_does_not_flatten_the_combs_amidships():
+    found = sections.sections(surface(pointed()), 0, 9)
+    amidships = np.concatenate(tooth_lengths(found)[3:-3])
+    assert np.percentile(amidships, 90.0) > 0.05 * 12.0
+
+
 def test_lines_come_in_pairs_for_what_is_asked():
     target = surface(ball())
     asked = SimpleNamespace(
