@@ -141,12 +141,19 @@ _FAULTS = {
     "far": "bulges by more than the edges of its source are long",
     "folded": "is folded",
 }
+FAULT_KINDS = frozenset(_FAULTS)
 
 
 def faults_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
     """What is wrong with a surface, from the number of points at which it is, and what helps."""
     told = f"{object_name}: {faults_summary(counts)}. Select Places in the panel shows where"
     return f"{told}. {faults_remedy(settings)}"
+
+
+def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
+    """The same for faces faired in their own mesh, which has no panel of theirs."""
+    listed = _listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
+    return f"{object_name}: what was faired {listed}. {faults_remedy(settings)} Ctrl Z undoes it."
 
 
 def faults_summary(counts: Mapping[str, int]) -> str:
@@ -197,6 +204,7 @@ _DONE = {
     "DEGENERATE_FACE": ("face without area dissolved", "faces without area dissolved"),
     "INCONSISTENT_ORIENTATION": ("face turned", "faces turned"),
 }
+REPAIR_CODES = frozenset(_DONE)
 
 
 def repairs_text(repairs: Iterable[Mapping[str, Any]]) -> str:

@@ -16,7 +16,9 @@ from mathutils import kdtree
 
 from . import core, errors, prediction, size
 from .blender import Context, Object
+from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
+from .job import run_warnings
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.world_shape import world_shape
@@ -40,6 +42,11 @@ class Wish:
     energy: str
     tension: float
     release: bool  # whether the vertices of the selection move; always, where no others come
+    factor: float = 1.0  # how far they go
+
+    @property
+    def moves(self) -> bool:
+        return self.release or not self.levels
 
 
 @dataclass(frozen=True)
@@ -53,6 +60,7 @@ class Faired:
     splits: dict[int, list[int]]
     labels: np.ndarray  # (N, 3) float32, no two alike; linear between those of the vertices
     levels: int
+    faults: Faults
 
 
 class InPlaceJob:
@@ -83,7 +91,7 @@ class InPlaceJob:
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
-        if wish.release or not refined:
+        if wish.moves:
             self._arguments["interpolation"] = "approximate"
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
 
@@ -115,8 +123,11 @@ class InPlaceJob:
         arguments, part = self._arguments, self._part
         with errors.explained(self.name):
             result = core.module().fair(**arguments, **watchers)
+        self._report = result.report
+        result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
         points = self._shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
         carrier = Carrier(result, part.arrays, arguments["levels"])
+        world = self._shape.of_arrays(part.arrays)
         labels = np.random.default_rng(0).random((len(part.vertices), 3))
         levels = self._wish.levels
         splits = _split_faces(carrier, part) if levels else {}
@@ -126,8 +137,30 @@ class InPlaceJob:
                 "Triangulate it (Ctrl T)."
             )
         chosen = np.flatnonzero(self._chosen)
-        self.result = Faired(part, chosen, points, splits, carrier.point(labels), levels)
+        theirs = self._chosen[part.faces]
+        faults = find_faults_in_place(result, carrier, world, theirs, self._wish)
+        self.result = Faired(part, chosen, points, splits, carrier.point(labels), levels, faults)
         self._taken = perf_counter() - begun
+
+    def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
+        """`vertices` with the first of them, those of the part, between where they were `before` and
+        where they are fairest; to the bit where they stay.
+        """
+        if self._wish.factor == 1.0:
+            return vertices
+        vertices = vertices.copy()
+        vertices[: len(before)] = before + self._wish.factor * (vertices[: len(before)] - before)
+        return vertices
+
+    def warnings(self) -> list[str]:
+        """What the user should know of a finished job, a sentence each."""
+        sentences = run_warnings(self.name, self._report, self._wish.energy)
+        counts = self.result.faults.counts
+        if counts:
+            # Near is no choice here
+            settings = SimpleNamespace(**vars(self._wish), interpolation="APPROXIMATE")
+            sentences.append(errors.faults_in_place_text(self.name, counts, settings))
+        return sentences
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
@@ -150,9 +183,9 @@ class InPlaceJob:
             f"{self.name} was edited during the run: nothing more has changed. Fair it once more."
         )
 
-    def apply(self, factor: float) -> None:
-        """Moves, and with levels refines, the faces; `factor`: how far the old vertices go."""
-        apply(cast(Object, self._source.find()), self.result, factor)
+    def apply(self) -> None:
+        """Moves, and with levels refines, the faces."""
+        apply(cast(Object, self._source.find()), self.result)
         prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
 
 
@@ -175,7 +208,7 @@ def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: 
             f"{name}: no vertex lies inside of the selection, so none can move. "
             "Select more faces, or raise Levels."
         )
-    if (wish.release or not wish.levels) and _floats(arrays, free):
+    if wish.moves and _floats(arrays, free):
         raise JobError(
             f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
         )
@@ -208,25 +241,17 @@ def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
     return SimpleNamespace(**asked)
 
 
-def apply(source: Object, faired: Faired, factor: float) -> None:
-    """Moves, and with levels refines, the selected faces in Edit Mode; `factor`: how far the old
-    vertices go.
-    """
+def apply(source: Object, faired: Faired) -> None:
+    """Moves, and with levels refines, the selected faces in Edit Mode."""
     edited = bmesh.from_edit_mesh(source.data)
     if faired.levels:
-        _refine(edited, faired, factor)
+        _refine(edited, faired)
     else:
         edited.verts.ensure_lookup_table()
         for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
-            _move(edited.verts[index], point, factor)
+            edited.verts[index].co = point
     edited.normal_update()
     bmesh.update_edit_mesh(source.data)
-
-
-def _move(vertex: bmesh.types.BMVert, point: list[float], factor: float) -> None:
-    """To the bit where it is, if it is to stay."""
-    here: Any = vertex.co
-    vertex.co = [a + factor * (b - a) for a, b in zip(here, point)]
 
 
 def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
@@ -244,7 +269,7 @@ def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -
             bmesh.utils.face_split(face, *(known[row] for row in common))
 
 
-def _refine(edited: bmesh.types.BMesh, faired: Faired, factor: float) -> None:
+def _refine(edited: bmesh.types.BMesh, faired: Faired) -> None:
     """Blender's own subdivision makes the faces, with all that lies on them, and mixes the labels of
     the vertices; these say which point each new vertex is.
     """
@@ -252,7 +277,6 @@ def _refine(edited: bmesh.types.BMesh, faired: Faired, factor: float) -> None:
     of_faces: Any = edited.faces.layers.int
     label, chosen = of_vertices.new("fairing_label"), of_faces.new("fairing_chosen")
     edited.verts.ensure_lookup_table()
-    count = len(edited.verts)
     for row, index in enumerate(faired.part.vertices.tolist()):
         edited.verts[index][label] = faired.labels[row].tolist()
     edited.faces.ensure_lookup_table()
@@ -268,11 +292,9 @@ def _refine(edited: bmesh.types.BMesh, faired: Faired, factor: float) -> None:
     for row, place in enumerate(faired.labels.tolist()):
         tree.insert(place, row)
     tree.balance()
-    edited.verts.ensure_lookup_table()
-    edited.verts.index_update()
     for vertex in {v for face in edited.faces if face[chosen] for v in face.verts}:
         row = tree.find(vertex[label])[1]
-        _move(vertex, faired.points[row].tolist(), factor if vertex.index < count else 1.0)
+        vertex.co = faired.points[row].tolist()
     for face in edited.faces:
         face.select_set(face.select or bool(face[chosen]))
     of_vertices.remove(label)

@@ -5,6 +5,7 @@ Reading and writing belong to Blender's main thread. Computing touches nothing o
 run on any thread.
 """
 
+from collections.abc import Mapping
 from contextlib import nullcontext
 from time import perf_counter
 from typing import Any
@@ -212,15 +213,20 @@ class Job:
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
-        report = self.result.report
-        sentences = [
-            errors.warning_text(self.name, warning)
-            for warning in report["warnings"]
-            if warning["code"] != "MEMORY_EXCEEDED" or report["peak_bytes"] >= NOTICED_MEMORY
-        ]
-        told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
-        if not told and not core.has_converged(report):
-            sentences.append(errors.unfinished_text(self.name, energy_name(self.settings.energy)))
+        sentences = run_warnings(self.name, self.result.report, self.settings.energy)
         if self.faults.counts:
             sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
         return sentences
+
+
+def run_warnings(name: str, report: Mapping[str, Any], energy: str) -> list[str]:
+    """What the core's `report` warns of, a sentence each."""
+    sentences = [
+        errors.warning_text(name, warning)
+        for warning in report["warnings"]
+        if warning["code"] != "MEMORY_EXCEEDED" or report["peak_bytes"] >= NOTICED_MEMORY
+    ]
+    told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
+    if not told and not core.has_converged(report):
+        sentences.append(errors.unfinished_text(name, energy_name(energy)))
+    return sentences

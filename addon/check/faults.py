@@ -13,11 +13,12 @@ from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
 from ..core import ControlArrays, folds
-from ..inspection.curvature import cross, unit
+from ..inspection.curvature import cross
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
 from ..transfer.carrier import Carrier
 from ..transfer.coarse import coarse_triangles
+from .folds import folded, folded_in_place
 
 # triangles that are searched for crossings at a time, some 0.3 seconds; a finer surface is looked at
 # by fewer of its points first
@@ -60,10 +61,30 @@ def faulty_vertices(mesh: Mesh) -> np.ndarray:
 def find_faults(result: Any, carrier: Carrier, control: ControlArrays) -> Faults:
     """Of the core's `result` for the mesh `control`, both in the same coordinates."""
     none = np.zeros(len(result.vertices), bool)
+    before = carrier.point(control.positions)
     return Faults(
-        _crossing(result.vertices, carrier),
+        _crossing(result.vertices, before, carrier),
         _departure(result.vertices, carrier, control) > FAR,
-        _folded(result.vertices, result.triangles) if folds(result.report) else none,
+        folded(result.vertices, result.triangles) if folds(result.report) else none,
+    )
+
+
+def find_faults_in_place(
+    result: Any, carrier: Carrier, control: ControlArrays, chosen: np.ndarray, wish: Any
+) -> Faults:
+    """The same of the `chosen` (m,) bool faces of a part of a mesh, faired by `wish` (in_place.Wish).
+
+    With no levels only the part's own vertices count. Where these move, they go as far as they may,
+    which is no fault.
+    """
+    before, vertices = carrier.point(control.positions), result.vertices
+    if not wish.levels:
+        vertices = carrier.point(vertices[: len(control.positions)])
+    joined = wish.joint != "POSITION"
+    return Faults(
+        _crossing(vertices, before, carrier),
+        (_departure(vertices, carrier, control) > FAR) & (not wish.moves),
+        folded_in_place(result, vertices, before, carrier, chosen, wish.levels, joined),
     )
 
 
@@ -79,22 +100,10 @@ def _departure(vertices: np.ndarray, carrier: Carrier, control: ControlArrays) -
     return away / np.where(around > 0.0, around, np.inf)
 
 
-def _folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
-    """(N,) bool: the ends of edges whose two triangles have normals with a `cosine` below this."""
-    a, b, c = (vertices[triangles[:, i]] for i in range(3))
-    normals = unit(cross(b - a, c - a))
-    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1).astype(np.int64)
-    keys = edges[:, 0] << 32 | edges[:, 1]
-    order = np.argsort(keys, kind="stable")
-    pairs = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    first, second = order[pairs], order[pairs + 1]
-    against = (normals[first // 3] * normals[second // 3]).sum(axis=1) < cosine
-    marked = np.zeros(len(vertices), bool)
-    marked[edges[first[against]].ravel()] = True
-    return marked
-
-
-def _crossing(vertices: np.ndarray, carrier: Carrier) -> np.ndarray:
+def _crossing(vertices: np.ndarray, before: np.ndarray, carrier: Carrier) -> np.ndarray:
+    """(N,) bool: where the surface at `vertices` crosses itself and the control mesh, `before`, does
+    not.
+    """
     marked = np.zeros(len(vertices), bool)
     coarsest, owner = coarse_triangles(carrier, 0)
     if not 0 < len(coarsest) <= MOST:
@@ -102,7 +111,7 @@ def _crossing(vertices: np.ndarray, carrier: Carrier) -> np.ndarray:
     everywhere = np.ones(owner.max() + 1, bool)
     triangles, pairs, faces = _look(vertices, carrier, len(coarsest), everywhere)
     if len(pairs):
-        excused = _Excused(vertices, coarsest, owner)
+        excused = _Excused(before, coarsest, owner)
         pairs = excused.leave_out(pairs, faces)
     if len(pairs) and len(triangles) < carrier.triangle_count:
         # two close walls may seem to cross by few points only: a second look, nearer
@@ -189,7 +198,7 @@ class _Excused:
         self._parts = {_ordered(a, b) for a, b in self._part[crossing].tolist() if a != b}
         # within a part: faces that do, and their neighbours
         self._near = np.zeros(count, bool)
-        at = _on_others(vertices, triangles) | _folded(vertices, triangles, _SHARP)
+        at = _on_others(vertices, triangles) | folded(vertices, triangles, _SHARP)
         own = crossing[self._part[crossing[:, 0]] == self._part[crossing[:, 1]]]
         at[triangles[np.isin(faces, own) | at[triangles].any(axis=1)]] = True
         self._near[faces[at[triangles].any(axis=1)]] = True

@@ -96,7 +96,9 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
             layout.prop(self, "tension")
 
     def make_jobs(self, context: Context) -> list[Any]:
-        wish = in_place.Wish(self.levels, self.joint, self.energy, self.tension, self.release)
+        wish = in_place.Wish(
+            self.levels, self.joint, self.energy, self.tension, self.release, self.factor
+        )
         settings = context.scene.discrete_fairing
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
         if not objects:
@@ -111,7 +113,9 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
                 self.report({"ERROR"}, reason)
                 return {"CANCELLED"}
         for job in jobs:
-            job.apply(self.factor)
+            job.apply()
+            for sentence in job.warnings():
+                self.report({"WARNING"}, sentence)
         return {"FINISHED"}
 
     def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:

@@ -9,7 +9,7 @@ from fake_layout import draw
 from scenes import CUBE, add, add_suzanne, fair, positions
 from shapes import mug
 
-from addon.check import faults
+from addon.check import faults, folds
 from addon.core import has_converged
 from addon.job import Job
 from addon.memory import recall
@@ -98,8 +98,8 @@ def test_a_coarse_lattice_is_part_of_the_fine_one():
 
 def test_folds_of_the_report_have_places():
     fold = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.9, 0.1)], float)
-    folded = faults._folded(fold, np.array([(0, 1, 2), (0, 2, 3), (2, 1, 3)]))
-    assert folded.any() and not faults._folded(fold, np.array([(0, 1, 2)])).any()
+    folded = folds.folded(fold, np.array([(0, 1, 2), (0, 2, 3), (2, 1, 3)]))
+    assert folded.any() and not folds.folded(fold, np.array([(0, 1, 2)])).any()
 
 
 def test_places_are_not_carried_on():

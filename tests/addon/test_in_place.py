@@ -10,6 +10,9 @@ from scenes import CUBE, activate, add
 
 from addon import prediction
 from addon.in_place import InPlaceJob, Wish
+from addon.inspection.curvature import faces_of_edges
+from addon.inspection.measures import fold_angles
+from addon.mesh.read import read_mesh
 from addon.operators import fill
 from addon.operators.fair import Fairing
 from addon.queue import Queue
@@ -166,6 +169,73 @@ def test_layers_of_the_mesh_are_refined_with_it():
     assert max(abs(u[0] - p[0]) + abs(u[1] - p[1]) for u, p in flat) < 0.2
 
 
+def funnel(rows=3, count=4):
+    """A square hole at the end of walls that lean out, each `count` faces wide, filled with one face."""
+    along = [2.0 * i / count - 1.0 for i in range(count)]
+    ring = [p for x in (along,) for p in [(t, -1.0) for t in x] + [(1.0, t) for t in x]]
+    ring += [(-x, -y) for x, y in ring]
+    points = [
+        ((1 + 0.6 * row) * x, (1 + 0.6 * row) * y, 0.5 * row)
+        for row in range(rows + 1)
+        for x, y in ring
+    ]
+    n = len(ring)
+    faces = [
+        (row * n + i, row * n + (i + 1) % n, (row + 1) * n + (i + 1) % n, (row + 1) * n + i)
+        for row in range(rows)
+        for i in range(n)
+    ]
+    target = add("Funnel", points, [*faces, tuple(range(rows * n, (rows + 1) * n))])
+    select(target, lambda ids: len(ids) == n)
+    return target
+
+
+def folds_at_the_rim(target):
+    """The largest angle in degrees between a selected face and one that is not."""
+    arrays = read_mesh(target.data)
+    angles, inside = fold_angles(arrays)
+    chosen = np.array([p.select for p in target.data.polygons])
+    return angles[inside & (chosen[faces_of_edges(arrays)].sum(axis=1) == 1)].max()
+
+
+def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
+    target = funnel()
+    fair(target, levels=2, joint="TANGENT")
+    assert 95.0 < folds_at_the_rim(target) < 98.0
+    said = capfd.readouterr().out
+    assert "Funnel: what was faired is folded (" in said and "Raise Tension" in said
+    fair(funnel(), levels=2, joint="POSITION")
+    assert "folded" not in capfd.readouterr().out, "any angle is right there"
+
+
+@pytest.mark.parametrize("levels", [0, 2])
+@pytest.mark.parametrize("joint", ["POSITION", "TANGENT", "CURVATURE"])
+def test_what_is_sound_in_place_is_not_blamed(levels, joint, capfd):
+    target, _ = cap(noise=0.02)
+    fair(target, levels=levels, joint=joint)
+    assert "what was faired" not in capfd.readouterr().out
+
+
+def test_vertices_that_end_in_a_fold_are_told(monkeypatch, capfd):
+    """No level: the faces are those of the mesh, with their vertices moved."""
+    target, middle = cap(0.0)
+    job = begun(target)
+    fold = np.flatnonzero(middle)[12]
+    made = df.fair
+
+    def folds(*args, **options):
+        result = made(*args, **options)
+        result.vertices[np.flatnonzero(job._part.vertices == fold)[0], 0] += 1.0
+        return result
+
+    monkeypatch.setattr(df, "fair", folds)
+    job.compute()
+    assert job.result.faults.counts["folded"] > 0 and "is folded" in job.warnings()[0]
+    half = begun(target, factor=0.0)
+    half.compute()
+    assert half.warnings() == [], "what was never moved there"
+
+
 def error_of(**options):
     with pytest.raises(RuntimeError) as caught:
         bpy.ops.object.fairing_in_place(**options)
@@ -217,7 +287,7 @@ def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():
     queue.join()
     assert queue.error is None and len(bmesh.from_edit_mesh(target.data).faces) == SIZE**2
     assert job.why_outdated(bpy.context) == ""
-    job.apply(1.0)
+    job.apply()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.array_equal(positions(target), expected)
 

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edges of a surface where it turns back: by more than a right angle, or by what is asked for."""
+
+from typing import Any
+
+import numpy as np
+
+from ..inspection.curvature import cross, unit
+from ..transfer.carrier import Carrier
+from ..transfer.coarse import coarse_triangles
+from ..transfer.lattice import fine_edges, pair_keys
+
+
+def folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
+    """(N,) bool: the ends of edges whose two triangles have normals with a `cosine` below this."""
+    return _at(vertices, _folds(vertices, triangles, cosine)[0])
+
+
+def folded_in_place(
+    result: Any,
+    vertices: np.ndarray,
+    before: np.ndarray,
+    carrier: Carrier,
+    chosen: np.ndarray,
+    levels: int,
+    joined: bool,
+) -> np.ndarray:
+    """(N,) bool: at folds of the `chosen` (m,) bool control faces of the core's `result`, after
+    `levels` refinements and with its points at `vertices` (N, 3).
+
+    `joined`: whether they are to meet the faces around smoothly; otherwise any angle is right there.
+    Creases are folds by wish, and inside of the chosen faces those of the control mesh, which is at
+    `before`, and of the faces at them are none of the surface's doing.
+    """
+    polygon = np.concatenate([patch.faces.polygon for patch in carrier.patches])
+    coarsest, owner = coarse_triangles(carrier, 0)
+    theirs = chosen[polygon]
+    edges, sides = _folds(before, coarsest)
+    at = _at(vertices, edges[theirs[owner[sides]].all(axis=1)])
+    excused = np.zeros(len(polygon), bool)
+    excused[owner[at[coarsest].any(axis=1)]] = True
+    triangles, face = coarse_triangles(carrier, levels)
+    edges, sides = _folds(vertices, triangles)
+    inside = theirs[face[sides]]
+    told = inside.all(axis=1) & ~excused[face[sides]].any(axis=1)
+    if joined:
+        told |= inside.any(axis=1) & ~inside.all(axis=1)
+    pairs = result.crease_edges
+    creases = fine_edges(result.faces, pairs, levels) if levels else pairs
+    return _at(vertices, edges[told & ~np.isin(pair_keys(edges), pair_keys(creases))])
+
+
+def _at(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    marked = np.zeros(len(vertices), bool)
+    marked[edges.ravel()] = True
+    return marked
+
+
+def _folds(
+    vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """(k, 2) the ends of the edges, and (k, 2) their triangles."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    normals = unit(cross(b - a, c - a))
+    edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    keys = pair_keys(edges)
+    order = np.argsort(keys, kind="stable")
+    pairs = np.flatnonzero(keys[order][1:] == keys[order][:-1])
+    first, second = order[pairs], order[pairs + 1]
+    against = (normals[first // 3] * normals[second // 3]).sum(axis=1) < cosine
+    sides = np.stack([first, second], axis=1)[against] // 3
+    return edges[first[against]], sides
