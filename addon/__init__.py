@@ -10,7 +10,7 @@ window, `cad` makes spline patches of it.
 from . import cli, freshness, memory, preferences, queue, settings
 from .inspection import overlay
 from .inspection import settings as inspection_settings
-from .live import handlers, kept, switch
+from .live import handlers, kept, switch, undo
 from .mesh import mesh_changes
 from .operators import (
     boundary,
@@ -45,6 +45,7 @@ _MODULES = (
     switch,
     handlers,
     kept,
+    undo,
     fair,
     faults,
     fill,

@@ -57,7 +57,7 @@ def _shown(session: Session) -> tuple[Hashable, ...]:
 
 def look_at(session: Session) -> None:
     """The first surface of a session, without waiting for a change."""
-    guarded(session, lambda it: it.follow(bpy.context.evaluated_depsgraph_get()))
+    guarded(session, lambda it: it.follow())
 
 
 def complete(session: Session, context: Context) -> None:
@@ -69,7 +69,7 @@ def complete(session: Session, context: Context) -> None:
 
 def _advance(session: Session) -> None:
     if session.needs_look():
-        session.follow(bpy.context.evaluated_depsgraph_get())
+        session.follow()
     session.advance(current_context())
     if session.ending and not session.is_waiting:
         registry.remove(session)
@@ -87,7 +87,7 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
         with registry.quiet():
             step(session)
     except Exception as error:
-        registry.remove(
+        registry.give_up(
             session, f"Live has ended because of an unexpected error, please report it: {error!r}"
         )
         raise

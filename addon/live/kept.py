@@ -7,16 +7,14 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..blender import Object, all_objects
-from . import cage, switch
+from . import cage, registry, switch
 
 
 @persistent
 def _note(*_: Any) -> None:
     """Which surfaces are live, before the file is written."""
     for target in _surfaces():
-        live, on = target.discrete_fairing_live, switch.is_on(target)
-        if live.was_on != on:
-            live.was_on = on
+        registry.note(target, switch.is_on(target))
 
 
 @persistent

@@ -11,7 +11,7 @@ import bpy
 
 from ..blender import Object
 from ..memory import source_problem
-from ..mesh.object import session_key
+from ..mesh.object import Reference, session_key
 from . import cage
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _sessions: dict[int | str, Session] = {}  # target key: Session
 _endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sentence
+_known: dict[int | str, Reference] = {}  # those that are or were live since the file was opened
 _quiet = 0
 
 
@@ -48,12 +49,25 @@ def session_of(target: Object) -> Session | None:
     return _sessions.get(session_key(target))
 
 
+def known() -> list[Object]:
+    """The surfaces that are or were live since the file was opened, and are there."""
+    return [target for one in _known.values() if (target := one.find()) is not None]
+
+
 def add(session: Session) -> None:
     _sessions[session.key] = session
     _endings.pop(session.key, None)
     target = session.objects()[1]
     if target is not None:
+        _known[session.key] = Reference(target)
+        note(target, True)
         cage.show(target)
+
+
+def note(target: Object, on: bool) -> None:
+    """Notes in the file, and so in the steps of undo, whether `target` is live."""
+    if target.discrete_fairing_live.was_on != on:
+        target.discrete_fairing_live.was_on = on
 
 
 def remove(session: Session, reason: str = "") -> None:
@@ -62,10 +76,17 @@ def remove(session: Session, reason: str = "") -> None:
     _sessions.pop(session.key, None)
     target = session.objects()[1]
     if target is not None:
+        note(target, False)
         others = [other.objects()[1] for other in sessions()]
         cage.restore(target, [other for other in others if other is not None])
     if reason:
         _endings[session.key] = reason
+
+
+def give_up(session: Session, reason: str) -> None:
+    """Ends it for good: undo does not bring it back."""
+    remove(session, reason)
+    _known.pop(session.key, None)
 
 
 def clear() -> None:
@@ -73,6 +94,7 @@ def clear() -> None:
     for session in sessions():
         remove(session)
     _endings.clear()
+    _known.clear()
 
 
 def why_ended(target: Object) -> str:

@@ -28,7 +28,14 @@ from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
-from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
+from ..mesh.read import (
+    control_mesh,
+    is_evaluated_in,
+    read_mesh,
+    selected_faces,
+    tolerance_shares,
+    vertex_pulls,
+)
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
@@ -61,6 +68,7 @@ class Session:
         self.parts: dict[str, float] = {}  # ms of the last update: read, build, solve, write
         self.updates = 0
         self._stale = True  # the mesh may not be what was written
+        self._unseen = False  # whether the timer is to look, as Blender's update did not
         self._mesh: int | str | None = None  # key of the mesh that was built
         self._schedule = Schedule()  # of the full level
         self._own: OwnData | None = None  # of the surface at its full level
@@ -101,7 +109,12 @@ class Session:
         geometry has changed.
         """
         source, target = self._present()
-        if self._stale or session_key(source) in reshaped or session_key(source.data) in reshaped:
+        if (
+            self._stale
+            or self._unseen
+            or session_key(source) in reshaped
+            or session_key(source.data) in reshaped
+        ):
             return True
         return not self._has_settings_of(source, target)
 
@@ -109,12 +122,22 @@ class Session:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
         self._stale, self._mesh = True, None
 
-    def follow(self, depsgraph: bpy.types.Depsgraph) -> bool:
+    def follow(self, depsgraph: bpy.types.Depsgraph | None = None) -> bool:
         """Brings the surface up to date with source and settings, at the live level.
 
-        True if anything had changed.
+        `depsgraph`: of the update of Blender's that calls; None: nothing of Blender's is under way.
+        Within an update nothing can stand in for a source that is hidden: its modifiers are looked
+        at afterwards. True if anything had changed.
         """
         source, target = self._present()
+        self._unseen = (
+            depsgraph is not None
+            and depsgraph.mode == "VIEWPORT"
+            and is_evaluated(target.discrete_fairing)
+            and not is_evaluated_in(source, depsgraph)
+        )
+        if self._unseen:
+            return False
         if target.mode == "EDIT":
             self.trouble, self._stale = SURFACE_EDITED, True
             return False
@@ -125,7 +148,9 @@ class Session:
             self._fail(str(error))
         return True
 
-    def _follow(self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph) -> bool:
+    def _follow(
+        self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph | None
+    ) -> bool:
         clock = Clock()
         if not self._has_settings_of(source, target):
             self._forget()
@@ -156,14 +181,16 @@ class Session:
         return True
 
     def _mesh_now(
-        self, source: Object, depsgraph: bpy.types.Depsgraph
+        self, source: Object, depsgraph: bpy.types.Depsgraph | None
     ) -> AbstractContextManager[Mesh]:
         """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
         edit; it is only read.
         """
         return control_mesh(current_context(), source, is_evaluated(self._settings), depsgraph)
 
-    def _solve(self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph) -> Any:
+    def _solve(
+        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph | None
+    ) -> Any:
         """The surface at a level and by an energy that can be kept up with; found out by trying,
         where need be.
         """
@@ -182,7 +209,7 @@ class Session:
             self._prepare(source, arrays, depsgraph)
 
     def _prepare(
-        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph
+        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph | None
     ) -> bool:
         """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
         if self._settings.use_selection and (
@@ -226,7 +253,7 @@ class Session:
         source: Object,
         target: Object,
         result: Any,
-        depsgraph: bpy.types.Depsgraph,
+        depsgraph: bpy.types.Depsgraph | None,
     ) -> None:
         if self._mesh != session_key(target.data) or not has_faces_of(target.data, result):
             with self._mesh_now(source, depsgraph) as mesh:
@@ -283,6 +310,8 @@ class Session:
 
     def complete(self, context: Context) -> None:
         """The full level now, if it is due: for scripts, and where there is no window."""
+        if self._unseen:
+            self.follow()
         full = self._begin(context) if self._schedule.is_planned else None
         if full is None:
             return

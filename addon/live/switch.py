@@ -42,6 +42,7 @@ def switch_on(target: Object) -> None:
     session = registry.session_of(target)
     if session is not None:
         session.ending = False
+        registry.note(target, True)
         return
     if poll_reason(target):
         return
@@ -57,6 +58,7 @@ def switch_off(target: Object, context: Context) -> None:
     if session is None:
         return
     session.ending = True
+    registry.note(target, False)
     if bpy.app.background:
         handlers.complete(session, context)
 
@@ -180,7 +182,9 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
         update=_cage_changed,
     )
     was_on: BoolProperty(
-        name="Was On", description="Live was on when the file was saved", options={"HIDDEN"}
+        name="Was On",
+        description="Live was on in this file, or this step of undo",
+        options={"HIDDEN"},
     )
     cage_display: StringProperty(
         name="Cage Display",

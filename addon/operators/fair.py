@@ -14,6 +14,7 @@ from ..blender import Answer, Context, Object, registration
 from ..errors import JobCancelled, JobError
 from ..freshness import stale_surfaces
 from ..job import Job
+from ..live import switch
 from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
 from ..mesh.object import select_only
@@ -174,7 +175,10 @@ class FairSurface(Fairing, FairingSettings):
     def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
         for job in jobs:
             source = cast(Object, job.source)  # there, as `finish` has seen
-            if self.hide_source and context.view_layer.objects.get(source.name) == source:
+            hidden = self.hide_source and not switch.live_surfaces_of(
+                source
+            )  # or it is being edited
+            if hidden and context.view_layer.objects.get(source.name) == source:
                 source.hide_set(True)
 
 

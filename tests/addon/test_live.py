@@ -187,6 +187,46 @@ def test_with_modifiers():
     assert len(target.data.polygons) == 18 * 4**3
 
 
+@pytest.mark.parametrize("hidden", ["hide_set", "hide_viewport"])
+def test_with_modifiers_of_a_source_that_is_hidden(hidden):
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    modifier = source.modifiers.new("More", "ARRAY")
+    target = live(source)
+    if hidden == "hide_set":
+        source.hide_set(True)
+    else:
+        source.hide_viewport = True
+    modifier.count = 3
+    follow()
+    handlers.on_timer()
+    assert not session(target).trouble
+    assert len(target.data.polygons) == 18 * 4**3
+    updates = session(target).updates
+    for _ in range(3):
+        follow()
+        handlers.on_timer()
+    assert session(target).updates == updates, "what stands in for the source is no edit"
+    modifier.count = 2
+    follow()
+    bpy.ops.object.fairing_live(state="OFF")
+    assert len(target.data.polygons) == 12 * 4**3, "the last edit too, without a timer"
+
+
+def test_a_second_surface_of_one_source_leaves_the_first_live():
+    source = add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    source.modifiers.new("More", "ARRAY")
+    target = live(source)
+    activate(source)
+    fair(levels=1, mesh_source="EVALUATED")
+    assert not source.hide_get(), "it is being edited"
+    source.modifiers["More"].count = 3
+    follow()
+    handlers.on_timer()
+    assert not session(target).trouble and len(target.data.polygons) == 18 * 4**3
+
+
 def test_a_region_is_that_of_the_beginning():
     source = add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.use_selection = True

@@ -10,7 +10,7 @@ from scenes import CUBE, activate, add, fair, positions
 
 import addon
 from addon import core
-from addon.live import handlers, registry, switch
+from addon.live import handlers, registry, switch, undo
 from addon.live import session as session_module
 from addon.ui import main
 
@@ -37,6 +37,72 @@ def test_undo_and_redo():
         assert source.data.vertices[0].co.z == height
         assert target.discrete_fairing_live.on
         assert np.array_equal(positions(target.data)[:8], positions(source.data))
+
+
+def box_that_undo_switches():
+    """A source hidden under its surface, and Live switched on with a click."""
+    bpy.context.preferences.edit.use_global_undo = True
+    add("Box", *CUBE)
+    target = fair(levels=2)
+    target.discrete_fairing_live.levels = 1
+    bpy.ops.ed.undo_push(message="made")
+    live(target)
+    bpy.ops.ed.undo_push(message="live")
+    return box_as_it_is()
+
+
+def box_as_it_is():
+    """Undo makes all objects anew."""
+    source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
+    return source, target, (source.hide_get(), source.display_type, len(target.data.polygons))
+
+
+def test_undo_takes_live_along():
+    source, target, on = box_that_undo_switches()
+    assert on == (False, "WIRE", 6 * 4)
+    bpy.ops.ed.undo()
+    source, target, off = box_as_it_is()
+    assert off == (True, "TEXTURED", 6 * 4**2) and not target.discrete_fairing_live.on
+    handlers.on_timer()
+    assert box_as_it_is()[2] == off and registry.sessions() == []
+    bpy.ops.ed.redo()
+    assert undo.resume() is None
+    source, target, again = box_as_it_is()
+    assert again == on and target.discrete_fairing_live.on
+    move(source)
+    follow()
+    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    target.discrete_fairing_live.on = False
+    assert box_as_it_is()[2] == (False, "TEXTURED", 6 * 4**2)
+
+
+def test_undo_of_switching_off():
+    source, target, on = box_that_undo_switches()
+    target.discrete_fairing_live.on = False
+    bpy.ops.ed.undo_push(message="off")
+    bpy.ops.ed.undo()
+    undo.resume()
+    source, target, again = box_as_it_is()
+    assert again == on and target.discrete_fairing_live.on
+
+
+def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
+    source, target, _ = box_that_undo_switches()
+    copy = target.copy()
+    copy.data = target.data.copy()
+    bpy.context.collection.objects.link(copy)
+    bpy.ops.ed.undo_push(message="copied")
+    bpy.ops.ed.undo_push(message="more")
+    bpy.ops.ed.undo()
+    undo.resume()
+    assert len(registry.sessions()) == 1
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    bpy.ops.ed.undo_push(message="opened")
+    bpy.ops.ed.undo_push(message="more")
+    bpy.ops.ed.undo()
+    undo.resume()
+    assert registry.sessions() == []
 
 
 def test_undo_of_the_surface_itself():
@@ -133,7 +199,8 @@ def test_nothing_is_written_while_rendering(no_pause):
 
 def test_disabling_leaves_nothing():
     source, target = box()
-    assert all(len(found) == 1 for found in registered().values())
+    everything = registered()
+    assert all(found.count(handlers._HANDLERS[name]) == 1 for name, found in everything.items())
     try:
         before = positions(target.data)
         addon.unregister()
@@ -144,7 +211,7 @@ def test_disabling_leaves_nothing():
         assert np.array_equal(positions(target.data), before)
     finally:
         addon.register()
-    assert all(len(found) == 1 for found in registered().values())
+    assert registered() == everything
     assert not target.discrete_fairing_live.on
 
 

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Undo takes Live along: what is undone with the click that switched it on is Live too.
+
+A step of Blender's undo holds `was_on`, which follows the switch, but no session.
+"""
+
+from typing import Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import registry, switch
+
+_SOON = 0.0  # seconds; not from within undo, whose objects Blender has not looked at yet
+
+
+@persistent
+def _agree(*_: Any) -> None:
+    """Ends what is not to be on any more. Nothing is written: its mesh is what it was before."""
+    for target in registry.known():
+        session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
+        if session is not None and not was_on and not session.ending:
+            registry.remove(session)
+        elif was_on and not switch.is_on(target) and not bpy.app.timers.is_registered(resume):
+            bpy.app.timers.register(resume, first_interval=_SOON)
+
+
+def resume() -> None:
+    """Switches on what is to be on again."""
+    for target in registry.known():
+        if target.discrete_fairing_live.was_on and registry.is_in_a_scene(target):
+            switch.switch_on(target)
+
+
+def register() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.append(_agree)
+
+
+def unregister() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(_agree)
+    if bpy.app.timers.is_registered(resume):
+        bpy.app.timers.unregister(resume)
