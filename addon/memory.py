@@ -14,6 +14,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.props import FloatVectorProperty, PointerProperty, StringProperty
 
+from . import records
 from .blender import Mesh, Object, all_objects, all_scenes, attach, detach
 from .settings import FairingSettings, Settings, copy_settings
 
@@ -110,16 +111,8 @@ def recall(target: Object, name: str) -> dict[str, Any] | None:
     text = getattr(target.discrete_fairing, name)
     known = _parsed.get((target.name_full, name))
     if known is None or known[0] != text:
-        known = _parsed[target.name_full, name] = (text, _parse(text))
+        known = _parsed[target.name_full, name] = (text, records.parse(name, text))
     return known[1]
-
-
-def _parse(text: str) -> dict[str, Any] | None:
-    try:
-        record = json.loads(text)
-    except ValueError:
-        return None
-    return record if isinstance(record, dict) else None
 
 
 def source_of(target: Object) -> Object | None:
@@ -160,18 +153,20 @@ _OLD_RECORDS = {
     "fairing_check": "defects",
 }
 _OLD_RANGE, _OLD_COLOUR = "fairing_curvature_range", "fairing_active_colour"
+_GROUPS = ("discrete_fairing", "discrete_fairing_live", "discrete_fairing_inspection")
 _GONE = ("epsilon", "vertex_release", "repair_orientation")
 
 
 @persistent
 def take_over_old_properties(*_: Any) -> None:
-    """Moves what older files keep in custom properties to the hidden ones.
-
-    Linked data stays as it is.
+    """Moves what older files keep in custom properties to the hidden ones; of linked data it stays
+    where it is. Settings without a meaning become those that nobody has set.
     """
     for owner in (*all_objects(), *all_scenes()):
         if owner.library is None:
             _take_over_settings(owner.discrete_fairing)
+        for group in _GROUPS:  # panels show those of linked objects too
+            _unset_unsound(getattr(owner, group, None))
     for target in all_objects():
         if target.library is None:
             for old, name in _OLD_RECORDS.items():
@@ -180,6 +175,28 @@ def take_over_old_properties(*_: Any) -> None:
         if mesh.library is None:
             _move_range(mesh)
             _move_text(mesh, _OLD_COLOUR, "active_colour")
+
+
+def _unset_unsound(group: Any) -> None:
+    """Files may hold what no field takes: numbers that are none or beyond all limits, choices that
+    this version does not offer, which read as empty.
+    """
+    if group is None:
+        return
+    for known in group.bl_rna.properties:
+        name = known.identifier
+        if group.is_property_set(name) and not _is_sound(known, getattr(group, name)):
+            group.property_unset(name)
+
+
+def _is_sound(known: Any, value: Any) -> bool:
+    """Whether `value` is one that the property `known` may have."""
+    if known.type == "ENUM":
+        return value != ""
+    if known.type not in {"INT", "FLOAT"}:
+        return True
+    numbers = value if known.is_array else (value,)
+    return all(known.hard_min <= number <= known.hard_max for number in numbers)
 
 
 def _move_text(owner: Any, old: str, name: str) -> None:

@@ -2,12 +2,15 @@
 """The control mesh of a live surface: shown as wire, so that the surface is seen through it."""
 
 from collections.abc import Iterable
-from typing import Literal
+from typing import Any, Literal, cast
+
+import bpy
 
 from ..blender import Object
 from ..memory import source_of
 
 _WIRE: Literal["WIRE"] = "WIRE"
+_KINDS = cast(Any, bpy.types.Object.bl_rna.properties["display_type"]).enum_items.keys()
 
 
 def show(target: Object) -> None:
@@ -29,8 +32,8 @@ def restore(target: Object, others: Iterable[Object] = ()) -> None:
     heir = next((o for o in others if o != target and source_of(o) == source), None)
     if heir is not None and heir.discrete_fairing_live.cage_as_wire:
         heir.discrete_fairing_live.cage_display = before
-    elif source.display_type == _WIRE:
-        source.display_type = before
+    elif source.display_type == _WIRE and before in _KINDS:  # files may hold any text
+        source.display_type = cast(Any, before)
 
 
 def _is_linked(*objects: Object) -> bool:

@@ -62,11 +62,13 @@ class WorldShape:
 def world_shape(source: Object) -> WorldShape:
     """The WorldShape of a mesh object as it is now, whether Blender has looked at it since or not."""
     linear = np.array(world_matrix(source))[:3, :3].astype(np.float64)
+    if not np.isfinite(linear).all():
+        return WorldShape(None)
     # of its polar decomposition: the rotation is dropped
     squares, axes = np.linalg.eigh(linear.T @ linear)
     stretch = (axes * np.sqrt(np.maximum(squares, 0.0))) @ axes.T
     largest = float(np.abs(stretch).max())
-    if not np.isfinite(largest) or squares[0] <= 1e-12 * squares[2]:
+    if squares[0] <= 1e-12 * squares[2]:
         return WorldShape(None)  # flat: nothing leads back
     stretch[np.abs(stretch) < 10.0**-_DIGITS * largest] = 0.0  # so that mirrors stay mirrors
     rows = tuple(tuple(float(f"{v:.{_DIGITS}g}") for v in row) for row in stretch)

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files may hold anything in the place of what objects remember: panels, timers and buttons go on."""
+
+import json
+
+import bpy
+import pytest
+from fake_layout import draw
+from scenes import CUBE, activate, add, fair
+
+from addon import freshness, records
+from addon.live import handlers
+from addon.memory import keep, recall
+from addon.ui import check, compare, inspect, main
+
+PANELS = (
+    *main.CLASSES,
+    *check.CLASSES,
+    *inspect.CLASSES,
+    compare.VIEW3D_PT_fairing_compare,
+)
+DEEP = "[" * 100_000 + "]" * 100_000
+VALUES = (None, True, -1, 10**400, 1e999, float("nan"), "x", [], {}, [[]], [{}], {"x": "x"})
+RECORDS = ("report", "readout", "carried", "made", "defects")
+
+
+def surface():
+    """A surface that remembers all that there is."""
+    add("Box", *CUBE)
+    target = fair(levels=1, energy="TOTAL_CURVATURE")
+    activate(target)
+    bpy.ops.object.fairing_measure()
+    bpy.ops.object.fairing_check()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return target
+
+
+def redraw():
+    """What Blender does again and again while a surface is active."""
+    for panel in PANELS:
+        if panel is not main.VIEW3D_PT_fairing_presets:
+            draw(panel)
+    freshness._look()
+    list(freshness.stale_surfaces())
+    handlers.on_timer()
+
+
+def spoilt(record):
+    """The record with one value after another, at any depth, in the place of which is another."""
+    for key in list(record) if isinstance(record, dict) else range(len(record)):
+        value = record[key]
+        for other in VALUES:
+            record[key] = other
+            yield record
+        record[key] = value
+        if isinstance(value, dict | list) and len(value) < 40:
+            yield from (record for _ in spoilt(value))
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_records_that_nobody_can_have_written(name):
+    target = surface()
+    if name == "defects":
+        keep(target, name, {"defects": DEFECTS, "counts": [1, 2, 3]})
+    record = json.loads(getattr(target.discrete_fairing, name))
+    assert recall(target, name) == record
+    for text in (
+        DEEP,
+        '{"after":' * 5000,
+        "5",
+        "[]",
+        "{}",
+        "NaN",
+        "\\",
+        '{"source": 1' + "0" * 5000,
+    ):
+        setattr(target.discrete_fairing, name, text)
+        redraw()
+    for each in spoilt(record):
+        setattr(target.discrete_fairing, name, json.dumps(each))
+        redraw()
+    bpy.ops.object.fairing_recompute()
+    bpy.ops.object.fairing_measure()
+
+
+DEFECTS = [
+    {
+        "code": "NONMANIFOLD_EDGE",
+        "message": "Text",
+        "kind": "edge",
+        "elements": [[0, 1]],
+        "severity": "error",
+    }
+]
+
+
+@pytest.mark.parametrize(
+    "defect",
+    [{"elements": [["a", 1]]}, {"elements": [3]}, {"kind": "vertex", "elements": [-(10**9)]}],
+)
+def test_elements_of_a_defect_are_ids(defect):
+    known = {"defects": [{**DEFECTS[0], **defect}], "counts": [1, 2, 3]}
+    assert records.parse("defects", json.dumps(known)) is None
+
+
+def test_settings_without_a_meaning_are_those_that_nobody_has_set(tmp_path):
+    target = surface()
+    path = str(tmp_path / "spoilt.blend")
+    settings, live = target.discrete_fairing, target.discrete_fairing_live
+    scene = bpy.context.scene
+    settings.pad_size = settings.tolerance = float("nan")
+    live.cage_display = "NOTHING"
+    stored = getattr(settings, "bl_system_properties_get", lambda: settings)()
+    stored["energy"], stored["levels"] = 99, 2**30
+    scene.discrete_fairing.weld = float("nan")
+    scene.discrete_fairing_inspection.comb_scale = float("nan")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    target, scene = bpy.data.objects["Box Fair"], bpy.context.scene
+    settings = target.discrete_fairing
+    assert (settings.energy, settings.levels, settings.pad_size) == ("THIN_PLATE", 3, 1.0)
+    assert scene.discrete_fairing.weld == 0.0
+    assert scene.discrete_fairing_inspection.comb_scale == 1.0
+    redraw()
+    bpy.ops.object.fairing_recompute()
+
+
+@pytest.mark.parametrize("scale", [float("nan"), float("inf"), 0.0])
+def test_a_scale_that_is_no_number_stops_nothing(scale):
+    target = surface()
+    target.discrete_fairing.interpolation = "APPROXIMATE"
+    target.discrete_fairing.source.scale.x = scale
+    redraw()
+    bpy.ops.object.fairing_recompute()
+    assert len(target.data.polygons) == 6 * 4
