@@ -5,6 +5,8 @@ The one place that knows both spellings of a setting, Blender's and that of `dis
 Plain arrays, no Blender.
 """
 
+import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -26,7 +28,16 @@ def _load() -> tuple[Any, str]:
         import discrete_fairing
     except ImportError as error:
         return None, f"{MISSING} ({error})"
+    _hush(discrete_fairing)
     return discrete_fairing, ""
+
+
+def _hush(module: Any) -> None:
+    """What our runs say of memory while they go on is for callers in Python: Blender would only print
+    it on its console. Users read it in the run's report; their own scripts are still told.
+    """
+    ours = rf"({re.escape(__package__)}|{re.escape(module.__name__)})\."
+    warnings.filterwarnings("ignore", category=module.MemoryWarning, module=ours)
 
 
 def module() -> Any:

@@ -128,11 +128,14 @@ def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     return f"{object_name}: {warning['message']}"
 
 
-def unfinished_text(object_name: str, energy: str) -> str:
-    """For a surface whose steps ended early; `energy`: its name in the interface."""
+def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold: float) -> str:
+    """For a surface whose steps ended early; `energy`: its name in the interface. Of the source:
+    `face`, the thinnest, that is `ratio` times as long as high, and its sharpest `fold` in degrees.
+    """
     return (
         f"{object_name}: not converged. You have a surface, but {energy} could still make it a little calmer. "
-        "Make the faces of the source more even where they are very thin or sharply folded, or use Thin Plate."
+        f"Of the source's faces, {face} is the thinnest, {ratio:.3g} times as long as high, and the sharpest fold "
+        f"has {fold:.0f}°. The smaller both are, the sooner it converges; Thin Plate needs no steps."
     )
 
 

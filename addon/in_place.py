@@ -154,7 +154,10 @@ class InPlaceJob:
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
-        sentences = run_warnings(self.name, self._report, self._wish.energy)
+        world = self._shape.of_arrays(self._part.arrays)
+        sentences = run_warnings(
+            self.name, self._report, self._wish.energy, world, self._part.faces
+        )
         counts = self.result.faults.counts
         if counts:
             # Near is no choice here

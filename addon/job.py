@@ -17,7 +17,7 @@ from .blender import Context, Object
 from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
-from .inspection import display
+from .inspection import display, measures
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
@@ -213,14 +213,23 @@ class Job:
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
-        sentences = run_warnings(self.name, self.result.report, self.settings.energy)
+        world = self.shape.of_arrays(self.arrays)
+        sentences = run_warnings(self.name, self.result.report, self.settings.energy, world)
         if self.faults.counts:
             sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
         return sentences
 
 
-def run_warnings(name: str, report: Mapping[str, Any], energy: str) -> list[str]:
-    """What the core's `report` warns of, a sentence each."""
+def run_warnings(
+    name: str,
+    report: Mapping[str, Any],
+    energy: str,
+    control: core.ControlArrays,
+    ids: np.ndarray | None = None,
+) -> list[str]:
+    """What the core's `report` on the mesh `control` warns of, a sentence each; `ids` (m,): what its
+    faces are called, None: by their places.
+    """
     sentences = [
         errors.warning_text(name, warning)
         for warning in report["warnings"]
@@ -228,5 +237,8 @@ def run_warnings(name: str, report: Mapping[str, Any], energy: str) -> list[str]
     ]
     told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
     if not told and not core.has_converged(report):
-        sentences.append(errors.unfinished_text(name, energy_name(energy)))
+        face, ratio = measures.thinnest_face(control)
+        face = face if ids is None else int(ids[face])
+        fold = measures.worst_folds(control)[1]
+        sentences.append(errors.unfinished_text(name, energy_name(energy), face, ratio, fold))
     return sentences

@@ -175,9 +175,19 @@ def face_normals(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray
     """(m, 3) unit normals by Newell's sum, which for a quad is that of its diagonals; zero for
     faces without area.
     """
-    normals = np.zeros((len(offsets) - 1, 3))
+    return unit(_newell_sums(positions, corners, offsets))
+
+
+def face_areas(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(m,) areas by the same sum."""
+    return 0.5 * np.linalg.norm(_newell_sums(positions, corners, offsets), axis=1)
+
+
+def _newell_sums(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(m, 3) along the normals, as long as twice the areas."""
+    sums = np.zeros((len(offsets) - 1, 3))
     if not len(corners):
-        return normals
+        return sums
     sizes = np.diff(offsets)
     following = np.arange(1, len(corners) + 1, dtype=np.int32)
     following[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
@@ -187,8 +197,8 @@ def face_normals(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray
     )
     turned = cross(local, local[following])
     for axis in range(3):
-        normals[sizes > 0, axis] = np.add.reduceat(turned[:, axis], offsets[:-1][sizes > 0])
-    return unit(normals)
+        sums[sizes > 0, axis] = np.add.reduceat(turned[:, axis], offsets[:-1][sizes > 0])
+    return sums
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:

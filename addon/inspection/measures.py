@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..core import ControlArrays
-from .curvature import Curvature, curvature, face_normals, faces_of_edges
+from .curvature import Curvature, curvature, face_areas, face_normals, faces_of_edges
 
 # even steps from the lowest value to the highest, sRGB
 _SIGNED = (
@@ -81,6 +81,21 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
     has_area = (normals != 0.0).any(axis=1)
     inside = (arrays.edge_uses == 2) & has_area[pair].all(axis=1)
     return np.degrees(2.0 * np.arctan2(apart, together)), inside
+
+
+def thinnest_face(arrays: ControlArrays) -> tuple[int, float]:
+    """(id, ratio) of the face that is the most times as long as high: by its longest side and its
+    area. Those without area are left out; (-1, 0) if there are no others.
+    """
+    area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
+    if not (area > 0.0).any():
+        return -1, 0.0
+    ends = arrays.positions[arrays.edges[arrays.corner_edges]]
+    longest, face = np.zeros(len(area)), np.repeat(np.arange(len(area)), arrays.face_sizes)
+    np.maximum.at(longest, face, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    box = np.where(arrays.face_sizes == 3, 2.0, 1.0) * area  # length times height
+    ratio = np.where(area > 0.0, longest**2 / np.where(area > 0.0, box, 1.0), 0.0)
+    return int(ratio.argmax()), float(ratio.max())
 
 
 def percentiles(values: np.ndarray, *ranks: float) -> list[float]:

@@ -18,11 +18,9 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
   const MemoryNews* news = MemoryNews::current();
   if (!news || !news->told()) return;
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "This took %.3g MB where %.3g MB were predicted: some levels proved hard. Very thin "
-      "faces are the usual cause.",
-      1e-6 * double(report.peak_bytes), 1e-6 * double(report.predicted_bytes));
+  std::snprintf(text, sizeof text,
+                "This took %.3g MB where %.3g MB were predicted: some levels proved hard.",
+                1e-6 * double(report.peak_bytes), 1e-6 * double(report.predicted_bytes));
   report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
 
@@ -50,7 +48,7 @@ void warn_unconverged(const LevelReport& level, const FairOptions& options, cons
   else
     std::snprintf(text, sizeof text,
                   "The solver stopped after %d iterations at a relative residual of %.1e (target: "
-                  "%.1e). The surface is usable; very thin faces are the usual cause.",
+                  "%.1e). The surface is usable.",
                   level.iterations, level.residual, options.relative_residual);
   report.warnings.push_back({"NOT_CONVERGED", of + text, {}, ElementKind::mesh});
 }

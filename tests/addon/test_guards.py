@@ -50,6 +50,7 @@ PURE_FILES = (
 ROOMS = (
     {"blender", "choices", "core", "poll", "redraw", "size"},
     {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
+    {"records"},
     {"memory"},
     {"mesh"},
     {"check", "freshness", "inspection"},

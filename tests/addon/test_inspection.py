@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, snapshot
 
 from addon.inspection import display, measures, readout
@@ -242,12 +241,12 @@ def test_the_panel_says_that_control_vertices_are_no_surface():
     source, target = faired_pair()
     activate(target)
     record = readout.take(bpy.context, target, source)
-    said = " ".join(draw(panel.VIEW3D_PT_fairing_inspect))
+    said = " ".join(draw())
     assert "vertices are no surface" in said
     old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
     assert all(before == "" for _, before, _ in readout.table(old)), "older files have more"
     readout.take(bpy.context, target)
-    assert "no surface" not in " ".join(draw(panel.VIEW3D_PT_fairing_inspect))
+    assert "no surface" not in " ".join(draw())
 
 
 def test_readout_says_how_the_steps_went():

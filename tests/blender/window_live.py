@@ -219,6 +219,53 @@ def test_undo_of_object_mode_edits():
     assert target.discrete_fairing_live.on
 
 
+def test_undo_takes_live_along():
+    """The step before has the source hidden under its surface: neither is left half way."""
+    harness.add_suzanne()
+    bpy.context.scene.discrete_fairing.levels = 2
+    with bpy.context.temp_override(**harness.view()):
+        assert bpy.ops.object.fairing_surface() == {"FINISHED"}
+        target = bpy.context.view_layer.objects.active
+        target.discrete_fairing_live.levels = 1
+        bpy.ops.ed.undo_push(message="the surface is made")
+        before = positions(target.data)
+        assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
+        bpy.ops.ed.undo_push(message="live")
+    yield 0.5
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 1.0
+    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
+    assert live("registry").sessions() == [] and not target.discrete_fairing_live.on
+    assert source.hide_get() and source.display_type == "TEXTURED"
+    assert np.array_equal(positions(target.data), before)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.redo()
+    yield 1.0
+    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
+    assert target.discrete_fairing_live.on and not source.hide_get()
+    yield from wait_for_the_full_level(target, 2)
+    assert np.array_equal(positions(target.data), before)
+
+
+def test_a_hidden_source_with_modifiers_is_followed():
+    source, target = yield from open_scene(2, 1)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+    target.discrete_fairing.mesh_source = "EVALUATED"
+    modifier = source.modifiers.new("Thick", "SOLIDIFY")
+    yield from wait_for_the_full_level(target, 2)
+    source.hide_set(True)
+    before = positions(target.data)
+    modifier.thickness = 0.5
+    yield 0.5
+    yield from wait_for_the_full_level(target, 2)
+    assert not session(target).trouble and not np.array_equal(positions(target.data), before)
+    updates = session(target).updates
+    yield 1.0
+    assert session(target).updates == updates, "what stands in for the source is no edit"
+
+
 def test_deleted_source():
     source, target = yield from open_scene(3, 2)
     with bpy.context.temp_override(**harness.view()):
