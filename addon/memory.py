@@ -175,6 +175,7 @@ def take_over_old_properties(*_: Any) -> None:
         if mesh.library is None:
             _move_range(mesh)
             _move_text(mesh, _OLD_COLOUR, "active_colour")
+        _unset_unsound(mesh.discrete_fairing)
 
 
 def _unset_unsound(group: Any) -> None:
@@ -214,7 +215,7 @@ def _move_range(mesh: Mesh) -> None:
     del mesh[_OLD_RANGE]
     try:
         mesh.discrete_fairing.curvature_range = json.loads(text)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RecursionError, OverflowError):
         return  # the next refresh of the colours makes it anew
 
 

@@ -9,8 +9,9 @@ from fake_layout import draw
 from scenes import CUBE, activate, add, fair
 
 from addon import freshness, records
+from addon.inspection import display
 from addon.live import handlers
-from addon.memory import keep, recall
+from addon.memory import keep, recall, take_over_old_properties
 from addon.ui import check, compare, inspect, main
 
 PANELS = (
@@ -114,6 +115,8 @@ def test_settings_without_a_meaning_are_those_that_nobody_has_set(tmp_path):
     stored["energy"], stored["levels"] = 99, 2**30
     scene.discrete_fairing.weld = float("nan")
     scene.discrete_fairing_inspection.comb_scale = float("nan")
+    target.data.discrete_fairing.curvature_range = (float("nan"), 1.0)
+    target.data["fairing_curvature_range"] = DEEP
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     target, scene = bpy.data.objects["Box Fair"], bpy.context.scene
@@ -121,8 +124,18 @@ def test_settings_without_a_meaning_are_those_that_nobody_has_set(tmp_path):
     assert (settings.energy, settings.levels, settings.pad_size) == ("THIN_PLATE", 3, 1.0)
     assert scene.discrete_fairing.weld == 0.0
     assert scene.discrete_fairing_inspection.comb_scale == 1.0
+    assert display.legend(target.data) is None
     redraw()
     bpy.ops.object.fairing_recompute()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Box Fair"]
+    take_over_old_properties()
+    linked = wanted.objects[0]
+    assert linked.library and linked.discrete_fairing.levels == 3
+    bpy.context.collection.objects.link(linked)
+    activate(linked)
+    redraw()
 
 
 @pytest.mark.parametrize("scale", [float("nan"), float("inf"), 0.0])
