@@ -175,7 +175,7 @@ def take_over_old_properties(*_: Any) -> None:
         if mesh.library is None:
             _move_range(mesh)
             _move_text(mesh, _OLD_COLOUR, "active_colour")
-        _unset_unsound(mesh.discrete_fairing)
+        _unset_unsound(cast(Any, mesh).discrete_fairing)
 
 
 def _unset_unsound(group: Any) -> None:

@@ -6,36 +6,21 @@ Called by `handlers`, on Blender's main thread.
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager
-from typing import Any
+from typing import Any, TypeAlias
 
 import bpy
 import numpy as np
 
 from .. import core, errors, memory, size
 from ..blender import Context, Mesh, Object, current_context
-from ..core import (
-    ControlArrays,
-    are_equal,
-    are_together,
-    fair_arguments,
-    mean_edge_length,
-    same_faces,
-    without_vertices,
-)
+from ..core import ControlArrays
 from ..errors import JobError
 from ..inspection import display
 from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
-from ..mesh.read import (
-    control_mesh,
-    is_evaluated_in,
-    read_mesh,
-    selected_faces,
-    tolerance_shares,
-    vertex_pulls,
-)
+from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
@@ -48,6 +33,9 @@ from .registry import why_gone
 # accuracy
 _RESIDUAL = 1e-3
 _STEP = 1e-2
+
+# of Blender's dependency graph, that calls; None: nothing of Blender's is under way
+Update: TypeAlias = bpy.types.Depsgraph | None
 
 SURFACE_EDITED = "The surface itself is being edited: Live waits"
 
@@ -109,12 +97,8 @@ class Session:
         geometry has changed.
         """
         source, target = self._present()
-        if (
-            self._stale
-            or self._unseen
-            or session_key(source) in reshaped
-            or session_key(source.data) in reshaped
-        ):
+        its = {session_key(source), session_key(source.data)}
+        if self._stale or self._unseen or not its.isdisjoint(reshaped):
             return True
         return not self._has_settings_of(source, target)
 
@@ -122,20 +106,17 @@ class Session:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
         self._stale, self._mesh = True, None
 
-    def follow(self, depsgraph: bpy.types.Depsgraph | None = None) -> bool:
+    def follow(self, depsgraph: Update = None) -> bool:
         """Brings the surface up to date with source and settings, at the live level.
 
-        `depsgraph`: of the update of Blender's that calls; None: nothing of Blender's is under way.
-        Within an update nothing can stand in for a source that is hidden: its modifiers are looked
-        at afterwards. True if anything had changed.
+        Within an update nothing can stand in for a source that is hidden: that is looked at later.
+        True if anything had changed.
         """
         source, target = self._present()
-        self._unseen = (
-            depsgraph is not None
-            and depsgraph.mode == "VIEWPORT"
-            and is_evaluated(target.discrete_fairing)
-            and not is_evaluated_in(source, depsgraph)
-        )
+        self._unseen = False
+        if depsgraph is not None and depsgraph.mode == "VIEWPORT":
+            seen = source.visible_get(view_layer=depsgraph.view_layer)
+            self._unseen = is_evaluated(target.discrete_fairing) and not seen
         if self._unseen:
             return False
         if target.mode == "EDIT":
@@ -148,9 +129,7 @@ class Session:
             self._fail(str(error))
         return True
 
-    def _follow(
-        self, source: Object, target: Object, depsgraph: bpy.types.Depsgraph | None
-    ) -> bool:
+    def _follow(self, source: Object, target: Object, depsgraph: Update) -> bool:
         clock = Clock()
         if not self._has_settings_of(source, target):
             self._forget()
@@ -180,17 +159,13 @@ class Session:
         self._schedule.plan()
         return True
 
-    def _mesh_now(
-        self, source: Object, depsgraph: bpy.types.Depsgraph | None
-    ) -> AbstractContextManager[Mesh]:
+    def _mesh_now(self, source: Object, depsgraph: Update) -> AbstractContextManager[Mesh]:
         """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
         edit; it is only read.
         """
         return control_mesh(current_context(), source, is_evaluated(self._settings), depsgraph)
 
-    def _solve(
-        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph | None
-    ) -> Any:
+    def _solve(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> Any:
         """The surface at a level and by an energy that can be kept up with; found out by trying,
         where need be.
         """
@@ -208,21 +183,19 @@ class Session:
                     raise
             self._prepare(source, arrays, depsgraph)
 
-    def _prepare(
-        self, source: Object, arrays: ControlArrays, depsgraph: bpy.types.Depsgraph | None
-    ) -> bool:
+    def _prepare(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> bool:
         """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
         if self._settings.use_selection and (
-            self._region is None or not same_faces(arrays, self._arrays)
+            self._region is None or not core.same_faces(arrays, self._arrays)
         ):
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         computed = size.coarse_triangles(arrays.face_sizes) * halves(self._settings)
         self._level = self._pace.level(self._chosen, computed)
         world = self._shape.of_arrays(arrays)
-        if not (self._edge_length and same_faces(arrays, self._arrays)):
-            self._edge_length = mean_edge_length(world)
-        arguments = fair_arguments(
+        if not (self._edge_length and core.same_faces(arrays, self._arrays)):
+            self._edge_length = core.mean_edge_length(world)
+        arguments = core.fair_arguments(
             world,
             self._settings,
             preferences(),
@@ -239,8 +212,10 @@ class Session:
         arguments["energy"] = self._pace.energy(arguments["energy"])
         if (
             self.solver is not None
-            and are_equal(without_vertices(arguments), without_vertices(self._arguments))
-            and are_together(arrays.positions, self.solver.vertex_origin)
+            and core.are_equal(
+                core.without_vertices(arguments), core.without_vertices(self._arguments)
+            )
+            and core.are_together(arrays.positions, self.solver.vertex_origin)
         ):
             return False
         self.solver = self._mesh = None
@@ -248,13 +223,7 @@ class Session:
         self._arguments = arguments
         return True
 
-    def _write(
-        self,
-        source: Object,
-        target: Object,
-        result: Any,
-        depsgraph: bpy.types.Depsgraph | None,
-    ) -> None:
+    def _write(self, source: Object, target: Object, result: Any, depsgraph: Update) -> None:
         if self._mesh != session_key(target.data) or not has_faces_of(target.data, result):
             with self._mesh_now(source, depsgraph) as mesh:
                 data = read_data(source, mesh, is_evaluated(self._settings))

@@ -88,14 +88,9 @@ def _evaluated(context: Context, source: Object) -> Iterator[Object]:
         bpy.data.objects.remove(shown)
 
 
-def is_evaluated_in(source: Object, depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether `depsgraph` runs the modifiers of `source`: not of what is hidden."""
-    return source.visible_get(view_layer=depsgraph.view_layer)
-
-
 def _of_update(source: Object, depsgraph: bpy.types.Depsgraph) -> Object:
     """`source` as `depsgraph` has it, with its modifiers applied; JobError if it has not."""
-    if not is_evaluated_in(source, depsgraph):
+    if not source.visible_get(view_layer=depsgraph.view_layer):
         raise JobError(
             f"{source.name}: it is hidden, so Blender does not run its modifiers. Show it, "
             "or set Control Mesh to As Modelled."
