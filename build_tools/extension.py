@@ -136,7 +136,7 @@ def faults(path: Path) -> list[str]:
         ),
         "a wheel is for another platform": {platform(Path(w)) for w in wheels}
         == set(manifest["platforms"]),
-        "not the one permission that the command line needs": list(manifest.get("permissions", {}))
+        "not the one permission that files need": list(manifest.get("permissions", {}))
         == ["files"],
         "the tagline is too long or ends in a period": len(tagline) <= 64
         and not tagline.endswith("."),

@@ -10,9 +10,9 @@ from layout import ROOT, VENV, VENV_PYTHON
 from shell import run, say
 from stamp import fingerprint, is_fresh, leave
 
-REQUIREMENTS = ROOT / "build_tools" / "requirements.txt"
+REQUIREMENTS = ROOT / "build_tools" / "requirements.lock"  # of requirements.txt
 STAMP = VENV / "stamps" / "requirements"
-RIVALS = ROOT / "build_tools" / "requirements_bench.txt"
+RIVALS = ROOT / "build_tools" / "requirements_bench.lock"
 RIVALS_STAMP = VENV / "stamps" / "requirements_bench"
 BPY_VERSION = (3, 11)  # Blender 4.1 to 5.0, hence of the bpy wheel
 
@@ -39,7 +39,7 @@ def install() -> None:
         return
     say(f"Python environment: {VENV.relative_to(ROOT)}, {version.split(' (')[0].strip()}")
     run(base, "-m", "venv", "--clear", VENV)
-    pip("install", "--requirement", REQUIREMENTS)
+    pip("install", "--require-hashes", "--requirement", REQUIREMENTS)
     leave(STAMP, value)
     if not has_bpy():
         say("bpy exists for Python 3.11 only: here the add-on is tested in the real Blender alone.")
@@ -50,7 +50,7 @@ def install_rivals() -> None:
     value = fingerprint([RIVALS], STAMP.read_text())
     if is_fresh(RIVALS_STAMP, value):
         return
-    pip("install", "--no-deps", "--requirement", RIVALS)
+    pip("install", "--no-deps", "--require-hashes", "--requirement", RIVALS)
     leave(RIVALS_STAMP, value)
 
 

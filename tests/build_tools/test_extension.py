@@ -101,10 +101,11 @@ def test_wheels_that_make_no_zip_are_refused(tags):
 
 
 def test_the_permission_has_a_reason():
-    """The command line reads and writes files; Blender shows the reason to who installs."""
+    """Commands, exports and presets read and write files; Blender shows the reason to who installs."""
     text = extension.staged_manifest([wheel("cp311-cp311-win_amd64")])
     reason = tomllib.loads(text)["permissions"]["files"]
-    assert "command line" in reason and len(reason) <= 64 and reason[-1].isalnum()
+    assert all(word in reason for word in ("command", "export", "preset"))
+    assert len(reason) <= 64 and reason[-1].isalnum()
 
 
 def test_wheels_of_a_folder_are_sorted_by_platform(tmp_path):
