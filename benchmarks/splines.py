@@ -85,7 +85,7 @@ def row(name: str, mesh, options) -> str:
         f"{patches.patch_spans.prod(axis=1).mean():.1f}",
         f"{patches.residual.max() / patches.size:.1e}",
         f"{patches.edge_error.max() / patches.size:.1e}",
-        f"{patches.lattice_error / patches.size:.1e}",
+        f"{patches.refinement_error.max() / patches.size:.1e}",
         f"{share:.3f} / {angle.max(initial=0):.3f}",
         f"{len(patches.unmet)} / {len(patches.unresolved)}",
         f"{1000 * fit:.1f}",

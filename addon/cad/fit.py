@@ -83,8 +83,7 @@ class PatchJob(Job):
     @property
     def off(self) -> float:
         """How far patches are from the fair surface, in Blender units of the world."""
-        lattice = np.nan_to_num(self.patches.lattice_error)
-        return float(self._stretch.max() * (self.patches.largest_residual + lattice))
+        return float(self._stretch.max() * self.patches.largest_off)
 
     @property
     def angle(self) -> float:

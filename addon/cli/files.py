@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files in and out with Blender's own importers and exporters, in the files' own coordinates."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +10,11 @@ import bmesh
 import bpy
 import numpy as np
 
+from .. import core
 from ..blender import Mesh, Object, current_context
+from .materials import free_stem
 from .places import file_format
-from .replacing import replacing, why_incomplete
+from .whole import why_incomplete
 
 # Named alike both ways, no axis moves: the numbers in a file are those of the mesh.
 _AXES = {"forward_axis": "Y", "up_axis": "Z"}
@@ -48,29 +51,52 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
 
 
 def write_file(path: Path) -> None:
-    """All objects of the scene as one file. After a failure the file that was there is as it was."""
-    try:
+    """All objects of the scene as one file, and the materials of an OBJ as another. After a failure
+    the files that were there are as they were.
+    """
+    with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        with replacing(path) as part:
+        target = _whole_files().real_place(path)
+        stem = free_stem(target) if file_format(path) == "obj" else None
+        with _whole_files().whole_file(path, path.suffix, stem) as part:
             part.write_bytes(b"")  # says why not better than the exporters do
             _export(part)
-    except (OSError, _NotWritten) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+            materials = part.with_suffix(".mtl")
+            if stem is not None and materials.exists():
+                _whole_files().put(materials, target.with_name(materials.name))
 
 
 def write_whole(path: Path, write: Callable[[str], None]) -> None:
     """For what `write` writes whole or not at all, where it is told."""
-    try:
+    with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        write(str(path.resolve()))  # a link stays one
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+        write(str(path))
+
+
+def write_text(path: str, text: str) -> None:
+    """For the report."""
+    with _explained(path), _whole_files().whole_file(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 class _NotWritten(Exception):
     """Why an exporter has made no whole file."""
+
+
+@contextmanager
+def _explained(path: Path | str) -> Iterator[None]:
+    """Inside the `with` what keeps a file from being written is a FileError."""
+    try:
+        yield
+    except (OSError, _NotWritten) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+    except core.module().FairingError as error:
+        raise FileError(error.code, f"{path} cannot be written: {error}") from error
+
+
+def _whole_files() -> Any:
+    return core.module().whole_files
 
 
 def _export(path: Path) -> None:
@@ -88,15 +114,6 @@ def _export(path: Path) -> None:
     incomplete = why_incomplete(path, faces, corners)
     if incomplete:
         raise _NotWritten(incomplete)
-
-
-def write_text(path: str, text: str) -> None:
-    """For the report."""
-    try:
-        with replacing(Path(path)) as part:
-            part.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {error.strerror}.") from error
 
 
 def _write_obj(**arguments: Any) -> set[Any]:

@@ -22,7 +22,7 @@ from ..job import Job
 from . import report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
-from .places import BadPlaces, Place, is_cad, places
+from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
 from .report import Progress
 
 ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 130
@@ -49,6 +49,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
     try:
         settings = settings_of(arguments)
         ways = places(arguments.inputs, arguments.output, arguments.format)
+        no_report_over(arguments.json, ways)
         arguments.patches = step.wanted_of(arguments, settings, ways)
         return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
@@ -84,7 +85,7 @@ def _run_one(
     """Fairs one file, and notes in its record how that went."""
     start = time.perf_counter()
     try:
-        if arguments.overwrite is False and way.target.exists():
+        if arguments.overwrite is False and is_there(way.target):
             raise FileError("EXISTS", f"{way.target} exists, and is kept.")
         _fair_file(way, record, arguments, settings)
         record["status"] = report.DONE

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which file each input goes to: paths only, no file is read or written."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,7 +57,7 @@ def _expanded(name: str) -> list[str]:
 
 
 def _target(source: Path, output: str, chosen_format: str | None, count: int) -> Path:
-    if output.endswith(("/", "\\")) or Path(output).is_dir():
+    if output.endswith(("/", "\\")) or (is_there(Path(output)) and Path(output).is_dir()):
         return Path(output) / f"{source.stem}.{chosen_format or file_format(source)}"
     if chosen_format:
         raise BadPlaces(f"--format is for an output folder: {output} sets the format already.")
@@ -75,13 +76,31 @@ def _supported(path: Path, formats: Sequence[str] = FORMATS) -> None:
         raise BadPlaces(f"{path} is of no known type; the known types are {known}.")
 
 
-def _no_clash(found: list[Place]) -> None:
-    sources = {place.source.resolve() for place in found}
-    taken: dict[Path, Path] = {}
+def no_report_over(report: str | None, found: Sequence[Place]) -> None:
+    """Raises BadPlaces where the report would destroy an input, an output or their materials."""
+    if report is None or report == "-":
+        return
     for place in found:
-        target = place.target.resolve()
-        if target in sources or _is_one_of(place.target, found):
+        for role, path in (("an input", place.source), ("an output", place.target)):
+            own = [path, path.with_suffix(".mtl")] if file_format(path) == "obj" else [path]
+            if any(_same(Path(report), other) for other in own):
+                raise BadPlaces(f"{report} is {role}; give the report another name.")
+
+
+def is_there(path: Path) -> bool:
+    """Whether there is such a file, as far as one can see."""
+    try:
+        return path.exists()
+    except OSError:  # a name that is too long, a folder that is closed
+        return False
+
+
+def _no_clash(found: list[Place]) -> None:
+    taken: dict[str, Path] = {}
+    for place in found:
+        if any(_same(place.target, other.source) for other in found):
             raise BadPlaces(f"{place.target} is an input and will not be overwritten.")
+        target = os.path.realpath(place.target)
         if target in taken:
             raise BadPlaces(
                 f"{taken[target]} and {place.source} would both be written to {place.target}."
@@ -89,10 +108,10 @@ def _no_clash(found: list[Place]) -> None:
         taken[target] = place.source
 
 
-def _is_one_of(target: Path, found: list[Place]) -> bool:
+def _same(one: Path, other: Path) -> bool:
     """By the file, not its name: links, and names that differ in case only where that makes no
     difference.
     """
-    return target.exists() and any(
-        place.source.exists() and place.source.samefile(target) for place in found
-    )
+    if os.path.realpath(one) == os.path.realpath(other):
+        return True
+    return is_there(one) and is_there(other) and one.samefile(other)

@@ -2,6 +2,8 @@
 """Outputs of the command line: whole, or as they were before."""
 
 import os
+import stat
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -10,7 +12,7 @@ from cli_runs import entries, run
 
 from addon.cli import files
 from addon.cli.places import BadPlaces, places
-from addon.cli.replacing import replacing, why_incomplete
+from addon.cli.whole import why_incomplete
 
 
 @pytest.fixture(autouse=True)
@@ -86,15 +88,121 @@ def test_an_interruption_leaves_the_old_file(monkeypatch):
     assert Path("out.obj").read_text() == "old" and names() == ["in.obj", "out.obj"]
 
 
-def test_the_materials_of_an_obj_keep_its_name():
+def materials_of(name):
+    """The file of materials that an OBJ names."""
+    lines = Path(name).read_text().splitlines()
+    (named,) = [line.split()[1] for line in lines if line.startswith("mtllib")]
+    return Path(named)
+
+
+@pytest.mark.parametrize("named", [False, True])
+def test_the_materials_of_an_obj_keep_its_name(named):
     write_obj("in.obj", materials=("red", "blue"))
-    Path("out.mtl").write_text("old")
+    if named:  # and so they are replaced with it
+        Path("out.mtl").write_text("old")
+        Path("out.obj").write_text("# old\nmtllib out.mtl\nv 0 0 0\n")
     assert run("in.obj", "out.obj", "--levels", 1) == 0
+    assert materials_of("out.obj") == Path("out.mtl")
     assert "newmtl red" in Path("out.mtl").read_text()
-    lines = Path("out.obj").read_text().splitlines()
-    assert [line for line in lines if line.startswith("mtllib")] == ["mtllib out.mtl"]
-    assert sum(line.startswith("f ") for line in lines) == 24
+    assert Path("out.obj").read_text().count("\nf ") == 24
     assert names() == ["in.obj", "out.mtl", "out.obj"]
+
+
+@pytest.mark.parametrize("more", [[], ["--no-overwrite"]], ids=str)
+def test_materials_of_others_are_kept(more):
+    """They are not those of the output: that is not there, or names others."""
+    write_obj("in.obj", materials=("red", "blue"))
+    Path("out.mtl").write_text("foreign")
+    Path("out-1.mtl").symlink_to("nowhere.mtl")
+    for _ in range(1 if more else 2):
+        assert run("in.obj", "out.obj", "--levels", 1, *more) == 0
+        assert materials_of("out.obj") == Path("out-2.mtl")
+        assert "newmtl red" in Path("out-2.mtl").read_text()
+        assert Path("out.mtl").read_text() == "foreign" and not Path("nowhere.mtl").exists()
+        assert names() == ["in.obj", "out-1.mtl", "out-2.mtl", "out.mtl", "out.obj"]
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_permissions_stay(kind):
+    write_obj("in.obj")
+    for name in (f"out.{kind}", "report.json"):
+        Path(name).write_text("old")
+        Path(name).chmod(0o600)
+    assert entries("in.obj", f"out.{kind}", "--levels", 3)[0] == 0
+    for name in (f"out.{kind}", "report.json"):
+        assert stat.S_IMODE(Path(name).stat().st_mode) == 0o600
+        assert Path(name).stat().st_size > 100
+
+
+def reports_that_destroy():
+    Path("link.json").symlink_to("in.obj")
+    os.link("in.obj", "hard.json")
+    Path("out.json").symlink_to("out.obj")  # which is not there yet
+    return ["in.obj", "in.mtl", "link.json", "hard.json", "./out.obj", "out.mtl", "out.json"]
+
+
+def test_a_report_destroys_no_input_and_no_output(capsys):
+    write_obj("in.obj")
+    before = Path("in.obj").read_bytes()
+    for name in reports_that_destroy():
+        assert run("in.obj", "out.obj", "--json", name) == 2
+        assert "give the report another name" in capsys.readouterr().err
+    assert Path("in.obj").read_bytes() == before and not Path("out.obj").exists()
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_no_link_leads_the_writing_astray(kind, monkeypatch):
+    """Links planted at any name that is not the output's own, as far as one can foresee them."""
+    write_obj("in.obj")
+    Path("victim").write_text("kept")
+    for name in (f".out.{os.getpid()}.part.{kind}", f"out.{kind}.part", f"out.{kind}~"):
+        Path(name).symlink_to("victim")
+    made = []
+    whole = tempfile.mkdtemp
+
+    def folder(**words):
+        made.append(Path(whole(**words)))
+        assert stat.S_IMODE(made[-1].stat().st_mode) == 0o700  # nobody else may plant a link there
+        return str(made[-1])
+
+    monkeypatch.setattr(tempfile, "mkdtemp", folder)
+    assert run("in.obj", f"out.{kind}", "--levels", 3) == 0
+    assert made and not any(path.exists() for path in made)
+    assert Path("victim").read_text() == "kept" and not Path(f"out.{kind}").is_symlink()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_a_full_device_behind_a_name_is_told(kind):
+    write_obj("in.obj")
+    Path(f"out.{kind}").symlink_to("/dev/full")
+    code, (entry,) = entries("in.obj", f"out.{kind}", "--levels", 3)
+    assert (code, entry["error"]["code"]) == (1, "UNWRITABLE")
+    assert "No space left" in entry["error"]["message"]
+    assert Path(f"out.{kind}").is_symlink()
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_links_in_a_circle_are_told(kind):
+    write_obj("in.obj")
+    Path(f"out.{kind}").symlink_to("again")
+    Path("again").symlink_to(f"out.{kind}")
+    code, (entry,) = entries("in.obj", f"out.{kind}", "--levels", 3)
+    assert (code, entry["error"]["code"]) == (1, "UNWRITABLE")
+    assert "symbolic links" in entry["error"]["message"]
+    code, (entry,) = entries(f"out.{kind}" if kind != "step" else "in.obj", "other.ply")
+    assert (code, entry["status"]) == ((1, "failed") if kind != "step" else (0, "done"))
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_long_names_are_names(kind):
+    write_obj("in.obj", materials=("red",))
+    name = "n" * 250 + f".{kind}"
+    assert run("in.obj", name, "--levels", 3) == 0
+    assert Path(name).stat().st_size > 100
+    code, (entry,) = entries("in.obj", "n" * 256 + f".{kind}", "--no-overwrite", "--levels", 3)
+    assert (code, entry["error"]["code"]) == (1, "UNWRITABLE")
+    assert "too long" in entry["error"]["message"]
 
 
 def test_a_link_stays_a_link():
@@ -105,9 +213,12 @@ def test_a_link_stays_a_link():
     assert Path("out.obj").is_symlink() and Path("deep/real.obj").stat().st_size > 100
 
 
-def test_what_is_no_file_is_written_to_itself():
-    with replacing(Path(os.devnull)) as part:
-        assert part == Path(os.devnull)
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
+def test_what_is_no_file_is_written_to_itself(kind):
+    write_obj("in.obj")
+    Path(f"out.{kind}").symlink_to(os.devnull)
+    assert run("in.obj", f"out.{kind}", "--levels", 3) == 0
+    assert not Path(os.devnull).is_file() and Path(f"out.{kind}").is_symlink()
 
 
 def test_patterns_are_expanded():

@@ -16,11 +16,12 @@ MAY_USE_FILES = {
     "addon/cli/files.py",  # looks whether an input can be read, makes the output and its folder
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
     "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
-    "addon/cli/replacing.py",  # puts an output in its place when it is complete
+    "addon/cli/materials.py",  # `os`, to see whether a name is taken
+    "addon/cli/whole.py",  # reads an output, to see whether it is complete
     "addon/ui/pictures.py",  # the names of the pictures of the shipped presets
     "addon/queue.py",  # `os`, for the priority of threads
     "addon/operators/presets.py",  # the folder of the shipped presets; those of the old operator move
-    "native/binding/discrete_fairing/cad_files.py",  # writes a file beside its place first
+    "native/binding/discrete_fairing/whole_files.py",  # writes a file beside its place first
     "native/binding/discrete_fairing/step.py",  # opens the one that it is given there
     "native/binding/discrete_fairing/rhino.py",  # `os`, to say what a path may be
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random calls of fair() until time is up: python3 build_tools/dev.py fuzz --minutes N.
+"""Random calls of fair() and of the writers until time is up: python3 build_tools/dev.py fuzz --minutes N.
 
 Each runs in a child process, which leaves the case in a file before it starts: one that kills the
 process is not lost. What fails is shrunk and kept as JSON under out/fuzz/; put it into
@@ -11,17 +11,21 @@ import collections
 import hashlib
 import multiprocessing
 import random
+import tempfile
 import time
 import traceback
 from pathlib import Path
+from typing import Any
 
 import sound
+import written
 from cases import Case, cases
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 OUT = Path(__file__).resolve().parents[2] / "out" / "fuzz"
 LAST = OUT / "last.json"
 EXAMPLES = 300  # a child
+FILES_EACH = 5  # children, one is for files
 
 
 def search(number: int) -> None:
@@ -57,6 +61,25 @@ def search(number: int) -> None:
     print(f"seed {number}: " + ", ".join(f"{n} {what}" for what, n in counts.most_common()))
 
 
+def search_files(number: int) -> None:
+    """The same for files, whose calls are shown as they are: they hold what JSON does not have."""
+
+    @seed(number)
+    @settings(
+        max_examples=EXAMPLES,
+        deadline=None,
+        database=None,
+        phases=(Phase.generate, Phase.shrink),
+        suppress_health_check=[*HealthCheck],
+    )
+    @given(written.calls())
+    def any_file(call: dict[str, Any]) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            written.check(Path(folder), call)
+
+    any_file()
+
+
 def main() -> int:
     """The exit code is 1 if anything failed."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -68,7 +91,8 @@ def main() -> int:
     OUT.mkdir(parents=True, exist_ok=True)
     context = multiprocessing.get_context("spawn")
     while time.monotonic() < end:
-        child = context.Process(target=search, args=(number,))
+        target = search_files if number % FILES_EACH == 0 else search
+        child = context.Process(target=target, args=(number,))
         child.start()
         child.join(max(60.0, end - time.monotonic() + 60))
         if child.is_alive():
@@ -76,7 +100,7 @@ def main() -> int:
             child.join()
         if child.exitcode:
             failures += 1
-        if (child.exitcode or 0) < 0:
+        if (child.exitcode or 0) < 0 and target is search:
             path = LAST.rename(OUT / f"died-{number}.json")
             print(
                 f"the process died of signal {-child.exitcode} or did not end: {path}", flush=True

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A fixed budget of random calls, the same ones each time; `dev.py fuzz` goes on from there."""
 
+import tempfile
+from pathlib import Path
+
 import pytest
 import sound
+import written
 from cases import CORPUS, Case, cases
 from hypothesis import given
 
@@ -12,6 +16,18 @@ KEPT = sorted(CORPUS.glob("*.json"))
 @given(cases())
 def test_any_input(case):
     sound.check(case)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@given(written.calls())
+def test_any_file(call):
+    with tempfile.TemporaryDirectory() as folder:
+        written.check(Path(folder), call)
+
+
+@given(written.MATRIX)
+def test_any_matrix(matrix):
+    written.check_moved(matrix)
 
 
 @pytest.mark.parametrize("path", KEPT, ids=lambda path: path.stem)

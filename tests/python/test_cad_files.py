@@ -2,15 +2,20 @@
 """Files for CAD are whole or not there: after any failure the old one stays, and nothing is left
 beside it."""
 
+import errno
 import os
 import stat
+import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
 
 import control_meshes
 import discrete_fairing as df
+import numpy as np
 import pytest
+import step_files
+import step_seams
 
 resource = pytest.importorskip("resource", reason="Windows has neither such limits nor pipes")
 
@@ -144,14 +149,128 @@ def test_a_long_name_is_a_name(write, cube, tmp_path):
     assert only(path)
 
 
+BAD = [
+    {"unit": "mile"},
+    {"unit": ["mm"]},
+    {"unit": None},
+    {"scale": 0},
+    {"scale": float("nan")},
+    {"scale": 1e308},
+    {"scale": "large"},
+    {"names": ["a", "b"]},
+    {"names": 3},
+    {"names": [3]},
+    {"names": [b"a"]},
+    {"colours": (2, 0, 0)},
+    {"colours": "red"},
+    {"colours": ["1", "0", "0"]},
+    {"colours": [(0, 0, 0), (0, 0)]},
+    {"colours": object()},
+    {"colours": (float("nan"), 0, 0)},
+]
+
+
 @every_writer
-@pytest.mark.parametrize(
-    "options",
-    [{"unit": "mile"}, {"scale": 0}, {"names": ["a", "b"]}, {"colours": (2, 0, 0)}],
-    ids=str,
-)
+@pytest.mark.parametrize("options", BAD, ids=str)
 def test_bad_options(write, cube, old, options):
     with pytest.raises(df.FairingError) as caught:
         write(old, cube, **options)
-    assert caught.value.code == "BAD_OPTION"
+    assert caught.value.code == "BAD_OPTION" and next(iter(options)) in str(caught.value)
     assert Path(old).read_text() == "old" and only(old)
+
+
+@every_writer
+@pytest.mark.parametrize("patches", [None, 3, [None], ["a"]], ids=str)
+def test_what_is_no_patches_is_refused(write, patches, old):
+    with pytest.raises(df.FairingError, match="patches"):
+        write(old, patches)
+    assert old.read_text() == "old" and only(old)
+
+
+@every_writer
+@pytest.mark.parametrize("path", [None, 3, "", "a\0b", b"a\0", "\ud800", object()], ids=repr)
+def test_what_names_no_file_is_refused(write, cube, path):
+    with pytest.raises(df.FairingError, match="it must be the name of a file") as caught:
+        write(path, cube)
+    assert caught.value.code == "BAD_OPTION"
+
+
+@every_writer
+def test_links_in_a_circle_are_told(write, cube, tmp_path):
+    path = tmp_path / "a.file"
+    path.symlink_to("b.file")
+    (tmp_path / "b.file").symlink_to("a.file")
+    with pytest.raises(OSError) as caught:
+        write(path, cube)
+    assert (caught.value.errno, caught.value.filename) == (errno.ELOOP, str(path))
+    assert path.is_symlink()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@every_writer
+def test_a_full_device_behind_a_name_is_told(write, cube, tmp_path):
+    path = tmp_path / "a.file"
+    path.symlink_to("/dev/full")
+    with pytest.raises(OSError) as caught:
+        write(path, cube)
+    assert (caught.value.errno, caught.value.filename) == (errno.ENOSPC, str(path))
+    assert only(path)
+
+
+@every_writer
+def test_permissions_stay_private(write, cube, old):
+    old.chmod(0o600)
+    write(old, cube)
+    assert stat.S_IMODE(old.stat().st_mode) == 0o600 and old.stat().st_size > 1000
+
+
+@every_writer
+def test_what_is_being_written_is_out_of_reach(write, cube, old, monkeypatch):
+    """Nobody else can plant a link there, or read what an old file of mode 600 kept private."""
+    made = []
+    whole = tempfile.mkdtemp
+
+    def folder(**words):
+        made.append(Path(whole(**words)))
+        return str(made[-1])
+
+    def put(place, target):
+        assert place.parent == made[0] and place.parent.parent == old.parent
+        assert stat.S_IMODE(place.parent.stat().st_mode) == 0o700
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(tempfile, "mkdtemp", folder)
+    monkeypatch.setattr(df.whole_files, "put", put)
+    with pytest.raises(KeyboardInterrupt):
+        write(old, cube)
+    assert len(made) == 1 and old.read_text() == "old" and only(old)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [np.full((4, 4), np.nan), np.eye(3), np.diag([1, 1, np.inf, 1]), "turned", None, [[1], [1, 2]]],
+    ids=["nan", "3 x 3", "inf", "text", "none", "ragged"],
+)
+def test_patches_are_moved_by_finite_matrices_alone(cube, matrix):
+    with pytest.raises(df.FairingError, match="matrix") as caught:
+        cube.transformed(matrix)
+    assert caught.value.code == "BAD_SHAPE"
+
+
+@every_writer
+def test_a_large_part_keeps_looking_outward(write, cube, tmp_path):
+    """Its volume is no number any more; its coordinates are."""
+    large = cube.transformed(np.diag([1e150, 1e150, 1e150, 1]))
+    write(tmp_path / "a.file", large)
+    with pytest.raises(df.FairingError, match="finite coordinates"):
+        write(tmp_path / "b.file", large, scale=1e200)
+    assert only(tmp_path / "a.file")
+
+
+def test_all_names_are_read_back(cube, tmp_path):
+    names = ["a')b", "a',b", "a''b", "'", "');", "\\X2\\0041\\X0\\", "a\nb", "Größe 面 🐟"]
+    df.write_step(tmp_path / "a.step", [cube] * len(names), names=names)
+    found = step_files.read(tmp_path / "a.step")
+    assert (found.valid, found.solids) == (True, len(names))
+    read = [name for name, _ in step_seams.names_and_colours(tmp_path / "a.step")]
+    assert sorted(read) == sorted(names)

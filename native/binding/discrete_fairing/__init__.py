@@ -6,6 +6,7 @@
 >>> result.vertices, result.triangles, result.report["energy"]
 """
 
+from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size, repair_orientation
 from .errors import MemoryWarning

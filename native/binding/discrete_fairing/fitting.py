@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, nan
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +28,9 @@ HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that st
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
 # The share of the tolerance that the refined surface itself may be off.
 LATTICE_SHARE = 0.5
+ORDER = (
+    3  # of the change from a level to the next, so much is as large as all that follow: order two
+)
 CELLS_AT_ONCE = 1 << 14  # that two surfaces are compared at; or one control face
 
 
@@ -52,8 +55,8 @@ def fit_patches(
     vertices, faces
         As those of fair().
     tolerance : float, share of the size
-        The farthest that a patch may be from the refined surface, and about that surface from finer
-        ones; the size is the largest extent along an axis.
+        The farthest that a patch may be from the fair surface: from the refined one, and about that
+        from the limit of finer ones, together; the size is the largest extent along an axis.
     normal_tolerance : float, radians
         The sharpest angle between the normals of two patches along an edge that is no crease.
     levels : int
@@ -90,9 +93,13 @@ def fit_patches(
         found = _at_own_level(run, points, polygons, options, runs)
     else:
         level = whole("levels", levels)
-        result = fair(points, polygons, level, **options, **runs.run(0.0, 0.6))
+        if level < 2:
+            raise fairing_error("BAD_OPTION", f"levels is {level}; it must be 2 or more, or None.")
+        coarser = fair(points, polygons, level - 1, **options, **runs.run(0.0, 0.1))
+        result = fair(points, polygons, level, **options, **runs.run(0.1, 0.6))
         run.refuse(run.sharp_faces(result, level, runs.threads))
-        found = run.checked(run.fitted(result, level, nan, runs.run(0.6, 1.0)))
+        error = change_between(coarser, result, level) / ORDER
+        found = run.checked(run.fitted(result, level, error, runs.run(0.6, 1.0)))
     runs.finish()
     return found
 
@@ -106,6 +113,7 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
         return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
 
     level = FIRST_LEVEL
+    turns, missing = None, 0.0
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:
         level -= 1
     done, folds = 0.0, False
@@ -118,12 +126,21 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
         if at < level:
             coarser = result
             folds = run.stays_folded(result, at, finest - at, runs.threads)
+            turns = run.turns(result, at, runs.threads)
             continue
+        before, turns = turns, run.turns(result, at, runs.threads)
+        folds = folds or run.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
-        error = change_between(coarser, result, at) / 3  # of second order
+        error = change_between(coarser, result, at) / ORDER
         coarser = result
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
-        if error > LATTICE_SHARE * run.tolerance * size and next_count <= MOST_FINER_POINTS:
+        missing, former = error.max(initial=0) / (run.tolerance * size) if size else 0.0, missing
+        # at the poles of curvature of a thin plate it falls so slowly that no level is fine enough
+        falling = min(missing / former, 1.0) if former else 1.0 / (1 + ORDER)
+        serves = missing * falling ** (finest - at) <= 1.0
+        # a surface that is off by more than the tolerance itself is worth no fit
+        most = MOST_POINTS_FOR_FACES if missing > 1.0 and serves else MOST_FINER_POINTS
+        if missing > LATTICE_SHARE and next_count <= most:
             continue
         last = next_count > MOST_POINTS_FOR_FACES
         sharp = run.sharp_faces(result, at, runs.threads)
@@ -136,15 +153,16 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
         part = 1.0 if last else done + 0.5 * (1 - done)
         found = run.fitted(result, at, error, runs.run(done, part))
         done = part
-        if best is None or _faults(found) <= _faults(best):
+        if best is None or _faults(found, serves) <= _faults(best, serves):
             best = found
-        if last or not any(_faults(found)):
+        if last or not any(_faults(found, serves)):
             break
     return run.checked(best)
 
 
-def _faults(patches: SplinePatches) -> tuple[int, int]:
-    return len(patches.unresolved), len(patches.unmet)
+def _faults(patches: SplinePatches, all_of_it: bool) -> tuple[int, int]:
+    """How many faces are not resolved, or miss a tolerance: by `all_of_it`, or by the fit alone."""
+    return len(patches.unresolved), len(patches.unmet if all_of_it else patches.unmet_by_fit)
 
 
 def _finest(count, level: int) -> int:
@@ -167,7 +185,9 @@ class _Run:
                     "BAD_OPTION", f"{name} is {getattr(self, name)}; it must be greater than 0."
                 )
 
-    def fitted(self, result: Result, level: int, lattice_error: float, watched) -> SplinePatches:
+    def fitted(
+        self, result: Result, level: int, lattice_error: np.ndarray, watched
+    ) -> SplinePatches:
         triangles, quads = result.faces
         # however soon it is done, whoever watches hears of it
         if watched["progress"](0.0, "patches") is False:
@@ -203,14 +223,36 @@ class _Run:
         refused then, unless the caller insists.
         """
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
-        bad = _turning(result, level, limit, 0.0, threads)
-        self.refuse(bad)
-        return bool(bad)
+        turns = _native.lattice_turns(
+            result.vertices, *result.faces, result.crease_edges, level, 0.0, threads
+        )
+        bad = turns > limit
+        self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
+        return bool(bad.any())
+
+    def turns(self, result: Result, level: int, threads: int) -> np.ndarray:
+        """(F,) the sharpest turn of each control face that is not lower than the tolerance."""
+        least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
+        return _native.lattice_turns(
+            result.vertices, *result.faces, result.crease_edges, level, least, threads
+        )
+
+    def stays_sharp(
+        self, result: Result, level: int, before: np.ndarray, turns: np.ndarray, finer: int
+    ) -> bool:
+        """Whether turns above the limit fall so slowly, from one level to this, that they stay above
+        it at the finest. It is refused then, unless the caller insists.
+        """
+        bad = np.minimum(before, turns) > TURN_LIMIT
+        falling = np.minimum(turns[bad] / before[bad], 1.0)
+        bad[bad] = turns[bad] * falling**finer > TURN_LIMIT
+        self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
+        return bool(bad.any())
 
     def sharp_faces(self, result: Result, level: int, threads: int) -> list[int]:
         """Those where the refined surface itself folds or turns too sharply: no patch serves."""
-        least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
-        return _turning(result, level, TURN_LIMIT, least, threads)
+        turns = self.turns(result, level, threads)
+        return np.unique(control_polygons(result, level)[turns > TURN_LIMIT]).tolist()
 
     def checked(self, patches: SplinePatches) -> SplinePatches:
         self.refuse(patches.unresolved.tolist())
@@ -229,21 +271,12 @@ class _Run:
             )
 
 
-def _turning(result: Result, level: int, limit: float, least: float, threads: int) -> list[int]:
-    """Input faces with a turn above `limit` between two cells, at least `least` high."""
-    turns = _native.lattice_turns(
-        result.vertices, *result.faces, result.crease_edges, level, least, threads
-    )
-    return np.unique(control_polygons(result, level)[turns > limit]).tolist()
-
-
-def change_between(coarse: Result | None, fine: Result, levels: int) -> float:
-    """The largest distance, along normals, between the surface of `levels` and the one of a level
-    less, at the points that both have; mesh units. A few control faces at a time.
+def change_between(coarse: Result, fine: Result, levels: int) -> np.ndarray:
+    """(F,) float64: of each control face, the largest distance, along normals, between the surface
+    of `levels` and the one of a level less, at the points that both have; mesh units. A few control
+    faces at a time.
     """
-    if coarse is None:
-        return inf
-    largest, cells = 0.0, 4**levels
+    found, cells = [np.empty(0)], 4**levels
     for corners, few, many in zip((3, 4), coarse.faces, fine.faces):
         few, many = few.reshape(-1, cells // 4, corners), many.reshape(-1, cells, corners)
         shared = _all_cells(corners, 2**levels), _even_cells(corners, 2**levels)
@@ -252,8 +285,8 @@ def change_between(coarse: Result | None, fine: Result, levels: int) -> float:
             part = slice(first, first + at_once)
             points = coarse.vertices[few[part, shared[0], 0]]
             far = _distances(points, fine.vertices, many[part, shared[1]])
-            largest = max(largest, float(far.max(initial=0)))
-    return largest
+            found.append(far.max(axis=1, initial=0))
+    return np.concatenate(found)
 
 
 def _distances(points: np.ndarray, vertices: np.ndarray, cells: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
 from functools import cached_property
 from typing import Any
@@ -10,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .arrays import numbers
+from .errors import fairing_error
 from .result import Result
 
 SMOOTH, CREASE, BOUNDARY = range(3)
@@ -49,8 +52,8 @@ class SplinePatches:
     edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
     along creases and boundaries, and at the tips of sharp kinks, where borders or creases meet at a
     corner and the surface does not lie in their plane. At slight ones it is the angle of the kink.
-    lattice_error: float, how far the refined surface itself is about from the limit of finer ones;
-    NaN where `levels` was given.
+    refinement_error: (P,) float64, how far the refined surface itself is about from the limit of finer
+    ones, by what has changed in the patch's control face from the level below.
     unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
     size: float, the largest extent along an axis.
     tolerance, normal_tolerance: float, those asked for; tolerance is a share of the size.
@@ -81,7 +84,7 @@ class SplinePatches:
         self.size: float = arrays["size"]
         self.tolerance: float = arrays["tolerance"]
         self.normal_tolerance: float = arrays["normal_tolerance"]
-        self.lattice_error: float = arrays["lattice_error"]
+        self.refinement_error: np.ndarray = arrays["lattice_error"][self.patch_face]
         self.unresolved: np.ndarray = arrays["unresolved"]
         self.patch_shell, self.shell_closed = self._shells()
 
@@ -105,15 +108,32 @@ class SplinePatches:
 
     def transformed(self, matrix: ArrayLike) -> SplinePatches:
         """A copy of the patches, at matrix @ (x, y, z, 1); a mirrored one turns them, so that they
-        still look outward. Errors stay in the old mesh units; result stays where it is.
+        still look outward. Errors stay in the old mesh units; result stays where it is. Raises
+        FairingError BAD_SHAPE for what is no matrix of finite numbers.
         """
-        linear, shift = np.asarray(matrix, float)[:3, :3], np.asarray(matrix, float)[:3, 3]
-        moved = copy(self)
-        for name in ("vertices", "patch_points", "edge_points"):
-            setattr(moved, name, getattr(self, name) @ linear.T + shift)
-        if np.linalg.det(linear) < 0:
+        given = numbers(matrix, "matrix", "iuf").astype(float)
+        if given.shape not in ((3, 4), (4, 4)) or not np.isfinite(given).all():
+            raise fairing_error(
+                "BAD_SHAPE",
+                f"matrix has shape {given.shape}; it must be (4, 4) or (3, 4), of finite numbers.",
+            )
+        linear, shift = given[:3, :3], given[:3, 3]
+        moved = self._with_points(lambda points: points @ linear.T + shift)
+        if np.linalg.slogdet(linear)[0] < 0:
             moved._turn()
         return moved
+
+    def scaled(self, factor: float) -> SplinePatches:
+        """A copy of the patches, larger by this factor, and their size with them."""
+        larger = self._with_points(lambda points: points * factor)
+        larger.size = self.size * factor  # which readers' own tolerance follows
+        return larger
+
+    def _with_points(self, moved: Callable[[np.ndarray], np.ndarray]) -> SplinePatches:
+        found = copy(self)
+        for name in ("vertices", "patch_points", "edge_points"):
+            setattr(found, name, moved(getattr(self, name)))
+        return found
 
     def _turn(self) -> None:
         """Exchanges u and v."""
@@ -125,15 +145,42 @@ class SplinePatches:
         self.loop_edges = np.array([edge for edge, _ in steps], np.int32)
         self.loop_forward = np.array([not forward for _, forward in steps], bool)
 
+    @property
+    def off(self) -> np.ndarray:
+        """(P,) float64, mesh units: how far each patch is from the fair surface at most."""
+        return self._fit + self.refinement_error
+
     @cached_property
     def unmet(self) -> np.ndarray:
         """(k,) int64: input faces with a patch or an edge that misses a tolerance."""
-        far = self.residual > self.tolerance * self.size
-        worst = np.nan_to_num(self.edge_angles).max(axis=1, initial=0)
-        bad = (worst > self.normal_tolerance) | (self.edge_error > self.tolerance * self.size)
-        patch = np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
-        far[patch[bad[self.loop_edges]]] = True
-        return np.unique(self.patch_polygon[far]).astype(np.int64)
+        return self._missing(self.off)
+
+    @property
+    def unmet_by_fit(self) -> np.ndarray:
+        """(k,) int64: those of `unmet` that miss it from the refined surface, too."""
+        return self._missing(self._fit)
+
+    def _missing(self, off: np.ndarray) -> np.ndarray:
+        bad = off > self.tolerance * self.size
+        sharp = np.nan_to_num(self.edge_angles).max(axis=1, initial=0) > self.normal_tolerance
+        bad[self._patch_of_steps[sharp[self.loop_edges]]] = True
+        return np.unique(self.patch_polygon[bad]).astype(np.int64)
+
+    @cached_property
+    def _fit(self) -> np.ndarray:
+        """(P,) how far each patch, or an edge of it, is from the refined surface."""
+        fit = self.residual.copy()
+        np.maximum.at(fit, self._patch_of_steps, self.edge_error[self.loop_edges])
+        return fit
+
+    @property
+    def largest_off(self) -> float:
+        """The farthest that a patch is from the fair surface, mesh units: what `tolerance` bounds."""
+        return float(self.off.max(initial=0))
+
+    @property
+    def _patch_of_steps(self) -> np.ndarray:
+        return np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
 
     @property
     def largest_residual(self) -> float:
@@ -162,7 +209,7 @@ class SplinePatches:
     def __repr__(self) -> str:
         return (
             f"SplinePatches({len(self)} patches, {len(self.shell_closed)} shells, "
-            f"{self.largest_residual / self.size if self.size else 0:.1e} of the size off, "
+            f"{self.largest_off / self.size if self.size else 0:.1e} of the size off, "
             f"{np.degrees(self.largest_angle):.3f} degrees at edges)"
         )
 

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .cad_files import Part, cad_parts, checked_scale, whole_file
+from .cad_files import Part, cad_parts, require_unit
 from .errors import fairing_error
 from .patches import SplinePatches, spline_knots
+from .whole_files import file_name, whole_file
 
 _UNITS = {"m": "Meters", "cm": "Centimeters", "mm": "Millimeters", "in": "Inches", "ft": "Feet"}
 _RHINO = 6  # the oldest that reads the file
@@ -43,13 +44,14 @@ def write_3dm(
         raise fairing_error(
             "MISSING_MODULE", "The module rhino3dm is missing: pip install rhino3dm."
         )
-    factor = checked_scale(unit, scale)
-    parts = cad_parts(patches, names, colours)
+    require_unit(unit)
+    parts = cad_parts(patches, scale, names, colours)
+    name = file_name(path)
     model = rhino.File3dm()
     model.Settings.ModelUnitSystem = getattr(rhino.UnitSystem, _UNITS[unit])
     for part in parts:
-        _add(rhino, model, part, factor)
-    with whole_file(path) as place:
+        _add(rhino, model, part)
+    with whole_file(name) as place:
         if not model.Write(str(place), _RHINO):
             raise OSError(errno.EIO, "rhino3dm could not write all of it; is the disk full?")
 
@@ -67,7 +69,7 @@ def _rhino() -> Any:
     return rhino3dm
 
 
-def _add(rhino: Any, model: Any, part: Part, scale: float) -> None:
+def _add(rhino: Any, model: Any, part: Part) -> None:
     """A layer with the surfaces of a part."""
     patches, colours = part.patches, part.colours
     one = colours if colours is not None and colours.ndim == 1 else None
@@ -79,7 +81,7 @@ def _add(rhino: Any, model: Any, part: Part, scale: float) -> None:
         if colours is not None and colours.ndim == 2:
             attributes.ColorSource = rhino.ObjectColorSource.ColorFromObject
             attributes.ObjectColor = _bytes(colours[p])
-        model.Objects.AddSurface(_surface(rhino, patches.net(p) * scale), attributes)
+        model.Objects.AddSurface(_surface(rhino, patches.net(p)), attributes)
 
 
 def _surface(rhino: Any, net: np.ndarray) -> Any:

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .cad_files import UNITS, Part, cad_parts, checked_scale, whole_file
+from .cad_files import UNITS, Part, cad_parts, require_unit
 from .patches import SplinePatches
+from .whole_files import file_name, whole_file
 
 # How a unit is written.
 _WRITTEN = {"m": "$", "cm": ".CENTI.", "mm": ".MILLI.", "in": "INCH", "ft": "FOOT"}
@@ -48,25 +49,30 @@ def write_step(
 
     Raises FairingError BAD_OPTION, and OSError where the file cannot be written.
     """
-    factor = checked_scale(unit, scale)
-    parts = cad_parts(patches, names, colours)
+    require_unit(unit)
+    parts = cad_parts(patches, scale, names, colours)
+    name = file_name(path)
     with (
-        whole_file(path) as place,
+        whole_file(name) as place,
         place.open("w", encoding="ascii", newline="\n") as file,
     ):
-        writer = _Writer(file, unit, factor)
-        writer.header(Path(path).name)
+        writer = _Writer(file, unit)
+        writer.header(Path(name).name)
         for part in parts:
             writer.part(part)
         writer.end()
 
 
 def step_text(text: str) -> str:
-    """A string as STEP writes it, in ASCII."""
+    """A string as STEP writes it, in ASCII. Apostrophes too are written by their number: readers
+    take a doubled one before a bracket or a comma for the end.
+    """
     out = []
     for character in text:
-        if character in "'\\":
+        if character == "\\":
             out.append(2 * character)
+        elif character == "'":
+            out.append("\\X2\\0027\\X0\\")
         elif " " <= character <= "~":
             out.append(character)
         elif ord(character) < 0x10000:
@@ -95,10 +101,9 @@ def _flag(value: bool) -> str:
 class _Writer:
     """Writes entities one after another; nothing but their numbers is kept."""
 
-    def __init__(self, file: IO[str], unit: str, scale: float):
+    def __init__(self, file: IO[str], unit: str):
         self._file = file
         self._unit = unit
-        self._scale = scale
         self._last = 0
 
     def header(self, name: str) -> None:
@@ -175,7 +180,7 @@ class _Writer:
 
     def _context(self, patches: SplinePatches) -> int:
         # edges and patches agree to rounding; readers take this for their own tolerance
-        accuracy = max(1e-9 * patches.size * self._scale, 1e-300)
+        accuracy = min(max(1e-9 * patches.size, 1e-300), 1e300)
         uncertainty = self._add(
             f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({step_real(accuracy)}),#{self._length},"
             "'distance_accuracy_value','')"
@@ -188,7 +193,7 @@ class _Writer:
         )
 
     def _point(self, at: np.ndarray) -> int:
-        x, y, z = (step_real(value) for value in (at * self._scale).tolist())
+        x, y, z = (step_real(value) for value in at.tolist())
         return self._add(f"CARTESIAN_POINT('',({x},{y},{z}))")
 
     def _edges(self, patches: SplinePatches, points: list[int]) -> list[int]:
@@ -269,8 +274,9 @@ class _Writer:
 def _outward(patches: SplinePatches) -> np.ndarray:
     """(S,) bool: False for closed shells that look inward; a solid's faces look outward."""
     volume = np.zeros(len(patches.shell_closed))
+    extent = np.abs(patches.vertices - patches.vertices[:1]).max(initial=0) or 1.0
     for p in range(len(patches)):
-        net = patches.net(p) - patches.vertices[0]
+        net = (patches.net(p) - patches.vertices[0]) / extent  # no power of it overflows
         a, b, c, d = net[:-1, :-1], net[1:, :-1], net[1:, 1:], net[:-1, 1:]
         cells = np.cross(a, b) * c + np.cross(a, c) * d
         volume[patches.patch_shell[p]] += cells.sum()

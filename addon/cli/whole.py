@@ -1,37 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files written beside their place first: what is there stays until the new one is complete."""
+"""Whether an exporter has written all of a file: they do not tell a full disk."""
 
-import os
-import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 _BLOCK = 1 << 20
-
-
-@contextmanager
-def replacing(target: Path) -> Iterator[Path]:
-    """A name beside `target`, of its type, to write to inside the `with`.
-
-    What is written takes the place of `target` at its end; after an error nothing has changed, and
-    nothing is left over. Whatever is no file, such as a pipe, is written to itself.
-    """
-    own = Path(os.path.realpath(target))  # a link stays one
-    if own.exists() and not own.is_file():
-        yield own
-        return
-    part = own.with_name(f".{own.stem}.{os.getpid()}.part{own.suffix}")
-    try:
-        yield part
-        material = part.with_suffix(".mtl")
-        if own.suffix.lower() == ".obj" and material.exists():
-            _name_materials(part, material.name, own.with_suffix(".mtl").name)
-            material.replace(own.with_suffix(".mtl"))
-        part.replace(own)
-    finally:
-        for left in (part, part.with_suffix(".mtl"), _rewritten(part)):
-            left.unlink(missing_ok=True)
 
 
 def why_incomplete(path: Path, faces: int, corners: int) -> str:
@@ -82,20 +54,3 @@ def _stl_has_all(path: Path, size: int, _faces: int, _corners: int) -> bool:
     with path.open("rb") as stream:
         head = stream.read(84)
     return len(head) == 84 and size == 84 + 50 * int.from_bytes(head[80:], "little")
-
-
-def _rewritten(part: Path) -> Path:
-    return part.with_name(part.name + ".named")
-
-
-def _name_materials(part: Path, old: str, new: str) -> None:
-    """Writes the name that the file of materials will have into an OBJ."""
-    own = _rewritten(part)
-    with part.open("rb") as source, own.open("wb") as out:
-        for line in source:
-            if line.startswith(b"mtllib"):
-                out.write(line.replace(os.fsencode(old), os.fsencode(new)))
-                break
-            out.write(line)
-        shutil.copyfileobj(source, out, _BLOCK)
-    own.replace(part)
