@@ -200,7 +200,14 @@ _DONE = {
         "face of fewer than three corners dropped",
         "faces of fewer than three corners dropped",
     ),
-    "NON_FINITE": ("vertex without a position moved", "vertices without a position moved"),
+    "INDEX_OUT_OF_RANGE": (
+        "face with a vertex that does not exist dropped",
+        "faces with vertices that do not exist dropped",
+    ),
+    "NON_FINITE": (
+        "vertex without a proper position moved",
+        "vertices without a proper position moved",
+    ),
     "REPEATED_VERTEX": ("face freed of a doubled corner", "faces freed of doubled corners"),
     "COINCIDENT_VERTICES": ("vertex merged", "vertices merged"),
     "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),

@@ -96,6 +96,13 @@ MendedMesh mend_as_asked(const PolygonMesh& input, const FairOptions& options) {
 
 }  // namespace
 
+void require_readable(const PolygonMesh& input, Repair repair) {
+  if (repair == Repair::mend)
+    require_mendable(input);
+  else
+    require_arrays(input);
+}
+
 Mending::Mending(const PolygonMesh& input, const FairOptions& options)
     : mended_(mend_as_asked(input, options)),
       counted_(mended_.changed() ? mended_.bytes() : 0),

@@ -13,6 +13,9 @@
 
 namespace fairing {
 
+// Throws what is wrong with the arrays themselves, as far as a run would not mend it.
+void require_readable(const PolygonMesh& input, Repair repair);
+
 class Mending {
  public:
   // Mends where `options` ask for it. The arrays of `input` and the spans of `options` must outlive

@@ -320,3 +320,45 @@ def test_a_vertex_without_position_and_face_does_no_harm():
     assert np.isfinite(result.vertices).all() and np.isfinite(result.shapes[0]).all()
     assert np.array_equal(result.vertices[:12], POINTS)
     assert result.report["warnings"] == []
+
+
+@pytest.mark.parametrize("absent", [-1, 12, 2**31, 2**32 + 1])
+def test_faces_that_name_absent_vertices_are_dropped(absent):
+    """A hole is left, as if they had never been there; creases and normals of their vertices stay."""
+    faces = FACES.astype(np.int64)
+    faces[[3, 7], [1, 2]] = absent
+    (defect,) = (d for d in df.check(POINTS, faces) if d.severity == "error")
+    assert (defect.code, defect.elements, defect.repairable) == ("INDEX_OUT_OF_RANGE", [3, 7], True)
+    result, acts = mend(POINTS, faces)
+    assert acts == [("INDEX_OUT_OF_RANGE", [3, 7])]
+    kept = np.delete(FACES, [3, 7], axis=0)
+    assert np.array_equal(result.vertices, tight.fair(POINTS, kept, 1).vertices)
+    assert set(result.triangle_polygon) == set(range(len(FACES))) - {3, 7}
+    (act,) = result.report["repairs"]
+    assert act["message"] == (
+        "2 faces (3, 7) named vertices that the mesh does not have and were dropped."
+    )
+
+
+def test_a_mesh_of_nothing_but_absent_vertices_is_refused():
+    with pytest.raises(df.FairingError, match="names? a vertex that does not exist") as caught:
+        df.fair(POINTS, FACES + 12, 1, repair="mend")
+    assert caught.value.elements == list(range(len(FACES)))
+    assert not df.check(POINTS, FACES + 12)[0].repairable
+
+
+def test_ids_that_count_from_one_are_told_as_such():
+    with pytest.raises(df.FairingError, match="count from 1: subtract 1 from all"):
+        df.fair(POINTS, FACES + 1, 1)
+
+
+def test_a_position_far_off_is_not_called_none():
+    points = np.concatenate([POINTS, [[np.nan, 0, 0], [0, 1e120, 0], [0, -np.inf, 0]]])
+    result, acts = mend(points, FACES)
+    assert acts == [("NON_FINITE", [12, 14]), ("NON_FINITE", [13])]
+    assert [act["message"] for act in result.report["repairs"]] == [
+        "2 vertices (12, 14) had no finite position and no face, and were moved to a vertex that "
+        "has both.",
+        "1 vertex (13) had a coordinate beyond 1e100 and no face, and was moved to a vertex that "
+        "has one.",
+    ]

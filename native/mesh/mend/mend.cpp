@@ -2,6 +2,7 @@
 #include "mesh/mend/mend.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "mesh/mend/dissolve.h"
@@ -20,7 +21,8 @@ std::size_t bytes_of(const OwnedPolygonMesh& mesh) {
          (mesh.corners.capacity() + mesh.offsets.capacity()) * sizeof(std::int64_t);
 }
 
-// Throws the first defect that stands in the way of mending.
+}  // namespace
+
 void require_mendable(const PolygonMesh& mesh) {
   Defects found;
   check_arrays(mesh, found);
@@ -36,6 +38,8 @@ void require_mendable(const PolygonMesh& mesh) {
                            "program could tell where the surface is. Delete or move them.",
                        bad);
 }
+
+namespace {
 
 class Mender {
  public:
@@ -65,6 +69,7 @@ class Mender {
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
+      if (names_absent_vertex(face, mesh_.vertex_count())) return false;
       if (face.size() < 3 || repeats_a_vertex(face) || has_no_area(mesh_.coordinates, face))
         return false;
     }
@@ -78,6 +83,10 @@ class Mender {
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
+      if (names_absent_vertex(face, mesh_.vertex_count())) {
+        absent_.push_back(f);
+        continue;
+      }
       walk.clear();
       for (std::size_t i = 0; i < face.size(); ++i) {
         const auto k = Index(mesh_.offsets[std::size_t(f)]) + Index(i);
@@ -127,9 +136,12 @@ class Mender {
       out_.vertex_origin[v] = merges_.lead(Index(v));
       if (out_.vertex_origin[v] != Index(v)) merged_.push_back(std::int64_t(v));
     }
-    lost_ = non_finite_vertices(mesh_.coordinates);
-    for (const std::int64_t v : lost_)
+    for (const std::int64_t v : non_finite_vertices(mesh_.coordinates)) {
       out_.vertex_origin[std::size_t(v)] = loops_.corners[0].vertex;
+      const auto at = mesh_.coordinates.subspan(3 * std::size_t(v), 3);
+      (std::ranges::all_of(at, [](double x) { return std::isfinite(x); }) ? far_ : lost_)
+          .push_back(v);
+    }
   }
 
   void fill_arrays() {
@@ -155,9 +167,16 @@ class Mender {
     faces(ErrorCode::bad_shape, few_,
           {"had fewer than three corners and was dropped.",
            "had fewer than three corners and were dropped."});
+    faces(ErrorCode::index_out_of_range, absent_,
+          {"named a vertex that the mesh does not have and was dropped.",
+           "named vertices that the mesh does not have and were dropped."});
     add_act(ErrorCode::non_finite, vertex_s, ElementKind::vertex, lost_,
             {"had no finite position and no face, and was moved to a vertex that has both.",
              "had no finite position and no face, and were moved to a vertex that has both."});
+    add_act(
+        ErrorCode::non_finite, vertex_s, ElementKind::vertex, far_,
+        {"had a coordinate beyond 1e100 and no face, and was moved to a vertex that has one.",
+         "had a coordinate beyond 1e100 and no face, and were moved to a vertex that has one."});
     faces(ErrorCode::repeated_vertex, repeated_,
           {"named a vertex twice: the doubled corner was dropped.",
            "named a vertex twice: the doubled corners were dropped."});
@@ -175,7 +194,7 @@ class Mender {
   const MendOptions& options_;
   Merges merges_;
   Loops loops_;
-  Ids few_, repeated_, flat_, duplicates_, merged_, lost_;
+  Ids few_, absent_, repeated_, flat_, duplicates_, merged_, lost_, far_;
   MendedMesh out_;
 };
 

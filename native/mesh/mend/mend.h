@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mends what can be mended of a mesh before check() sees it: repeated and coincident corners,
-// duplicate faces, faces without area. Sheets that meet, and the way faces look, are not its
+// duplicate faces, faces without area, faces that name absent vertices. Sheets that meet, and the way faces look, are not its
 // business. The input is only read.
 //
 // Deterministic, and independent of the order of faces and corners but for ties, which the lowest
@@ -54,6 +54,9 @@ struct MendedMesh {
   // Other positions of the input's vertices, 3 numbers each, with those vertices moved along.
   std::vector<double> placed(std::span<const double> coordinates) const;
 };
+
+// Throws the first defect that stands in the way of mending.
+void require_mendable(const PolygonMesh& mesh);
 
 // Throws FairingError for what no program could mend: arrays that describe no faces, vertices of
 // faces without a finite position, and no face left.

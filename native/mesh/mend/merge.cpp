@@ -150,6 +150,7 @@ void merge_within_faces(const PolygonMesh& mesh, Merges& merges) {
     again = false;
     for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
+      if (names_absent_vertex(mesh.face(f), mesh.vertex_count())) continue;
       current_face(mesh, f, merges, face);
       if (unite_touching(mesh, face, merges) || unite_short_sides(mesh, face, merges)) again = true;
     }

@@ -85,19 +85,25 @@ bool check_finite(const PolygonMesh& mesh, Defects& found) {
   return false;
 }
 
+// A hint, where ids run from 1 to the number of vertices.
+std::string counts_from_one(const PolygonMesh& mesh) {
+  const auto [lowest, highest] = std::minmax_element(mesh.corners.begin(), mesh.corners.end());
+  if (*lowest != 1 || *highest != mesh.vertex_count()) return "";
+  return " These seem to count from 1: subtract 1 from all of them.";
+}
+
 bool check_range(const PolygonMesh& mesh, Defects& found) {
   const std::int64_t vertices = mesh.vertex_count();
-  const Ids outside = faces_where(mesh, [&](auto face) {
-    return std::any_of(face.begin(), face.end(),
-                       [&](std::int64_t v) { return v < 0 || v >= vertices; });
-  });
-  if (!outside.empty())
-    found.emplace_back(ErrorCode::index_out_of_range,
-                       listing(face_s, outside, {"names", "name"}) +
-                           " a vertex that does not exist: ids run from 0 to " +
-                           std::to_string(vertices - 1) + ".",
-                       outside);
-  return outside.empty();
+  const Ids outside =
+      faces_where(mesh, [&](auto face) { return names_absent_vertex(face, vertices); });
+  if (outside.empty()) return true;
+  found.emplace_back(ErrorCode::index_out_of_range,
+                     listing(face_s, outside, {"names", "name"}) +
+                         " a vertex that does not exist: ids run from 0 to " +
+                         std::to_string(vertices - 1) + "." + counts_from_one(mesh),
+                     outside);
+  found.back().repairable = std::int64_t(outside.size()) < mesh.face_count();
+  return false;
 }
 
 bool check_repetition(const PolygonMesh& mesh, Defects& found) {
@@ -120,10 +126,19 @@ bool repeats_a_vertex(std::span<const std::int64_t> face) {
   return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
+bool names_absent_vertex(std::span<const std::int64_t> face, std::int64_t vertices) {
+  return std::any_of(face.begin(), face.end(),
+                     [&](std::int64_t v) { return v < 0 || v >= vertices; });
+}
+
 std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
   std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
-  for (std::int64_t v : mesh.corners)
-    if (v >= 0 && v < mesh.vertex_count()) used[std::size_t(v)] = 1;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    const auto face = mesh.face(f);
+    if (names_absent_vertex(face, mesh.vertex_count())) continue;
+    for (const std::int64_t v : face) used[std::size_t(v)] = 1;
+  }
   return used;
 }
 
@@ -142,6 +157,12 @@ std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets) {
   if (!cut_faces(offsets, corners.size())) bad_offsets().raise();
   if (corners.size() > most_corners) too_many().raise();
+}
+
+void require_arrays(const PolygonMesh& mesh) {
+  Defects found;
+  check_arrays(mesh, found);
+  if (!found.empty()) found.front().raise();
 }
 
 Readable check_arrays(const PolygonMesh& mesh, Defects& found) {

@@ -28,7 +28,8 @@ bool Defect::mended(ErrorCode what, ElementKind of) {
     case ErrorCode::degenerate_face:
     case ErrorCode::coincident_vertices:
     case ErrorCode::inconsistent_orientation: return true;
-    case ErrorCode::bad_shape: return of == ElementKind::face;  // too few corners
+    case ErrorCode::bad_shape:  // too few corners
+    case ErrorCode::index_out_of_range: return of == ElementKind::face;
     default: return false;
   }
 }

@@ -77,6 +77,9 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 // nor counts of corners are looked at.
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets);
 
+// Throws the first error of the arrays themselves: sizes, ids, coordinates that are no numbers.
+void require_arrays(const PolygonMesh& mesh);
+
 bool repeats_a_vertex(std::span<const std::int64_t> face);
 
 // The warning of vertices without a face.

@@ -22,7 +22,10 @@ struct Readable {
 // Adds empty_mesh, no_faces, bad_shape, too_large, non_finite, index_out_of_range, repeated_vertex.
 Readable check_arrays(const PolygonMesh& mesh, Defects& found);
 
-// For every vertex 1 if a face names it. Ids out of range are passed over.
+// Whether a face names one that is none of so many vertices.
+bool names_absent_vertex(std::span<const std::int64_t> face, std::int64_t vertices);
+
+// For every vertex 1 if a face names it, other than those that name absent ones, too.
 std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh);
 
 // --- topology.cpp: whether the faces form oriented sheets, and where these meet ---
