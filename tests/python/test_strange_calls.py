@@ -8,6 +8,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing.options import SETTINGS
 
 POINTS, FACES = meshes.torus()
 CORNERS, OFFSETS = FACES.reshape(-1), np.arange(0, 4 * len(FACES) + 1, 4)
@@ -167,3 +168,37 @@ def test_arrays_that_change_in_mid_run(what):
             except df.FairingError as error:
                 assert error.code not in ("OUT_OF_MEMORY",)
     calls[what]()
+
+
+NUMBERS = sorted(set(SETTINGS) - {"repair_orientation", "measure"})
+
+
+@pytest.mark.parametrize(
+    "value", [True, np.True_, np.array(True)], ids=["bool", "NumPy's", "array"]
+)
+@pytest.mark.parametrize("name", NUMBERS)
+def test_true_is_no_number(name, value):
+    """As a length weld=True would be 1, and levels=True one level."""
+    options = {"levels": 1, "repair": "mend", "interpolation": "approximate", name: value}
+    for call in (df.fair, df.Solver):
+        assert code_of(call, POINTS, FACES, **options) in ("BAD_OPTION", "BAD_SHAPE")
+
+
+def test_true_is_no_number_in_a_list_either():
+    count = len(POINTS)
+    for option in (
+        {"tolerance": [True] + [0.1] * (count - 1)},
+        {"weights": [1.0] * (count - 1) + [True]},
+        {"normals": [[0, 0, True]] * count},
+        {"corner_vertices": [0, True]},
+        {"crease_edges": [(0, True)]},
+        {"region": [0, True]},
+        {"shapes": [[[0, 0, True]] * count]},
+    ):
+        assert code_of(df.fair, POINTS, FACES, 1, **option) == "BAD_SHAPE"
+    assert code_of(df.fair, POINTS, [[0, True, 2], *FACES[1:].tolist()], 1) == "BAD_SHAPE"
+    for number in ({"vertex_count": True}, {"levels": True}, {"shapes": True}):
+        arguments = {"vertex_count": count, "faces": FACES, "levels": 1} | number
+        assert code_of(df.predicted_size, **arguments) == "BAD_OPTION"
+    for tolerance in ({"tolerance": True}, {"normal_tolerance": True}, {"threads": True}):
+        assert code_of(df.fit_patches, POINTS, FACES, **tolerance) == "BAD_OPTION"

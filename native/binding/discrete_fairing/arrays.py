@@ -121,12 +121,23 @@ def plain(array: np.ndarray, dtype: type) -> np.ndarray:
     return np.require(array, dtype, ["C", "A"])
 
 
+def holds_bool(values: object) -> bool:
+    """Whether this is True or False, or an array or list with one in it. Python and NumPy would make
+    numbers of them.
+    """
+    if isinstance(values, list | tuple):
+        return any(map(holds_bool, values))
+    return isinstance(values, bool) or getattr(values, "dtype", None) == bool
+
+
 def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
     """An array of one of the NumPy `kinds` of dtype. Raises FairingError BAD_SHAPE, with `name`."""
     if has_masked(values):
         raise fairing_error(
             "BAD_SHAPE", f"{name} has masked entries; fill them, or leave them out."
         )
+    if holds_bool(values):
+        raise fairing_error("BAD_SHAPE", f"{name} has True or False in it; it must hold numbers.")
     try:
         array = np.asarray(values)
     except ValueError as error:

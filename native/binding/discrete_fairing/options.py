@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import index_array, numbers
+from .arrays import holds_bool, index_array, numbers
 from .errors import fairing_error
 
 
@@ -120,7 +120,7 @@ def choice(enum: type):
 def whole(name: str, value: object) -> int:
     """An integer of any type, from 0 to what the core's holds."""
     try:
-        number = value.__index__()
+        number = _number(value).__index__()
     except (AttributeError, TypeError):
         raise fairing_error(
             "BAD_OPTION", f"{name} is {value!r}; it must be a whole number."
@@ -134,10 +134,17 @@ def whole(name: str, value: object) -> int:
     return number
 
 
+def _number(value: object) -> object:
+    """The value; TypeError for True and False, which would pass for 1 and 0: weld=True is no length."""
+    if holds_bool(value):
+        raise TypeError
+    return value
+
+
 def real(name: str, value: object) -> float:
     """A finite number."""
     try:
-        number = float(value)
+        number = float(_number(value))
     except (TypeError, ValueError, OverflowError):
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be a number.") from None
     if not isfinite(number):
