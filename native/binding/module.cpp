@@ -9,11 +9,13 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/construct.h"
 #include "binding/report.h"
 #include "binding/runner.h"
 #include "binding/running.h"
 #include "fairing/fair.h"
 #include "fairing/memory_plan.h"
+#include "fairing/mending.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 
@@ -56,8 +58,9 @@ void bind_errors(py::module_& m) {
 }
 
 void bind_monitor(py::module_& m) {
-  py::class_<Monitor>(m, "Monitor", "Watches a run, and cancels it, from any thread.")
-      .def(py::init<>())
+  py::class_<Monitor> monitor(m, "Monitor", "Watches a run, and cancels it, from any thread.");
+  define_constructor(monitor);
+  monitor
       // for the package's calls of several runs, each with a monitor of its own
       .def("_report",
            [](Monitor& self, const std::string& phase, double fraction) {
@@ -116,6 +119,12 @@ py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std
   return py::array_t<std::int64_t>(py::ssize_t(faces.size()), faces.data());
 }
 
+void readable_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+                     const Contiguous<std::int64_t>& offsets, Repair repair) {
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  beside_python([&] { require_readable(mesh.view(), repair); });
+}
+
 py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
                         const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes,
                         Energy energy) {
@@ -147,6 +156,9 @@ PYBIND11_MODULE(_native, m) {
   m.def("faces_to_flip", &flipped_faces, py::arg("vertices").noconvert(),
         py::arg("corners").noconvert(), py::arg("offsets").noconvert(),
         "Ids (f,) int64 of the faces to reverse for all neighbours to agree.");
+  m.def("require_readable", &readable_arrays, py::arg("vertices").noconvert(),
+        py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("repair"),
+        "Raises what fair() would for these arrays before it looks at the mesh.");
   m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "binding/bindings.h"
+#include "binding/construct.h"
 
 namespace py = pybind11;
 
@@ -56,7 +57,7 @@ void bind_options(py::module_& m) {
   bind_choices(m);
   m.attr("most_levels") = most_levels;
   py::class_<FairOptions> options(m, "Options", "All settings; new ones hold the defaults.");
-  options.def(py::init<>());
+  define_constructor(options);
   const auto setting = [&](const char* name, auto... member) {
     bind_setting(options, name, member...);
   };

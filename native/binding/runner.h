@@ -25,6 +25,8 @@ class Runner {
   bool has_thread() const { return thread_ != nullptr; }
   // Whether this is a forked process, in which the thread does not exist.
   bool is_left_behind() const;
+  // Throws FairingError(forked) there.
+  void require_own_process() const;
 
   // Returns when the job is over, and throws what it has thrown, or what `progress`, a callable or
   // None, has. `monitor` is what the job reports to. `watcher`, null or the caller's own, is told
@@ -38,7 +40,6 @@ class Runner {
 
  private:
   class Thread;
-  void require_own_process() const;
 
   long process_;
   std::unique_ptr<Thread> thread_;

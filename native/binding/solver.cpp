@@ -3,6 +3,7 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/construct.h"
 #include "binding/report.h"
 #include "binding/runner.h"
 #include "fairing/fair.h"
@@ -65,6 +66,7 @@ class Solver {
   }
 
   std::size_t bytes() const { return bytes_; }
+  void require_own_process() const { runner_.require_own_process(); }
 
  private:
   PolygonMesh mesh_of(const std::vector<double>& coordinates) const {
@@ -94,14 +96,15 @@ class Solver {
 }  // namespace
 
 void bind_solver(py::module_& m) {
-  py::class_<Solver>(m, "Solver", "discrete_fairing.Solver on plain arrays.")
-      .def(py::init<const Contiguous<double>&, const Contiguous<std::int64_t>&,
-                    const Contiguous<std::int64_t>&, const FairOptions&>(),
-           py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-           py::arg("offsets").noconvert(), py::arg("options"))
-      .def("constants", &Solver::constants)
+  py::class_<Solver> solver(m, "Solver", "discrete_fairing.Solver on plain arrays.");
+  define_constructor<const Contiguous<double>&, const Contiguous<std::int64_t>&,
+                     const Contiguous<std::int64_t>&, const FairOptions&>(
+      solver, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
+      py::arg("offsets").noconvert(), py::arg("options"));
+  solver.def("constants", &Solver::constants)
       .def("solve", &Solver::solve, py::arg("vertices").noconvert(), py::arg("monitor").none(true),
            py::arg("progress"))
+      .def("require_own_process", &Solver::require_own_process)
       .def("rebase", &Solver::rebase, py::arg("vertices").noconvert())
       .def_property_readonly("bytes", &Solver::bytes);
 }
