@@ -189,9 +189,11 @@ def fair(
     others = shape_array(shapes, len(points))
     half = None
     if symmetry_plane is not None:
-        native_options(**settings)  # refuses what the caller has given, not what is made of it
-        half = Half(points, corners, offsets, symmetry_plane)
-        points, others, settings = half.points(points), half.points(others), half.settings(settings)
+        given = native_options(
+            **settings
+        )  # refuses what the caller has given, not what is made of it
+        half = Half(points, corners, offsets, symmetry_plane, given.repair)
+        points, others, settings = half.points(points), half.shapes(others), half.settings(settings)
         corners, offsets = half.faces(corners, offsets)
     options = native_options(**settings)
     with half.named() if half else nullcontext():

@@ -19,6 +19,7 @@ from .errors import fairing_error
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
+FAR = 1e100  # beyond it, and where there is NaN, the core refuses
 # settings that name elements, and what of
 _IDS = {"crease_edges": "vertex", "corner_vertices": "vertex", "region": "face"}
 
@@ -30,15 +31,25 @@ class Half:
     of border edges in the plane are their own.
     """
 
-    def __init__(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, plane: object):
+    def __init__(
+        self,
+        points: np.ndarray,
+        corners: np.ndarray,
+        offsets: np.ndarray,
+        plane: object,
+        repair: _native.Repair,
+    ):
         if not isinstance(plane, str) or plane not in PLANES:
             raise fairing_error(
                 "BAD_OPTION", f'symmetry_plane is {plane!r}; it must be "x", "y", "z" or None.'
             )
         self.plane, self.axis = plane, PLANES[plane]
         self.vertex_count, self.face_count = len(points), len(offsets) - 1
-        # an id that the mesh does not have would be that of an image
-        _refuse_unknown("faces", "vertex", corners, self.vertex_count)
+        if repair == _native.Repair.refuse:
+            _refuse_unknown("faces", "vertex", corners, self.vertex_count)
+        _native.require_readable(points, corners, offsets, repair)
+        self._known = (corners >= 0) & (corners < self.vertex_count)
+        self._used = np.unique(corners[self._known])
         self._image = np.arange(len(points)) + len(points)
         shared = self._shared(points, corners, offsets)
         self._image[shared] = shared
@@ -47,19 +58,18 @@ class Half:
         self._in_plane = shared
 
     def _shared(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-        """Ids of the ends of border edges in the plane."""
-        used = corners[(corners >= 0) & (corners < len(points))]
-        height = np.abs(points[:, self.axis])
-        size = np.ptp(points[used], axis=0).max() if len(used) else 0.0
-        flat = height <= SNAP * size
+        """Ids of the ends of border edges in the plane. Faces that mending drops have no edges."""
+        flat = np.abs(points[:, self.axis]) <= self._reach(points)
         following = np.roll(corners, -1)
         last = offsets[1:][offsets[1:] > offsets[:-1]] - 1
         following[last] = corners[offsets[:-1][offsets[1:] > offsets[:-1]]]
-        once = np.repeat(_first_of_their_kind(corners, offsets), np.diff(offsets))
+        sizes = np.diff(offsets)
+        kept = _first_of_their_kind(corners, offsets)
+        kept[np.repeat(np.arange(len(sizes)), sizes)[~self._known]] = False
+        once = np.repeat(kept, sizes)
         pairs = np.sort(np.stack([corners, following], axis=1)[once], axis=1)
         edges, uses = np.unique(pairs, axis=0, return_counts=True)
         edges = edges[uses == 1]
-        edges = edges[(edges >= 0).all(axis=1) & (edges < len(points)).all(axis=1)]
         found = np.unique(edges[flat[edges].all(axis=1)])
         if not len(found):
             raise fairing_error(
@@ -69,24 +79,58 @@ class Half:
             )
         return found
 
+    def _reach(self, points: np.ndarray) -> float:
+        """How far from the plane vertices may be and lie in it, mesh units."""
+        with np.errstate(invalid="ignore", over="ignore"):
+            return SNAP * np.ptp(points[self._used], axis=0).max() if len(self._used) else 0.0
+
+    def _refuse_gap(self, points: np.ndarray, where: str) -> None:
+        """An error for vertices that have left the plane: there the mesh would part from its image."""
+        height = np.abs(points[self._in_plane, self.axis])
+        away = self._in_plane[(height > self._reach(points)) & (height <= FAR)].tolist()
+        if away:
+            raise fairing_error(
+                "BAD_OPTION",
+                _native.relisted(
+                    f"0 vertex () are not in the plane {self.plane} = 0{where}, where symmetry_plane "
+                    "has the mesh meet its mirror image. Put the border back there.",
+                    "vertex",
+                    away,
+                ),
+                away,
+                "vertex",
+            )
+
+    def shapes(self, shapes: np.ndarray) -> np.ndarray:
+        """(k, n, 3) → of the double; refuses those that are not in the plane where the mesh is."""
+        for k, shape in enumerate(shapes):
+            self._refuse_gap(shape, f" in shape {k}")
+        return self._doubled(shapes)
+
     def points(self, points: np.ndarray) -> np.ndarray:
+        """(n, 3) → of the double; refuses those that are not in the plane where the mesh is."""
+        self._refuse_gap(points, "")
+        return self._doubled(points)
+
+    def _doubled(self, points: np.ndarray) -> np.ndarray:
         """(…, n, 3) → of the double; border vertices next to the plane are put into it."""
         own = points.copy()
-        own[..., self._in_plane, self.axis] = 0.0
+        height = own[..., self._in_plane, self.axis]
+        own[..., self._in_plane, self.axis] = np.where(np.abs(height) <= FAR, 0.0, height)
         images = own[..., self._copied, :].copy()
         images[..., self.axis] *= -1.0
         return np.ascontiguousarray(np.concatenate([own, images], axis=-2))
 
     def faces(self, corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Corners and offsets of the double; images run the other way round."""
+        """Corners and offsets of the double; images run the other way round. An id that the mesh does
+        not have would be that of an image: it becomes -1.
+        """
         sizes = np.diff(offsets)
         place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
         turned = np.repeat(offsets[1:], sizes) - 1 - place
-        known = (corners >= 0) & (corners < self.vertex_count)
-        images = np.where(known, self._image[np.where(known, corners, 0)], corners)[turned]
-        return np.concatenate([corners, images]), np.concatenate(
-            [offsets, offsets[-1] + offsets[1:]]
-        )
+        images = np.where(self._known, self._image[np.where(self._known, corners, 0)], -1)[turned]
+        own = np.where(self._known, corners, -1)
+        return np.concatenate([own, images]), np.concatenate([offsets, offsets[-1] + offsets[1:]])
 
     def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
         """Those that name vertices, edges or faces, for the double."""

@@ -60,7 +60,7 @@ class Solver:
         self._control_vertices = len(points)
         self._half: Half | None = None
         if symmetry_plane is not None:
-            half = self._half = Half(points, corners, offsets, symmetry_plane)
+            half = self._half = Half(points, corners, offsets, symmetry_plane, options.repair)
             options = native_options(**half.settings(settings))
             points, (corners, offsets) = half.points(points), half.faces(corners, offsets)
         with self._named():
@@ -147,6 +147,7 @@ class Solver:
     @contextmanager
     def _alone(self) -> Iterator[None]:
         if not self._busy.acquire(blocking=False):
+            self._native.require_own_process()  # a fork keeps the lock of whoever was at work
             raise fairing_error(
                 "BUSY",
                 "The solver is at work in another call. Wait for it, or make another solver.",
