@@ -2,6 +2,7 @@
 """One call of fair() as a value: it can be drawn by chance, kept in a file, and run again."""
 
 import json
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -172,3 +173,25 @@ def cases(draw: st.DrawFn) -> Case:
     """Any mesh with any options."""
     mesh = draw(damaged())
     return Case(mesh.vertices, mesh.faces, draw(options(mesh)))
+
+
+def border_of(faces: list[list[int]]) -> list[int]:
+    """The vertices of edges with one face, of sound faces."""
+    sides = [frozenset(side) for face in faces for side in zip(face, [*face[1:], face[0]])]
+    times = Counter(sides)
+    return sorted({v for side in sides if times[side] == 1 for v in side})
+
+
+@st.composite
+def halves(draw: st.DrawFn) -> Case:
+    """A mesh whose border lies in a plane of symmetry, most of it or all; a closed one is opened."""
+    mesh = draw(damaged())
+    faces = mesh.faces if border_of(mesh.faces) else mesh.faces[1:]
+    points, plane = mesh.points, draw(st.sampled_from("xyz"))
+    border = [v for v in border_of(faces) if 0 <= v < len(points)]
+    out = draw(st.sets(st.sampled_from(border), max_size=2)) if border else set()
+    with np.errstate(invalid="ignore"):
+        near = draw(st.sampled_from((0.0, 0.0, 1e-7))) * np.nanmax(np.abs(points), initial=0)
+    points[[v for v in border if v not in out], "xyz".index(plane)] = near
+    half = Case(points.tolist(), faces)
+    return Case(half.vertices, faces, draw(options(half)) | {"symmetry_plane": plane})

@@ -19,8 +19,9 @@ from typing import Any
 
 import sound
 import written
-from cases import Case, cases
+from cases import Case, cases, halves
 from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis import strategies as st
 
 OUT = Path(__file__).resolve().parents[2] / "out" / "fuzz"
 LAST = OUT / "last.json"
@@ -41,7 +42,7 @@ def search(number: int) -> None:
         phases=(Phase.generate, Phase.shrink),
         suppress_health_check=[*HealthCheck],
     )
-    @given(cases())
+    @given(st.one_of(cases(), cases(), cases(), halves()))
     def any_input(case: Case) -> None:
         case.write(LAST)
         try:

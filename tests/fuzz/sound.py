@@ -42,6 +42,8 @@ def check_refusal(error: df.FairingError, case: Case) -> None:
     assert len(text) > 15 and text[-1] in ".)", text
     assert "std::" not in text and "bad_alloc" not in text, text
     most = max(len(case.vertices), len(case.faces))
+    if (error.code, error.kind) == ("INDEX_OUT_OF_RANGE", "vertex"):
+        return  # it names what the mesh does not have
     assert all(0 <= element < max(most, 2) for element in error.elements), error.elements
 
 
@@ -56,7 +58,8 @@ def check_surface(result: df.Result, case: Case) -> None:
     control = result.vertices[:count]
     moves = case.options.get("interpolation") == "approximate" or case.options.get("epsilon")
     if not moves and case.options.get("repair") != "mend":
-        assert control.tobytes() == case.points.tobytes(), "a control vertex has moved"
+        kept = put_into_the_plane(case, control)
+        assert control.tobytes() == kept.tobytes(), "a control vertex has moved"
     bound = largest_move(case)
     if math.isfinite(bound):
         stray = [v for act in result.report["repairs"] for v in moved_by(act)]
@@ -65,6 +68,21 @@ def check_surface(result: df.Result, case: Case) -> None:
         assert moved <= bound + 0.02 * bound + 1e-3 * size, f"moved by {moved}, tolerance {bound}"
     for level in result.report["levels"]:
         assert not level["converged"] or math.isfinite(level["residual"])
+
+
+def put_into_the_plane(case: Case, control: np.ndarray) -> np.ndarray:
+    """The control vertices as given, but for those in the plane of symmetry that were next to it."""
+    points = case.points
+    plane = case.options.get("symmetry_plane")
+    if plane is None:
+        return points
+    height = points[:, "xyz".index(plane)]
+    used = points[np.unique(np.concatenate([np.asarray(face, int) for face in case.faces]))]
+    put = (np.abs(height) <= 1e-6 * np.ptp(used, axis=0).max()) & (
+        control[:, "xyz".index(plane)] == 0
+    )
+    height[put] = control[put, "xyz".index(plane)]
+    return points
 
 
 def moved_by(act: dict) -> list[int]:

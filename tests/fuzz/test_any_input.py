@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import sound
 import written
-from cases import CORPUS, Case, cases
-from hypothesis import given
+from cases import CORPUS, Case, cases, halves
+from hypothesis import given, settings
 
 KEPT = sorted(CORPUS.glob("*.json"))
 
@@ -28,6 +28,12 @@ def test_any_file(call):
 @given(written.MATRIX)
 def test_any_matrix(matrix):
     written.check_moved(matrix)
+
+
+@given(halves())
+@settings(max_examples=settings().max_examples // 4)
+def test_any_half(case):
+    sound.check(case)
 
 
 @pytest.mark.parametrize("path", KEPT, ids=lambda path: path.stem)
