@@ -127,7 +127,7 @@ def holds_bool(values: object) -> bool:
     """
     if isinstance(values, list | tuple):
         return any(map(holds_bool, values))
-    return isinstance(values, bool) or getattr(values, "dtype", None) == bool
+    return isinstance(values, bool) or getattr(values, "dtype", None) == np.dtype(bool)
 
 
 def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
