@@ -83,10 +83,10 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   report.threads = workers_->count();
   mesh_ = make_control_mesh(input, options_.features, report.flipped_faces);
   report.sheets = sheets_of(mesh_);
-  RunSize size =
-      predict_size(mesh_, options_.levels, options_.shape_count(input.coordinates.size()),
-                   options_.energy, options_.tension > 0, options_.method == Method::back_leg,
-                   options_.interpolation == Interpolation::approximate);
+  unknowns_ = choose_unknowns(mesh_, options_);
+  RunSize size = predict_size(mesh_, unknowns_, options_.levels,
+                              options_.shape_count(input.coordinates.size()), options_.energy,
+                              options_.tension > 0, options_.method == Method::back_leg);
   const auto add_bytes = [&](std::int64_t more) {  // as far as they can be counted
     size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
   };
@@ -99,7 +99,6 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
-  unknowns_ = choose_unknowns(mesh_, options_);
   build(mesh_.positions, watch);
 }
 

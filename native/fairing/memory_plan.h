@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "fairing/options.h"
+#include "grid/accumulate.h"
 #include "mesh/control_mesh.h"
 
 namespace fairing {
@@ -20,8 +21,7 @@ struct RunSize {
   std::int64_t bytes = 0;      // peak of the run's own arrays
 };
 
-// `tense`: under tension, which takes a little more. `moves`: control vertices do, so that the control
-// mesh's own level is factored.
+// `tense`: under tension, which takes a little more.
 //
 // From the number of vertices, up to 2^31, and from faces that require_faces() lets pass. Polygons
 // count as if split around a centre, quads that will be split count as quads. Sizes beyond any
@@ -30,9 +30,9 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
                      std::span<const std::int64_t> offsets, int levels, std::size_t shapes = 0,
                      Energy energy = Energy::thin_plate, bool tense = false);
 // From the mesh as it is after splits: exact counts.
-RunSize predict_size(const ControlMesh& mesh, int levels, std::size_t shapes = 0,
-                     Energy energy = Energy::thin_plate, bool tense = false, bool back_leg = false,
-                     bool moves = false);
+RunSize predict_size(const ControlMesh& mesh, const Unknowns& unknowns, int levels,
+                     std::size_t shapes = 0, Energy energy = Energy::thin_plate, bool tense = false,
+                     bool back_leg = false);
 
 // Throws FairingError(too_large), naming the figures, when the run does not fit into
 // options.memory_limit or its ids into 32 bits. The first takes next to no time, and lets pass what

@@ -8,6 +8,10 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
+from mesh_files import SUFFIXES, read_mesh
+from shared_data import shared_files
+
+MOST_CELLS = 20000  # of real meshes, to be soon over
 
 
 def test_levels_quadruple_memory():
@@ -132,3 +136,62 @@ def test_mending_is_timed():
     seconds = df.fair(vertices, faces, 1, repair="mend").report["seconds"]
     assert 0 <= seconds["mend"] < 10
     assert "mend" not in df.fair(vertices, faces, 1).report["seconds"]
+
+
+def soup(mesh):
+    """Triangles each with its own corners, as STL has them."""
+    points, faces = mesh
+    return points[faces.reshape(-1)], np.arange(faces.size).reshape(-1, 3)
+
+
+def apart(mesh, count):
+    """So many faces of a mesh, none joined to another."""
+    points, faces = mesh
+    return points[faces[:count].reshape(-1)], np.arange(count * faces.shape[1]).reshape(count, -1)
+
+
+BALL = meshes.refine_triangles(*meshes.icosahedron())
+PLANNED = {
+    "ball": (BALL, {}),
+    "ball of STL": (soup(BALL), {"repair": "mend", "weld": 0.0}),
+    "random hull": (meshes.random_hull(60), {}),
+    "torus": (meshes.torus(24, 16), {}),
+    "wavy patch": (meshes.wavy_patch(12, 12), {}),
+    "creature": (meshes.creature(), {}),
+    "dodecahedron": (meshes.dodecahedron(), {}),
+    "drum": (meshes.drum(16)[0], {"crease_edges": meshes.drum(16)[1]}),
+    "triangles apart": (apart(BALL, 60), {}),
+    "quads apart": (apart(meshes.torus(24, 16), 60), {}),
+    "pole": (meshes.closed_pole(180), {}),
+}
+
+
+@pytest.mark.parametrize("levels", [2, 3])
+@pytest.mark.parametrize("name", PLANNED)
+def test_the_plan_is_near_the_peak(name, levels):
+    """Whatever is fixed, merged away or apart."""
+    mesh, options = PLANNED[name]
+    report = df.fair(*mesh, levels, threads=1, **options).report
+    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.45
+
+
+def test_vertices_merged_away_make_no_run_too_large():
+    """Of an STL file there are six times as many as of the mesh."""
+    points, faces = soup(BALL)
+    options = {"repair": "mend", "weld": 0.0, "threads": 1}
+    peak = df.fair(points, faces, 2, **options).report["peak_bytes"]
+    again = df.fair(points, faces, 2, memory_limit=int(1.4 * peak), **options)
+    assert again.report["peak_bytes"] == peak
+    clean = df.fair(*BALL, 2, threads=1).report["predicted_bytes"]
+    assert df.predicted_size(len(points), BALL[1], 2)["bytes"] < 1.7 * clean
+
+
+@pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
+def test_the_plan_is_near_the_peak_of_real_meshes(path):
+    vertices, faces = read_mesh(path)
+    for levels in (2, 3):
+        if len(faces) * 4**levels <= MOST_CELLS:
+            report = df.fair(vertices, faces, levels, threads=1, repair="mend").report
+            few = 2**15  # bytes of what does not grow with the mesh
+            assert 0.85 <= report["predicted_bytes"] / report["peak_bytes"]
+            assert report["predicted_bytes"] <= 1.6 * report["peak_bytes"] + few
