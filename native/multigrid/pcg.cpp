@@ -96,9 +96,7 @@ class Iteration {
   }
 
  private:
-  double relative(double length) const {
-    return residual_scale_ > 0 ? length / residual_scale_ : 0.0;
-  }
+  double relative(double length) const { return limits_.relative(length, residual_scale_); }
 
   bool small_enough() {
     const double error = error_left_.estimate();

@@ -15,7 +15,7 @@ struct PcgLimits {
   double tolerance = 1e-8;
   double residual_scale = 0;  // the residual of the control polyhedron on this level
   double energy_scale = 0;    // sqrt(energy)
-  double noise = 0;           // a residual below this is rounding
+  double noise = 0;           // a residual up to this is rounding, and relative to anything zero
   int max_iterations = 200;
   bool from_start = false;  // both scales are what the start has
   // The error alone is judged. Residuals of smooth loads are smooth: the first iterations add rough
@@ -23,6 +23,11 @@ struct PcgLimits {
   bool by_error = false;
   // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
   double enough = 0;
+
+  // A residual's norm as it is reported.
+  double relative(double length, double scale) const {
+    return length > noise && scale > 0 ? length / scale : 0.0;
+  }
 };
 
 struct PcgResult {

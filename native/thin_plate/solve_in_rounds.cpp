@@ -18,6 +18,7 @@
 
 #include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
+#include "parallel/reductions.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -105,6 +106,7 @@ struct ThinPlateSolver::Rounds {
       // Afterwards something has to move: forces that are read again say nothing.
       if (!constraint && report.pad_corrections == 0) now.enough = limits.tolerance;
     }
+    const double begun = norm(solver.workers_, 3 * solver.grid(level).size(), residual());
     const LevelSolve solve = solver.hierarchy_.solve(
         std::size_t(level - solver.base_), now,
         [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
@@ -115,11 +117,19 @@ struct ThinPlateSolver::Rounds {
     const int iterations = report.iterations + solve.iterations;
     static_cast<LevelSolve&>(report) = solve;
     report.iterations = iterations;
+    if (now.from_start && !limits.from_start)
+      take_scale(limits.residual_scale > 0 ? begun / limits.residual_scale : 0.0);
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     const LevelOperator& op = *solver.operators_[std::size_t(level - solver.base_)];
     if (pads && !solver.is_placed_ && !solve.direct && !op.single_precision_suffices())
       solver.residual_on_pads(level, targets, x, residual());
+  }
+
+  // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
+  void take_scale(double scale) {
+    report.residual *= scale;
+    for (double& r : report.residuals) r *= scale;
   }
 
   double wanted_force() const {
@@ -301,6 +311,9 @@ struct ThinPlateSolver::Rounds {
       report.constraint_gap = constraint->gap();
       report.converged = report.converged && report.constraint_gap <= wanted_gap();
     }
+    // Couples hold a tangent plane, whichever of its sides the surface turns up.
+    if (couples && top())
+      report.converged = report.converged && report.normal_angle <= largest_angle_left;
     return report;
   }
 };
