@@ -62,8 +62,9 @@ py::dict to_python(const CurvatureLevelReport& l) {
   d["folds_before"] = l.folds_before;
   d["folds"] = l.folds;
   d["constraint_gap"] = l.constraint_gap;
+  d["left"] = l.left;
   d["converged"] = l.converged;
-  d["accurate"] = l.accurate;
+  d["kept_start"] = l.kept_start;
   d["work"] = to_python(l.work);
   py::list steps;
   for (const StepReport& s : l.steps) {
@@ -88,7 +89,7 @@ py::dict to_python(const ShapeReport& s) {
   py::dict d;
   d["iterations"] = s.finest.iterations;
   d["residual"] = s.finest.residual;
-  d["converged"] = s.finest.converged;
+  d["converged"] = s.converged;
   d["largest_deviation"] = s.largest_deviation;
   d["constraint_rounds"] = s.constraint_rounds;
   d["normal_angle"] = s.normal_angle;
@@ -148,17 +149,16 @@ py::dict to_python(const Report& r) {
   energy["polyhedron"] = to_python(r.polyhedron);
   energy["prediction"] = to_python(r.prediction);
   py::list levels, iterations, residuals, curvature, shapes;
-  bool converged = true;
+  bool converged = r.converged();
   for (const LevelReport& l : r.levels) {
     levels.append(to_python(l));
     iterations.append(l.iterations);
     residuals.append(l.residual);
-    converged &= l.converged;
   }
   for (const CurvatureLevelReport& l : r.curvature) curvature.append(to_python(l));
   for (const ShapeReport& s : r.shapes) {
     shapes.append(to_python(s));
-    converged &= s.finest.converged;
+    converged &= s.converged;
   }
   for (const PhaseSeconds& s : r.seconds) seconds[py::str(s.phase)] = s.seconds;
   d["energy"] = energy;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace fairing {
@@ -39,6 +40,7 @@ struct StepReport {
   double movement = 0;  // the farthest that the last trial took any point
   int iterations = 0;   // of the linear solve
   double residual = 0;  // of the linear solve, relative to its start
+  bool solved = true;   // whether it came to its end
   bool direct = false;  // solved by a factorization, without iterations
   // Of the loads on pads: how often they were corrected, and the work of a full step against them.
   int pad_corrections = 0;
@@ -73,10 +75,15 @@ struct CurvatureLevelReport {
   std::size_t folds_before = 0, folds = 0;
   std::vector<StepReport> steps;
   StepWork work;
-  // The steps came to their end, at a decrement of 3e-2 at most: what a full step could still gain
-  // is below a thousandth of the energy.
+  // How far the surface is from the solution of its equation, as its last steps tell
+  // (left_to_move.h); infinity where they tell nothing.
+  double left = std::numeric_limits<double>::infinity();
+  // The one meaning of converged, for both energies: the surface is as near to the solution of its
+  // equation as was promised. On the finest level `left` is below the step tolerance. Surfaces of
+  // other levels only start the next one; there a decrement of 3e-2 at the most is promised.
   bool converged = false;
-  bool accurate = false;  // what is left to move is below the step tolerance
+  // The steps ended at a worse surface than they began at, which is kept in its place.
+  bool kept_start = false;
   // Plain steps did not lead to this surface: there may be others, and which one is found may hang
   // on how the mesh lies and is numbered.
   bool damped = false;

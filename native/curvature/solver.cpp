@@ -2,6 +2,7 @@
 #include "curvature/solver.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "curvature/start.h"
@@ -86,21 +87,27 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   system_.allow_blocks(stepping_ != Stepping::damped);
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
-  if (system_.pads() && level == std::clamp(widths_level, system_.base(), system_.finest()))
-    choose_widths(start, report);
-  else
-    minimize(start, effort_of_level(), report);
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
-  if (is_finest())
-    finish(start, plate, report);
-  else
-    leave_out_tension(start, plate, report);
+  solve_total_curvature(start, plate, report);
+  if (is_finest()) remember(report);
+  leave_out_tension(start, plate, report);
   report.work = system_.work(level) - before;
   return report;
 }
 
+void GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
+                                              CurvatureLevelReport& report) {
+  if (system_.pads() &&
+      iterate_.level == std::clamp(widths_level, system_.base(), system_.finest()))
+    choose_widths(start, report);
+  else
+    minimize(start, effort_of_level(), report);
+  if (is_finest()) return finish(start, plate, report);
+  keep_start_if_worse(start, plate, report);
+}
+
 StepEnd GaussNewtonSolver::end_of(Effort effort) {
-  if (effort == Effort::accurate) return accurate_end();
+  if (effort == Effort::accurate) return steps_.accurate_end();
   if (effort == Effort::judging) return {damped_decrement, 0};
   return {system_.pads() ? start_decrement : plain_decrement, 0};
 }
@@ -115,8 +122,9 @@ StepStart GaussNewtonSolver::start_again(const StepStart& start, Array<double> p
 }
 
 // Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
-// They stand if they settle and have never failed so far; else damped steps from the same start
-// show whether they have found a worse surface. Widths of pads are judged without another try.
+// They stand if they come near a solution and have never failed so far, be it not as near as was
+// promised; else damped steps from the same start show whether they have found a worse surface.
+// Widths of pads are judged without another try.
 void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
                                  CurvatureLevelReport& report) {
   const bool is_accurate = effort == Effort::accurate, doubtful = stepping_ == Stepping::damped;
@@ -133,7 +141,7 @@ void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
   system_.allow_blocks(false);
   LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
   steps_.run_damped(damping, report);
-  if (is_accurate) steps_.polish_damped(report);
+  if (is_accurate) steps_.finish_damped(damping, report);
   const bool plain_is_as_good =
       is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
   stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
@@ -213,12 +221,13 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
   if (system_.pads()) leave_folds(start, report);
   unfolding_.run(start, report);
   if (hold_.any()) fix_held(report);
-  if (!(report.energy <= energy_bound(report)) || (report.folds > 0 && is_thrown(plate)))
-    fall_back(plate, report);
-  if (options_.energy == CurvatureEnergy::minimum_variation) variation_.run(report);
+  keep_start_if_worse(start, plate, report);
+  if (varies()) variation_.run(steps_.accurate_end(), report);
+}
+
+void GaussNewtonSolver::remember(CurvatureLevelReport& report) {
   solved_folds_ = report.folds = unfolding_.find().count();
   solved_energy_ = report.energy;
-  leave_out_tension(start, plate, report);
   is_sound_ = report.converged;
 }
 
@@ -245,24 +254,42 @@ void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<do
   report.energy -= tension_of(surface());
 }
 
-// Steps may end in a fold; then the thin plate's surface is the better one.
-void GaussNewtonSolver::fall_back(const Array<double>& plate, CurvatureLevelReport& report) {
-  start_at_plate(iterate_, iterate_.level, plate);
+// Steps may end in a fold; then the surface that they began at is the better one. Where control
+// vertices are held it may have left the bounds that the thin plate's keeps.
+void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<double>& plate,
+                                            CurvatureLevelReport& report) {
+  const double bound = report.converged ? energy_bound(report) : equal_energy * report.start_energy;
+  const bool is_spike = report.folds > 0 && is_thrown(surface(), plate);
+  if (report.energy <= bound && !is_spike) return;
+  const bool keeps_plate =
+      (is_finest() && hold_.any()) || (is_spike && is_thrown(start.points, plate));
+  surface() = keeps_plate ? plate : start.points;
+  surface().resize(start.points.size());
+  system_.symmetrizer().points(iterate_.grid(), surface());
+  iterate_.current.held = start.held;
   iterate_.linearize();
   report.energy = iterate_.op().fairness();
-  report.converged = report.accurate = false;
+  report.left = std::numeric_limits<double>::infinity();
+  report.converged = false;
+  report.kept_start = true;
 }
 
 // However long a spike of folds is, it costs the same energy.
-bool GaussNewtonSolver::is_thrown(const Array<double>& plate) {
-  const auto extent = [&](const Array<double>& x) {
-    return largest(iterate_.workers(), x.size(), [&](std::size_t i) { return x[i]; });
+bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& plate) {
+  const auto extent = [&](const Array<double>& y) {
+    return largest(iterate_.workers(), 3 * iterate_.grid().size(),
+                   [&](std::size_t i) { return y[i]; });
   };
-  return !(extent(surface()) <= farthest_over_plate * extent(plate));
+  return !(extent(x) <= farthest_over_plate * extent(plate));
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
   return (system_.pads() ? most_over_plate : 1.0) * report.plate_energy;
+}
+
+bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
+  const bool gap_closed = report.constraint_gap <= system_.wanted_gap(iterate_.level);
+  return gap_closed && is_near(report, plain_decrement) && report.energy <= energy_bound(report);
 }
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
@@ -292,14 +319,13 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
       std::abs(report.start_energy - solved_energy_) <= nearby * solved_energy_;
   report.converged = true;
   const double start_tension = tension_of(surface());
-  if (options_.energy == CurvatureEnergy::minimum_variation)
-    variation_.run(report);
+  if (varies())
+    variation_.run(steps_.accurate_end(), report);
   else
-    steps_.run_plain(accurate_end(), short_patience, report);
+    steps_.run_plain(steps_.accurate_end(), short_patience, report);
   report.folds_before = report.folds = unfolding_.find().count();
-  is_sound_ = report.converged &&
-              report.energy <= equal_energy * report.start_energy + flat_energy &&
-              report.folds <= solved_folds_;
+  is_sound_ = report.converged && report.folds <= solved_folds_ &&
+              (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);
   solved_energy_ = report.energy;
   report.start_energy -= start_tension;
   report.energy -= tension_of(surface());

@@ -60,18 +60,21 @@ class GaussNewtonSolver {
   // steps, if these settle.
   void fix_held(CurvatureLevelReport& report);
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
+  void solve_total_curvature(const StepStart& start, const Array<double>& plate,
+                             CurvatureLevelReport& report);
+  bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
+  void remember(CurvatureLevelReport& report);
   // What the surface of a level may have of total curvature.
   double energy_bound(const CurvatureLevelReport& report);
-  bool is_settled(const CurvatureLevelReport& report) {
-    return report.converged && report.energy <= energy_bound(report);
-  }
-  // Whether a part of the surface lies far from the mesh.
-  bool is_thrown(const Array<double>& plate);
-  void fall_back(const Array<double>& plate, CurvatureLevelReport& report);
+  // Whether steps of less than the thin plate's energy have come near a solution.
+  bool is_settled(const CurvatureLevelReport& report);
+  // Whether a part of the surface x lies far from the mesh.
+  bool is_thrown(const Array<double>& x, const Array<double>& plate);
+  void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
+                           CurvatureLevelReport& report);
   double tension_of(const Array<double>& x);
   void leave_out_tension(const StepStart& start, const Array<double>& plate,
                          CurvatureLevelReport& report);
-  StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   GaussNewtonOptions options_;

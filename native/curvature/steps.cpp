@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "curvature/left_to_move.h"
 #include "hold/anderson.h"
 #include "parallel/reductions.h"
 
@@ -59,15 +60,6 @@ constexpr double largest_decrement = 10;
 constexpr double accelerated_decrement = 0.1;
 constexpr std::size_t accelerated_steps = 3;  // that are remembered
 
-// The ratio of two decrements tells what is left to move. The first one is of a step that was not
-// accelerated, and flatters; so do acceleration and inexact solves, wherefore none below
-// least_ratio is believed (measured: with it no sphere of a hundred is left too early, without it
-// one is).
-constexpr double first_ratio = 10;
-constexpr double least_ratio = 0.1;
-// From this ratio on decrements do not tell what is left; the step itself is taken for it.
-constexpr double irregular_ratio = 0.5;
-
 // A movement, in sizes of the mesh, after which nothing is left of the surface: the energy of what
 // has burst says nothing, not even where it is zero.
 constexpr double farthest = 1e3;
@@ -116,11 +108,11 @@ struct StepSpace {
 
 class TotalCurvatureMethod final : public StepMethod {
  public:
-  // `damping` is null for plain steps.
-  TotalCurvatureMethod(SurfaceIterate& iterate, double step_tolerance, LocalDamping* damping,
-                       const StepEnd& end, int patience)
+  // `damping` is null for plain steps. `patience`: steps in which plain_decrement has to be reached;
+  // 0: any number.
+  TotalCurvatureMethod(SurfaceIterate& iterate, LocalDamping* damping, const StepEnd& end,
+                       int patience)
       : it_(iterate),
-        step_tolerance_(step_tolerance),
         damping_(damping),
         end_(end),
         patience_(patience),
@@ -133,6 +125,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   bool begin(CurvatureLevelReport& report) override {
     report.converged = it_.current.energy < flat_energy;
+    if (report.converged) report.left = 0;
     if (report.converged || !std::isfinite(it_.current.energy)) return false;
     it_.system.report_progress(it_.level, report.steps.size());
     return true;
@@ -140,7 +133,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   void find_step(StepReport& step) override {
     held_ = it_.current.held;
-    const bool fresh = damping_ || it_.needs_coarse_levels(last_decrement_);
+    const bool fresh = damping_ || it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
     step.energy = it_.current.energy;
@@ -153,7 +146,7 @@ class TotalCurvatureMethod final : public StepMethod {
   double try_length(StepReport& step, const StepCount& count) override {
     const double energy = it_.try_step(step.length);
     step.movement = it_.movement(step.length);
-    const bool judges = step.length == 1 && is_checked(step);
+    const bool judges = damping_ && step.length == 1 && (is_checked(step) || end_.decrement == 0);
     if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
                                   count.rejected, count.accepted, step.decrement))
       anderson_.forget();
@@ -172,23 +165,21 @@ class TotalCurvatureMethod final : public StepMethod {
     if (step.length != 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
     it_.current.held = held_;
-    const double left = share_left(step.decrement) * step.movement;
-    report.converged =
-        end_.decrement > 0 ? step.decrement <= end_.decrement : left <= end_.movement;
-    report.accurate = left <= step_tolerance_;
+    report.left = remainder_.after(step.decrement, step.movement / step.length, step.solved);
+    report.converged = end_.is_reached(step.decrement, report.left);
     if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
     report.converged &= step.constraint_gap <= it_.system.wanted_gap(it_.level);
     const bool burst = !(step.movement <= farthest);
     report.converged &= !burst;
     const bool hopeless =
-        burst || (!damping_ && count.total() >= patience_ && step.decrement > plain_decrement);
+        burst || (patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement);
     return report.converged || hopeless;
   }
 
   bool reject() override {
     anderson_.forget();
     it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
-    last_decrement_ = 0;
+    remainder_.forget();
     return damping_ != nullptr;
   }
 
@@ -211,59 +202,68 @@ class TotalCurvatureMethod final : public StepMethod {
     return damping_ && !(step.decrement < unchecked_decrement);
   }
 
-  // What is left to move after the step, as a share of its movement: for a ratio q of decrements
-  // q + q^2 + ... = q / (1 - q).
-  double share_left(double decrement) {
-    const double ratio = last_decrement_ > 0 ? decrement / last_decrement_ : 1;
-    const double trusted = std::max(least_ratio, ratio * (has_ratio_ ? 1 : first_ratio));
-    has_ratio_ = last_decrement_ > 0;
-    last_decrement_ = decrement;
-    return trusted < irregular_ratio ? trusted / (1 - trusted) : 1;
-  }
-
   SurfaceIterate& it_;
-  double step_tolerance_;
   LocalDamping* damping_;
   StepEnd end_;
   int patience_;
   Anderson<StepSpace> anderson_;
   Array<float> predicted_;
   Multipliers<1> held_;  // that goes with the step
-  double last_decrement_ = 0;
-  bool has_ratio_ = false;  // whether the step before had one
+  LeftToMove remainder_;
 };
 
 }  // namespace
 
+bool is_near(const CurvatureLevelReport& report, double decrement) {
+  if (report.converged || report.steps.empty()) return report.converged;
+  const StepReport& last = report.steps.back();
+  return last.length > 0 && last.movement <= farthest && last.decrement <= decrement;
+}
+
 void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int patience,
-                              CurvatureLevelReport& report) {
-  TotalCurvatureMethod method(iterate_, options_.step_tolerance, damping, end, patience);
-  run_steps(method, options_.max_steps, report);
+                              CurvatureLevelReport& report, int most) {
+  TotalCurvatureMethod method(iterate_, damping, end, patience);
+  run_steps(method, most, report);
   report.energy = iterate_.op().fairness();
 }
 
 void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
                                     CurvatureLevelReport& report) {
-  run(nullptr, end, patience, report);
+  run(nullptr, end, patience, report, options_.max_steps);
 }
 
 void TotalCurvatureSteps::run_damped(LocalDamping& damping, CurvatureLevelReport& report) {
-  run(&damping, {damped_decrement, 0}, 0, report);
+  run(&damping, {damped_decrement, 0}, 0, report, options_.max_steps);
 }
 
-void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {
+template <class Steps>
+void TotalCurvatureSteps::try_on(Steps&& steps, double most, CurvatureLevelReport& report) {
   LinearizedSurface before = iterate_.current;
-  CurvatureLevelReport polished = report;
-  polished.converged = false;
-  run_plain({0, options_.step_tolerance}, patience, polished);
-  if (polished.converged && polished.energy <= most)
-    report = polished;
+  CurvatureLevelReport after = report;
+  after.converged = false;
+  steps(after);
+  if (is_near(after, plain_decrement) && after.energy <= most)
+    report = std::move(after);
   else
     iterate_.current = std::move(before);
 }
 
-void TotalCurvatureSteps::polish_damped(CurvatureLevelReport& report) {
-  if (report.converged) polish(polishing_patience, equal_energy * report.energy, report);
+void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {
+  try_on([&](CurvatureLevelReport& polished) { run_plain(accurate_end(), patience, polished); },
+         most, report);
+}
+
+void TotalCurvatureSteps::finish_damped(LocalDamping& damping, CurvatureLevelReport& report) {
+  if (!std::exchange(report.converged, false)) return;
+  report.converged = report.left <= options_.step_tolerance;
+  if (report.converged) return;
+  const std::size_t taken = report.steps.size();
+  const double most = equal_energy * report.energy;
+  polish(polishing_patience, most, report);
+  const int rest = options_.max_steps - int(taken);
+  if (report.steps.size() > taken || rest <= 0) return;
+  try_on([&](CurvatureLevelReport& on) { run(&damping, accurate_end(), short_patience, on, rest); },
+         most, report);
 }
 
 }  // namespace fairing

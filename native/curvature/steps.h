@@ -54,6 +54,11 @@ void run_steps(StepMethod& method, int most, CurvatureLevelReport& report);
 struct StepEnd {
   double decrement = 0;
   double movement = 0;
+
+  // `left`: to move after a step of that decrement (left_to_move.h).
+  bool is_reached(double step_decrement, double left) const {
+    return decrement > 0 ? step_decrement <= decrement : left <= movement;
+  }
 };
 
 // Where damped steps end, and the decrement that counts as converged at the least: its square,
@@ -73,6 +78,10 @@ constexpr double unlike_energy = 1.5;
 // solution.
 constexpr int short_patience = 6;
 
+// Whether the steps have come near a solution: the last one was taken, and its decrement is at most
+// this. Nearer steps may still be needed for what was promised.
+bool is_near(const CurvatureLevelReport& report, double decrement);
+
 // Two ways to step. Plain steps are full ones, not checked against the energy: they pass through
 // humps of the discrete energy where checked ones are trapped (judged by decrements, as in
 // Deuflhard's natural monotonicity). Damped steps hold where a surface is crumpled, and plain ones
@@ -84,19 +93,28 @@ class TotalCurvatureSteps {
       : iterate_(iterate), options_(options) {}
 
   // From iterate.current to the surface that the steps end at. `report` has the steps added, and
-  // energy, `converged` and `accurate` set. Throws ErrorCode::cancelled.
+  // energy, `left` and `converged` set, the latter for the end that was asked for. Throws
+  // ErrorCode::cancelled.
   void run_plain(const StepEnd& end, int patience, CurvatureLevelReport& report);
   // To damped_decrement; the damping may already hold some points.
   void run_damped(LocalDamping& damping, CurvatureLevelReport& report);
 
-  // Plain steps to the step tolerance. Unless they converge, with an energy of at most `most`,
+  // Plain steps to the step tolerance. Unless they come near it, with an energy of at most `most`,
   // surface and report are as before.
   void polish(int patience, double most, CurvatureLevelReport& report);
-  // The same after damped steps that have converged.
-  void polish_damped(CurvatureLevelReport& report);
+  // From where damped steps have ended on to the step tolerance: by plain steps, or else, as far as
+  // there are steps left, by more damped ones. Where neither come near it, nothing has happened.
+  void finish_damped(LocalDamping& damping, CurvatureLevelReport& report);
+
+  // Where the surface is as near to the solution as was promised.
+  StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
 
  private:
-  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report);
+  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report,
+           int most);
+  // Takes back what `steps` have done unless they come near a solution with that energy at most.
+  template <class Steps>
+  void try_on(Steps&& steps, double most, CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;
   const GaussNewtonOptions& options_;

@@ -77,8 +77,8 @@ class GaussNewtonSystem {
   // Whether the smoother may work on blocks from here on (Hierarchy).
   void allow_blocks(bool allowed) { hierarchy_.allow_blocks(allowed); }
 
-  // How many times as much as usual a large factor costs (Hierarchy).
-  void set_factor_price(std::size_t times) { hierarchy_.set_factor_price(times); }
+  // Whether a solve may leave what it does not find soon to the next step (Hierarchy).
+  void bound_effort(bool bounded) { hierarchy_.bound_effort(bounded); }
 
   // The systems of the levels below `level` about x, a surface of that level, injected.
   void linearize_below(int level, const Array<double>& x);

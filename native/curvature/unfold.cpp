@@ -169,12 +169,13 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
     marks = folded;
     dilate_marks(rings + round, marks);
     CurvatureLevelReport again;
-    solve_again(start, marks, report.accurate, again);
+    solve_again(start, marks, again);
     folds = find();
     again.folds_before = report.folds_before;
     again.folds = folds.count();
     if (again.folds < report.folds && again.energy <= bound &&
-        again.converged >= report.converged && again.accurate >= report.accurate) {
+        again.converged >= report.converged &&
+        is_near(again, damped_decrement) >= is_near(report, damped_decrement)) {
       report = again;
       best = it_.current;
     } else if (!mark_bursts(best.linearization, burst * report.energy, burst_before)) {
@@ -184,16 +185,17 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
   it_.current = std::move(best);
 }
 
-void Unfolding::solve_again(const StepStart& start, const Array<float>& marks, bool accurate,
+void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
                             CurvatureLevelReport& report) {
   it_.current.points = start.points;
   it_.current.held = start.held;
   refill(marks);
   report = start.report;
+  report.damped = true;
   LocalDamping damping(it_.grid(), it_.system.shared().unknowns, it_.workers());
   damping.hold(marks, filled_damping);
   steps_.run_damped(damping, report);
-  if (accurate) steps_.polish_damped(report);
+  steps_.finish_damped(damping, report);
 }
 
 // As the control mesh has the marked points between those around.

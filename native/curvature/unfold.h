@@ -36,15 +36,14 @@ class Unfolding {
   Folds find() const;
 
   // Replaces iterate.current, at which the steps from `start` ended, by a surface with fewer folds
-  // if one is found that has about the same energy and has converged as far; sets folds_before and
+  // if one is found that has about the same energy and has come as near; sets folds_before and
   // folds of `report`, or replaces it.
   void run(const StepStart& start, CurvatureLevelReport& report);
 
  private:
   void refill(const Array<float>& marks);
   void dilate_marks(int rings, Array<float>& marks);
-  void solve_again(const StepStart& start, const Array<float>& marks, bool accurate,
-                   CurvatureLevelReport& report);
+  void solve_again(const StepStart& start, const Array<float>& marks, CurvatureLevelReport& report);
   bool mark_bursts(const Linearization& before, double most, Array<float>& marks);
 
   SurfaceIterate& it_;

@@ -2,21 +2,15 @@
 #include "curvature/variation.h"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "curvature/left_to_move.h"
 #include "curvature/local_damping.h"
-#include "curvature/steps.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
-
-// A factor of K costs so many times as much: its rows have 37 numbers in place of 19.
-constexpr std::size_t wide_rows = 4;
-
-// Decrements at which steps end: the first as on plain steps for total curvature, the second after
-// `patience` steps, where the surface is so rough that the first may never be reached.
-constexpr double wanted_decrement = 1e-3, sufficient_decrement = damped_decrement;
-constexpr int patience = 10;
 
 // As for total curvature (steps.cpp); decrements are smaller here, where every step is damped.
 constexpr double allowed_rise = 0.1;
@@ -26,6 +20,10 @@ constexpr double late = 1e-3;
 // was predicted, one that had to be shortened, one that was rejected.
 constexpr double first_nu = 0.1, least_nu = 1e-6;
 constexpr double good_gain = 0.5, decay = 0.25, shortened = 2, rejected = 4;
+
+// Where the linear solves end too early for a step to lessen the decrement by half, the next ones
+// would gain as little.
+constexpr double stuck = 0.5;
 
 // Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
 // measured against itself and this share of the mean squared curvature.
@@ -52,25 +50,25 @@ Bending bending_of(const Array<float>& shape, Workers& workers) {
 class VariationScope {
  public:
   explicit VariationScope(GaussNewtonSystem& system) : system_(system) {
-    set(CurvatureEnergy::minimum_variation, wide_rows);
+    set(CurvatureEnergy::minimum_variation);
   }
-  ~VariationScope() { set(CurvatureEnergy::total_curvature, 1); }
+  ~VariationScope() { set(CurvatureEnergy::total_curvature); }
   VariationScope(const VariationScope&) = delete;
 
  private:
-  void set(CurvatureEnergy energy, std::size_t factor_price) {
+  void set(CurvatureEnergy energy) {
     system_.shared().energy = energy;
     system_.shared().total_curvature_share = 0;
-    system_.set_factor_price(factor_price);
+    system_.bound_effort(energy == CurvatureEnergy::minimum_variation);
   }
   GaussNewtonSystem& system_;
 };
 
 class VariationStep final : public StepMethod {
  public:
-  VariationStep(SurfaceIterate& iterate, double step_tolerance, double& nu, const Bending& bending)
+  VariationStep(SurfaceIterate& iterate, const StepEnd& end, double& nu, const Bending& bending)
       : it_(iterate),
-        step_tolerance_(step_tolerance),
+        end_(end),
         nu_(nu),
         damping_(iterate.grid(), iterate.system.shared().unknowns, iterate.workers()),
         bending_(bending) {
@@ -88,7 +86,7 @@ class VariationStep final : public StepMethod {
   void find_step(StepReport& step) override {
     scale_ = it_.current.energy + still * bending_.square / bending_.area;
     it_.system.shared().total_curvature_share = nu_ * scale_ / bending_.square;
-    const bool fresh = it_.needs_coarse_levels(last_decrement_);
+    const bool fresh = it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     // nu has changed on those that have not just been linearized
     for (int l = fresh ? it_.level : it_.system.base(); l <= it_.level; ++l)
@@ -124,31 +122,34 @@ class VariationStep final : public StepMethod {
       nu_ *= shortened;
     else if (gain > good_gain)
       nu_ = std::max(nu_ * decay, least_nu);
-    last_decrement_ = step.decrement;
     bending_ = bending_of(it_.current.linearization.shape, it_.workers());
-    const double enough = count.total() <= patience ? wanted_decrement : sufficient_decrement;
-    report.accurate = step.movement <= step_tolerance_;
-    report.converged = step.decrement <= enough || report.accurate;
-    return report.converged;
+    const double before = remainder_.last_decrement();
+    report.left = remainder_.after(step.decrement, step.movement / step.length, step.solved);
+    // One step alone does not tell how much it has left, nor one that was held back.
+    const bool tells = nu_ <= first_nu && (count.accepted > 1 || step.decrement <= plain_decrement);
+    report.converged = tells && end_.is_reached(step.decrement, report.left);
+    const bool is_stuck = !step.solved && before > 0 && step.decrement > stuck * before;
+    return report.converged || is_stuck;
   }
 
   bool reject() override {
     nu_ = std::max(rejected * nu_, first_nu);
-    last_decrement_ = 0;
+    remainder_.forget();
     it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
     return true;
   }
 
  private:
   SurfaceIterate& it_;
-  double step_tolerance_;
+  StepEnd end_;
   double& nu_;
   LocalDamping damping_;
   Bending bending_;
   Array<float> predicted_;
   Multipliers<1> not_held_;
   double scale_ = 0;  // what decrements are relative to
-  double predicted_gain_ = 0, last_decrement_ = 0;
+  double predicted_gain_ = 0;
+  LeftToMove remainder_;
 };
 
 }  // namespace
@@ -156,15 +157,29 @@ class VariationStep final : public StepMethod {
 VariationSteps::VariationSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
     : iterate_(iterate), options_(options), nu_(first_nu) {}
 
-void VariationSteps::run(CurvatureLevelReport& report) {
+void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
   const Bending bending = bending_of(iterate_.current.linearization.shape, iterate_.workers());
   if (!(bending.square > flat_energy)) return;
-  const VariationScope scope(iterate_.system);
-  VariationStep method(iterate_, options_.step_tolerance, nu_, bending);
-  report.start_variation = iterate_.current.energy;
-  report.converged = false;
-  run_steps(method, options_.max_steps, report);
-  report.variation = iterate_.current.energy;
+  const Array<double> start = iterate_.current.points;
+  {
+    const VariationScope scope(iterate_.system);
+    nu_ = std::min(nu_, first_nu);
+    VariationStep method(iterate_, end, nu_, bending);
+    report.start_variation = iterate_.current.energy;
+    report.converged = report.kept_start = false;
+    run_steps(method, options_.max_steps, report);
+    report.variation = iterate_.current.energy;
+  }
+  if (!(report.variation <=
+        equal_energy * report.start_variation + still * bending.square / bending.area)) {
+    iterate_.current.points = start;
+    report.variation = report.start_variation;
+    report.left = std::numeric_limits<double>::infinity();
+    report.converged = false;
+    report.kept_start = true;
+  }
+  iterate_.linearize();
+  report.energy = iterate_.op().fairness();
 }
 
 }  // namespace fairing

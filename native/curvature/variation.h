@@ -9,7 +9,7 @@
 // predictions fail (local_damping.h).
 #pragma once
 
-#include "curvature/system.h"
+#include "curvature/steps.h"
 
 namespace fairing {
 
@@ -19,10 +19,10 @@ class VariationSteps {
   VariationSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options);
 
   // From iterate.current, which must be linearized for total curvature, to the surface that the
-  // steps end at. `report` has the steps added, and both variations, `converged` and `accurate`
-  // set. A surface without any curvature stays as it is. Throws
-  // ErrorCode::cancelled.
-  void run(CurvatureLevelReport& report);
+  // steps end at, or where they began if that varies less; it is linearized for total curvature
+  // again. `report` has the steps added; energy, both variations, `left` and `converged` are set. A
+  // surface without any curvature stays as it is. Throws ErrorCode::cancelled.
+  void run(const StepEnd& end, CurvatureLevelReport& report);
 
  private:
   SurfaceIterate& iterate_;

@@ -251,8 +251,7 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
 void FairingContext::report_held(Report& report) {
   const Pads* const pads =
       gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : system().pads();
-  if (pads)
-    report.pads = report_of(*pads, std::size_t(mesh_.input_vertices), frame_.scale);
+  if (pads) report.pads = report_of(*pads, std::size_t(mesh_.input_vertices), frame_.scale);
   report_normals(normals_, report.levels.back(), report);
 }
 

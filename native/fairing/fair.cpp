@@ -58,7 +58,8 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
     const std::ptrdiff_t same = same_before(input, shapes, s);
     if (same == 0) {
       result.shapes.push_back(result.vertices);
-      report.shapes.push_back({report.levels.back(), report.largest_deviation, 0});
+      report.shapes.push_back(
+          {report.levels.back(), report.converged(), report.largest_deviation, 0});
       continue;
     }
     if (same > 0) {
@@ -71,9 +72,8 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
     require_in_reach(context.mesh(), control);
     Report own;
     fair_once(context, control, false, watch, own, result.shapes.emplace_back());
-    warn_unconverged(own.levels.back(), context.options(), "Shape " + std::to_string(s) + ": ",
-                     report);
-    report.shapes.push_back({std::move(own.levels.back()), own.largest_deviation,
+    warn_unconverged(own, context.options(), "Shape " + std::to_string(s) + ": ", report);
+    report.shapes.push_back({std::move(own.levels.back()), own.converged(), own.largest_deviation,
                              own.constraint_rounds, own.normals.largest_angle});
   }
 }
@@ -88,7 +88,7 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
   monitor.enter_part(0, 1 / double(shapes + 1));
   FairingContext context(input, options, monitor, watch, report);
   fair_once(context, context.basis(), true, watch, report, result.vertices);
-  warn_unconverged(report.levels.back(), options, "", report);
+  warn_unconverged(report, options, "", report);
   fair_shapes(context, input, watch, monitor, result);
 
   monitor.enter_part(0, 1);
@@ -278,7 +278,7 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
 
 void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   const FairOptions& options = context_.options();
-  warn_unconverged(report.levels.back(), options, "", report);
+  warn_unconverged(report, options, "", report);
   GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
   const Array<double>* x = gauss_newton ? &gauss_newton->surface() : &recent_.surface();
   if (options.epsilon > 0 && !gauss_newton) {

@@ -87,11 +87,14 @@ double columns_of_variation(const Counts& c, int level, std::int64_t unknowns) {
 std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
   int hard = -1;
   for (int l = 0; l <= levels && !c.even; ++l)
-    if (c.unknowns(l) <= std::int64_t(direct_limit_of_hard)) hard = l;
+    if (c.unknowns(l) <= std::int64_t(direct_limit_of_steps)) hard = l;
   if (hard < 0) return on_finest;
   const std::int64_t points = c.used_points(hard);
   const double factor = double(matrix_entry) * columns_of_variation(c, hard, points);
-  return std::int64_t(factor * double(points)) + std::max(on_finest, mixed(c, 1450, 1930) * points);
+  const std::int64_t assembled = mixed(c, 1450, 1930) * points,
+                     beside =
+                         hard < levels ? on_finest + assembled : std::max(on_finest, assembled);
+  return std::int64_t(factor * double(points)) + beside;
 }
 
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the

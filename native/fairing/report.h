@@ -26,6 +26,7 @@ struct SurfaceEnergies {
 // Of one further shape, on the finest level.
 struct ShapeReport {
   LevelReport finest;
+  bool converged = false;  // as Report::converged()
   double largest_deviation = 0;
   int constraint_rounds = 0;
   double normal_angle = 0;  // degrees
@@ -83,6 +84,13 @@ struct Report {
   std::vector<Warning> repairs;
   // Input faces that were reversed by repair_orientation or Repair::mend.
   std::vector<std::int64_t> flipped_faces;
+
+  // Whether the surface is as near to the solution as was promised; one that is not has a warning
+  // (warnings.h). What became of coarser levels, and of the thin plate that steps start from, is
+  // theirs alone. Needs a level.
+  bool converged() const {
+    return curvature.empty() ? levels.back().converged : curvature.back().converged;
+  }
 };
 
 // Writes the seconds of each phase into a report, a phase that comes again added to the first, and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/warnings.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "fairing/fixed_normals.h"
@@ -24,32 +25,73 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
   report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
 
-void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+namespace {
+
+template <class... Parts>
+std::string sentence(const char* format, Parts... parts) {
+  char text[300];
+  std::snprintf(text, sizeof text, format, parts...);
+  return text;
+}
+
+std::string of_tolerance(int level, double gap) {
+  return sentence(
+      "On level %d the tolerance is kept, but the energy may be %.1e above the least one, "
+      "relative. "
+      "The surface is usable; a smaller tolerance settles sooner.",
+      level, gap);
+}
+
+std::string of_plate(const LevelReport& level, const FairOptions& options) {
+  if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
+  if (level.normal_angle > 90 * degree)
+    return sentence(
+        "On level %d the surface has turned over at a fixed normal: it looks to the other side, up "
+        "to %.3g degrees away. Turn that normal towards the faces around it, or free it.",
+        level.level, level.normal_angle / degree);
+  if (level.normal_angle > largest_angle_left)
+    return sentence(
+        "On level %d fixed normals have not settled after %d corrections: up to %.2g degrees are "
+        "left. The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
+        level.level, level.pad_corrections, level.normal_angle / degree);
+  if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
+    return sentence(
+        "On level %d the loads on pads have not settled after %d corrections: %.1e of them is "
+        "still "
+        "changing. The surface is usable; a smaller pad_size settles sooner.",
+        level.level, level.pad_corrections, level.pad_force);
+  return sentence(
+      "On level %d the solver stopped after %d iterations at a relative residual of %.1e (target: "
+      "%.1e). The surface is usable.",
+      level.level, level.iterations, level.residual, options.relative_residual);
+}
+
+std::string of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
+  if (level.kept_start)
+    return sentence(
+        "On level %d the steps made the surface worse, so it was left as they found it. Use fewer "
+        "levels or the thin plate.",
+        level.level);
+  if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
+  if (!std::isfinite(level.left))
+    return sentence(
+        "On level %d no step made the surface any fairer, and nobody knows how much is left to "
+        "move. Use fewer levels or the thin plate.",
+        level.level);
+  return sentence(
+      "On level %d the steps stopped, %zu of at most %d, with some %.1e of the mesh's size left to "
+      "move (target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
+      level.level, level.steps.size(), options.max_steps, level.left,
+      options.step_tolerance_wanted());
+}
+
+}  // namespace
+
+void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report) {
-  if (level.converged) return;
-  char text[200];
-  if (level.constraint_gap > gap_wanted)
-    std::snprintf(
-        text, sizeof text,
-        "The tolerance is kept, but the energy may be %.1e above the least one, relative. "
-        "The surface is usable; a smaller tolerance settles sooner.",
-        level.constraint_gap);
-  else if (level.normal_angle > largest_angle_left)
-    std::snprintf(
-        text, sizeof text,
-        "Fixed normals have not settled after %d corrections: up to %.2g degrees are left. "
-        "The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
-        level.pad_corrections, level.normal_angle / degree);
-  else if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
-    std::snprintf(text, sizeof text,
-                  "The loads on pads have not settled after %d corrections: %.1e of them is still "
-                  "changing. The surface is usable; a smaller pad_size settles sooner.",
-                  level.pad_corrections, level.pad_force);
-  else
-    std::snprintf(text, sizeof text,
-                  "The solver stopped after %d iterations at a relative residual of %.1e (target: "
-                  "%.1e). The surface is usable.",
-                  level.iterations, level.residual, options.relative_residual);
+  if (surface.converged()) return;
+  const std::string text = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
+                                                     : of_steps(surface.curvature.back(), options);
   report.warnings.push_back({"NOT_CONVERGED", of + text, {}, ElementKind::mesh});
 }
 

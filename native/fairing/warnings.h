@@ -16,8 +16,9 @@ void expect_memory(const Report& report);
 // Reports the peak, with a warning when the run has taken markedly more than was predicted.
 void warn_of_memory(const MemoryLedger& ledger, Report& report);
 
-// Adds a warning when the finest level has not converged; `of` begins it.
-void warn_unconverged(const LevelReport& level, const FairOptions& options, const std::string& of,
+// Adds a warning to `report` when a surface has not converged (Report::converged()), with its level,
+// what is left and what to do; `of` begins it. `surface` may be the same report.
+void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report);
 
 }  // namespace fairing

@@ -37,12 +37,11 @@ constexpr std::size_t most_numbers_of_narrow = 20;
 constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
 
 // The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
-// what a factor costs, and above hopeless_degree a factor is cheaper whatever it costs (without
-// that, minimum variation of Suzanne went on for minutes).
+// what a factor costs, and above hopeless_degree a factor is cheaper whatever it costs.
 constexpr int least_degree_of_hard = 8;
 constexpr std::size_t hopeless_degree = 60;
-int degree_of_hard(std::size_t unknowns, bool is_cheap, std::size_t price) {
-  const std::size_t dear = is_cheap ? unknowns / 5000 : price * unknowns / 1000;
+int degree_of_hard(std::size_t unknowns, bool is_cheap) {
+  const std::size_t dear = is_cheap ? unknowns / 5000 : unknowns / 1000;
   return int(std::min<std::size_t>(least_degree_of_hard + dear, hopeless_degree));
 }
 
@@ -55,6 +54,7 @@ bool Hierarchy::knows_factor_below(std::size_t index) const {
 }
 
 bool Hierarchy::may_factor(std::size_t index) const {
+  if (is_bounded_) return unknowns_[index] <= options_.cheap_factor;
   if (unknowns_[index] <= direct_limit_of_hard) return true;
   if (!knows_factor_below(index)) return false;
   const double growth =
@@ -90,12 +90,12 @@ bool Hierarchy::changes_smoother(std::size_t index) {
 }
 
 bool Hierarchy::fits_factor(std::size_t index) const {
-  return may_factor(index) && MemoryLedger::fits(factor_price_ * factor_bytes(unknowns_[index]));
+  return may_factor(index) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
 }
 
 bool Hierarchy::is_too_hard(std::size_t index) const {
   return fits_factor(index) &&
-         cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index), factor_price_);
+         cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index));
 }
 
 // Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
@@ -135,8 +135,8 @@ void Hierarchy::leave_blocks() {
     if (!level.blocks) continue;
     level.blocks.reset();
     level.largest_eigenvalue = 0;
-    cycle_.degree = may_factor(l) ? degree_of_hard(unknowns_[l], factors_cheaply(l), factor_price_)
-                                  : VCycle::usual_degree;
+    cycle_.degree =
+        may_factor(l) ? degree_of_hard(unknowns_[l], factors_cheaply(l)) : VCycle::usual_degree;
   }
 }
 
@@ -163,7 +163,7 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double 
   if (ahead <= iterations_wanted) return;
   int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
   if (cycle_.levels[index].blocks) degree += degree % 2;
-  cycle_.degree = std::min(degree, most_degree);
+  cycle_.degree = std::min(degree, is_bounded_ ? most_degree_over_factor : most_degree);
 }
 
 void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance) {

@@ -158,14 +158,16 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
   Array<double> step(size);
   out.direct = true;
   out.smoother_degree = 0;
-  const double scale = limits.from_start ? norm(workers_, size, r.data()) : limits.residual_scale;
+  const double begun = norm(workers_, size, r.data());
+  const double scale = limits.from_start ? begun : limits.residual_scale;
+  out.converged = begun <= limits.noise;
   const auto refine = [&] {
     for (int k = 0; k < refinement_steps && !out.converged; ++k) {
       solver.solve(r.data(), step.data());
       for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
       residual(x, r.data());
       const double now = norm(workers_, size, r.data());
-      out.residual = scale > 0 ? now / scale : 0;
+      out.residual = limits.relative(now, scale);
       out.converged = out.residual <= limits.tolerance || now <= limits.noise;
     }
   };

@@ -64,8 +64,9 @@ class Hierarchy {
   // Whether the smoother may work on blocks from here on; if not, those that are there go.
   void allow_blocks(bool allowed);
 
-  // How many times as much as usual a large factor costs.
-  void set_factor_price(std::size_t times) { factor_price_ = times; }
+  // Whether solves may end before they are done: then levels whose factor is not cheap are not
+  // factored, and the smoother's degree stays low.
+  void bound_effort(bool bounded) { is_bounded_ = bounded; }
 
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
   // largest eigenvalues have.
@@ -127,7 +128,7 @@ class Hierarchy {
   HierarchyOptions options_;
   bool adapts_ = true;
   bool blocks_allowed_ = true;
-  std::size_t factor_price_ = 1;
+  bool is_bounded_ = false;
   std::vector<std::size_t> unknowns_;
   std::vector<Pace> pace_;  // with the diagonal
   VCycle cycle_;

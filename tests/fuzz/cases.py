@@ -145,6 +145,8 @@ def options(draw: st.DrawFn, mesh: Case) -> dict[str, Any]:
         "repair": st.sampled_from(("mend", "refuse")),
         "weld": st.sampled_from((0.0, 0.1)),
         "threads": st.integers(0, 3),
+        "step_tolerance": st.sampled_from((1e-11, 1e-8, 0.1)),
+        "max_steps": st.sampled_from((1, 3, 40)),
         "interpolation": st.just("approximate"),
     }
     chosen = draw(st.sets(st.sampled_from(sorted(some)), max_size=4)) | {

@@ -66,8 +66,29 @@ def check_surface(result: df.Result, case: Case) -> None:
         moved = np.delete(np.linalg.norm(control - case.points, axis=1), stray).max(initial=0)
         size = np.ptp(case.points, axis=0).max()
         assert moved <= bound + 0.02 * bound + 1e-3 * size, f"moved by {moved}, tolerance {bound}"
-    for level in result.report["levels"]:
+    check_report(result.report)
+
+
+def check_report(report: dict[str, Any]) -> None:
+    """What has not converged is said, and nothing else is."""
+    for level in report["levels"]:
         assert not level["converged"] or math.isfinite(level["residual"])
+    for level in report["curvature"]:
+        assert not level["converged"] or math.isfinite(level["left"])
+        assert level["converged"] or not ends_worse(level), "a level ends worse than it began"
+        assert not (level["converged"] and level["kept_start"])
+    told = [w["code"] for w in report["warnings"]].count("NOT_CONVERGED")
+    unconverged = [s for s in report["shapes"] if not s["converged"]]
+    assert (told == 0) == report["converged"], "what has not converged is said"
+    assert told >= len(unconverged)
+
+
+def ends_worse(level: dict[str, Any]) -> bool:
+    """By the energy that its steps lower; where a start is a spike, the plate is kept in its place."""
+    if level["start_variation"] > 0:
+        return level["variation"] > 1.0101 * level["start_variation"] + 1e-2
+    begun = level["plate_energy"] if level["kept_start"] else level["start_energy"]
+    return level["energy"] > 1.0101 * max(begun, level["start_energy"]) + 1e-9
 
 
 def put_into_the_plane(case: Case, control: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "curvature/left_to_move.h"
 #include "curvature/start.h"
 #include "curvature/steps.h"
 #include "grid/linear.h"
@@ -15,6 +16,30 @@
 
 namespace fairing::test {
 namespace {
+
+TEST(LeftToMove, SumsTheStepsToCome) {
+  LeftToMove left;
+  EXPECT_EQ(left.after(1, 8, true), 8);                    // one step alone: as much again
+  EXPECT_DOUBLE_EQ(left.after(0.01, 0.3, true), 0.3 / 9);  // the first ratio is believed to a tenth
+  EXPECT_DOUBLE_EQ(left.after(0.002, 0.06, true), 0.06 * 0.25);
+  EXPECT_DOUBLE_EQ(left.after(2e-6, 0.09, true), 0.01);  // no ratio below a tenth
+  EXPECT_EQ(left.after(1.9e-6, 0.5, true), 0.5);         // nor above a half
+}
+
+TEST(LeftToMove, AStepThatIsNotSolvedLeavesItself) {
+  LeftToMove left;
+  left.after(1, 1, true);
+  left.after(0.1, 0.1, true);
+  EXPECT_EQ(left.after(0.01, 0.01, false), 0.01);
+}
+
+TEST(LeftToMove, BeginsAnewAfterARejectedStep) {
+  LeftToMove left;
+  left.after(1, 1, true);
+  left.forget();
+  EXPECT_EQ(left.last_decrement(), 0);
+  EXPECT_EQ(left.after(0.01, 0.5, true), 0.5);
+}
 
 // Minimizes (x - target)^2 by steps that are `stretch` times the right one.
 class Parabola final : public StepMethod {

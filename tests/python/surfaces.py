@@ -119,3 +119,10 @@ def dihedral_angles(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, 
 def boundary_vertices(faces) -> np.ndarray:
     directed = half_edges(faces)
     return np.unique([v for e in directed if e[::-1] not in directed for v in e])
+
+
+def comes_near(level: dict) -> bool:
+    """Whether a level's steps ended where a full step gains below a thousandth of the energy, converged
+    or not; `level`: an entry of report["curvature"]."""
+    last = level["steps"][-1]
+    return not level["kept_start"] and last["length"] > 0 and last["decrement"] <= 3e-2

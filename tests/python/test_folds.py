@@ -8,6 +8,7 @@ import pytest
 import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import shared_files
+from surfaces import comes_near
 
 MOST_FACES = 700
 # What is left at level 2 (docs/total-curvature.md).
@@ -55,7 +56,7 @@ def test_a_rough_ball_is_unfolded(seed, levels):
     last = result.report["curvature"][-1]
     assert last["folds_before"] > 0 and last["folds"] == 0
     assert own_folds(result, mesh) == 0
-    assert last["converged"] and last["energy"] <= last["plate_energy"]
+    assert comes_near(last) and last["energy"] <= last["plate_energy"]
     assert result.vertices[: len(mesh[0])].tobytes() == mesh[0].tobytes()
     assert result.report["peak_bytes"] <= result.report["predicted_bytes"]
 

@@ -67,3 +67,14 @@ def test_a_flat_mesh_stays_flat():
     vertices, faces = meshes.flat_patch()
     result = tight.fair(vertices, faces, 2, "minimum_variation")
     assert np.abs(result.vertices[:, 2] - result.vertices[0, 2]).max() < 1e-12
+
+
+def test_fine_levels_are_not_factored():
+    """A sixth-order factor of the finest level took a minute and six times the memory predicted; the
+    next level, too large for one, did not end."""
+    points, faces = meshes.tetrahedron()
+    result = tight.fair(points * [1, 1, 2.5], faces, 7, "minimum_variation", measure=False)
+    assert not any(step["direct"] for step in finest(result)["steps"])
+    assert result.report["peak_bytes"] <= 2 * result.report["predicted_bytes"]
+    codes = [warning["code"] for warning in result.report["warnings"]]
+    assert ("NOT_CONVERGED" in codes) != finest(result)["converged"]

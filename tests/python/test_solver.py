@@ -171,7 +171,7 @@ def test_steps_on_the_finest_level_alone():
     moved_on = solver.solve(slid(vertices, 0.01, 1)).report["curvature"]
     assert [level["level"] for level in fresh] == [1, 2, 3]
     assert [level["level"] for level in moved_on] == [3]
-    assert moved_on[0]["accurate"] and moved_on[0]["energy"] <= 1.001 * moved_on[0]["start_energy"]
+    assert moved_on[0]["converged"] and moved_on[0]["energy"] <= 1.001 * moved_on[0]["start_energy"]
 
 
 @pytest.mark.parametrize("energy", CURVED)
