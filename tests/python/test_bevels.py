@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pads on bevelled boxes and thin meshes: no surface swells beside the one on point forces. The
+benchmark `bevels` runs all of them."""
+
+import bevelled_boxes
+import discrete_fairing as df
+import pytest
+import surface_judge
+import thin_meshes
+
+EVERY, EACH = 7, 3  # boxes: one of so many; thin meshes of a family
+SWOLLEN = 1.02
+BOXES = list(bevelled_boxes.family().items())[::EVERY]
+THIN = {name: (vertices, faces) for _, name, vertices, faces in thin_meshes.meshes(EACH)}
+
+
+def extents(mesh, levels: int) -> tuple[df.Result, float, float]:
+    """The surface on pads; its extent, and that on point forces, over the control mesh's."""
+    middle = (mesh[0].min(0) + mesh[0].max(0)) / 2
+    pads, points = (df.fair(*mesh, levels, pad_size=size, measure=False) for size in (1.0, 0.0))
+    own = surface_judge.reach(mesh[0], middle)
+    reached = [surface_judge.reach(result.vertices, middle) / own for result in (pads, points)]
+    return pads, *reached
+
+
+def test_the_families_are_what_they_are_called():
+    assert len(bevelled_boxes.family()) == 154
+    assert sum(1 for _ in thin_meshes.meshes()) == 216
+
+
+def test_a_bevel_of_a_fiftieth_does_not_swell():
+    """Pads that reached across each face made this one swell to many times the mesh."""
+    mesh = bevelled_boxes.bevelled_box((1, 0.2, 0.1), 0.002)
+    _, pads, points = extents(mesh, 1)
+    assert pads <= SWOLLEN * max(points, 1)
+
+
+@pytest.mark.parametrize("levels", [1, 2])
+@pytest.mark.parametrize("sides, bevel", [pytest.param(*box, id=name) for name, box in BOXES])
+def test_bevelled_boxes_do_not_swell(sides, bevel, levels):
+    result, pads, points = extents(bevelled_boxes.bevelled_box(sides, bevel), levels)
+    assert result.report["converged"]
+    assert pads <= SWOLLEN * max(points, 1)
+
+
+@pytest.mark.parametrize("name", list(THIN))
+def test_thin_meshes_do_not_swell(name):
+    result, pads, points = extents(THIN[name], 1)
+    assert result.report["converged"]
+    assert pads <= SWOLLEN * max(points, 1)
