@@ -244,6 +244,12 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
     if (l == base_) energy_below = energy(l, x.data());
     const PcgLimits limits = limits_of(tolerance(l), scale, energy_below);
     if (l == top()) finest_limits_ = limits;
+    // Tolerances begin from what holds the interpolating surface.
+    if (constraint_ && pads_ && l == std::clamp(level_of_first_loads, base_, top())) {
+      HoldInSpace* const held = std::exchange(constraint_, nullptr);
+      solve_level(l, targets, limits, x.data());
+      constraint_ = held;
+    }
     reports.push_back(solve_level(l, targets, limits, x.data()));
     if (leave_thrown_pads(l, targets, x.data())) {
       std::tie(loads_, whole_below_) = std::tie(loads, whole);

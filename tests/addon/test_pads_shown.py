@@ -10,9 +10,11 @@ from scenes import CUBE, activate, add, add_attribute, fair, positions
 from addon.errors import pads_text
 from addon.memory import recall
 
+CRUMPLED = {"levels": 2, "pad_size": 1.0, "energy": "TOTAL_CURVATURE"}
+
 
 def add_crumpled():
-    """A ball whose vertices are off it at random."""
+    """A ball whose vertices are off it at random: steps to total curvature narrow pads there."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     ball = bpy.context.object
     points = positions(ball.data)
@@ -43,18 +45,18 @@ def test_pads_change_the_surface_and_hold_the_vertices():
 
 def test_where_pads_gave_way_is_said_and_kept(capfd):
     source = add_crumpled()
-    result = fair(levels=2, pad_size=1.0, keep_symmetry=False)
+    result = fair(**CRUMPLED, keep_symmetry=False)
     pads = recall(result, "report")["pads"]
     assert pads["narrower"] + pads["gone"] > 0
     assert pads_text(pads) in capfd.readouterr().out
     widths = values(result.data, "fair_pad_size")
     assert np.array_equal(widths[: len(source.data.vertices)], np.float32(pads["widths"]))
-    assert 0 <= widths.min() < widths.max() <= 1
+    assert 0 <= widths.min() < widths.max()
 
 
 def test_recompute_replaces_where_pads_gave_way():
     source = add_crumpled()
-    result = fair(levels=2, pad_size=1.0)
+    result = fair(**CRUMPLED)
     assert "fair_pad_size" in result.data.attributes
     result.discrete_fairing.pad_size = 0.0
     bpy.ops.object.fairing_recompute()
@@ -66,7 +68,7 @@ def test_recompute_replaces_where_pads_gave_way():
 
 def test_a_live_surface_says_where_pads_gave_way():
     source = add_crumpled()
-    result = fair(levels=2, pad_size=1.0)
+    result = fair(**CRUMPLED)
     result.discrete_fairing_live.levels = 1
     live(result)
     move(source, by=0.01)
@@ -79,7 +81,7 @@ def test_shape_keys_and_pads_that_gave_way():
     source = add_crumpled()
     source.shape_key_add(name="Basis")
     source.shape_key_add(name="Up").data[0].co.z += 1.0
-    result = fair(levels=1, pad_size=1.0)
+    result = fair(**CRUMPLED | {"levels": 1})
     assert "fair_pad_size" in result.data.attributes and len(result.data.shape_keys.key_blocks) == 2
 
 

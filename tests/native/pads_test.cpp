@@ -2,6 +2,8 @@
 // Pads: their hats and mass matrix, and what is left of the forces on a surface that stands on
 // them.
 #include "hold/pads.h"
+#include "hold/pad_reach.h"
+#include "hold/strays.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +39,7 @@ double whole_area(const ControlMesh& mesh) {
 }
 
 TEST(Pads, WideHatsAddUpToOne) {
-  for (const OwnedPolygonMesh& input : {octahedron(), cube(), torus(6, 5)}) {
+  for (const OwnedPolygonMesh& input : {octahedron(), cube(), icosahedron()}) {
     const ControlMesh mesh = make_control_mesh(input.view(), {});
     Workers workers(2);
     Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers);
@@ -181,10 +183,9 @@ TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
 }
 
 TEST(Pads, AGapThatStaysOpenIsTold) {
-  LevelReport level;
-  level.constraint_gap = 2 * gap_wanted;
   Report report;
-  warn_unconverged(level, {}, "", report);
+  report.levels.emplace_back().constraint_gap = 2 * gap_wanted;
+  warn_unconverged(report, {}, "", report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].message.find("tolerance is kept"), std::string::npos);
 }
@@ -220,6 +221,56 @@ TEST(Pads, NarrowToNothing) {
   for (std::size_t v = 0; v < pads.shares().size(); ++v) pads.narrow(v, 4);
   EXPECT_FALSE(pads.any());
   EXPECT_FALSE(pads.rows().any_vertex);
+}
+
+// A long box with a narrow bevel along each edge: the shortest edge at every vertex is the bevel's.
+TEST(Pads, ReachALengthAlongAllEdges) {
+  const ControlMesh mesh = make_control_mesh(grid(5, 4).view(), {});
+  ControlMesh stretched = mesh;
+  for (Vec3& p : stretched.positions) p[0] *= 10;
+  const std::vector<std::array<double, 2>> even = pad_reaches(mesh),
+                                           uneven = pad_reaches(stretched);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [a, b] = mesh.edges[e].vertex;
+    const bool is_long =
+        stretched.positions[std::size_t(a)][0] != stretched.positions[std::size_t(b)][0];
+    for (std::size_t h = 0; h < 2; ++h) {
+      EXPECT_NEAR(even[e][h], 1, 1e-12);
+      EXPECT_NEAR(uneven[e][h], is_long ? 0.15 : 1, 1e-12);
+    }
+  }
+}
+
+// As an arc does along a cube's edges; a corner beside a flat place is no arc.
+TEST(Pads, ReachAlongArcs) {
+  for (const auto& [ahead, back] : pad_reaches(make_control_mesh(cube().view(), {}))) {
+    EXPECT_NEAR(ahead, 1, 1e-12);
+    EXPECT_NEAR(back, 1, 1e-12);
+  }
+  OwnedPolygonMesh bent = grid(5, 4);
+  for (std::size_t v = 0; v < bent.coordinates.size() / 3; ++v)
+    bent.coordinates[3 * v + 2] = 2 * std::max(0.0, bent.coordinates[3 * v] - 2);
+  double least = 1;
+  for (const auto& [ahead, back] : pad_reaches(make_control_mesh(bent.view(), {})))
+    least = std::min({least, ahead, back});
+  EXPECT_LT(least, 0.8);
+  EXPECT_GT(least, 0);
+}
+
+TEST(Pads, ThrownStarsAreFound) {
+  const ControlMesh mesh = make_control_mesh(torus(8, 6).view(), {});
+  Workers workers(2);
+  const GridLevel grid(mesh, 2);
+  std::vector<double> x(3 * grid.size());
+  refine_linearly(grid, mesh.positions, workers, x.data());
+  EXPECT_TRUE(thrown_stars(grid, workers, mesh.positions, x.data()).empty());
+  const auto at = 3 * std::size_t(grid.face_base(5));
+  for (const double far : {100.0, std::numeric_limits<double>::quiet_NaN()}) {
+    x[at] = far;
+    std::vector<Index> corners(mesh.faces[5].vertex.begin(), mesh.faces[5].vertex.end());
+    std::sort(corners.begin(), corners.end());
+    EXPECT_EQ(thrown_stars(grid, workers, mesh.positions, x.data()), corners);
+  }
 }
 
 TEST(Pads, StarsShareTheEnergy) {

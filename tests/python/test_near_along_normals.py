@@ -117,9 +117,10 @@ def test_where_the_vertices_have_gone_pads_hold_them():
     assert energy(on_points) < energy(held)
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-2, 3e-2])
-def test_near_costs_little_more_than_through(tolerance):
-    """Steps on the finest level, and their linear solves."""
+@pytest.mark.parametrize("tolerance, most", [(1e-3, 4.5), (1e-2, 4.5), (3e-2, 3.5)])
+def test_near_costs_little_more_than_through(tolerance, most):
+    """Steps on the finest level, and their linear solves: vertices turn to other ends of their
+    intervals between steps that could not be told from the last ones otherwise."""
     mesh = meshes.creature()
 
     def cost(result):
@@ -127,7 +128,7 @@ def test_near_costs_little_more_than_through(tolerance):
         return np.array([len(steps), sum(step["pad_corrections"] + 1 for step in steps)])
 
     through = cost(near(mesh, 3, interpolation="exact"))
-    assert (cost(near(mesh, 3, tolerance=tolerance)) <= 2.5 * through).all()
+    assert (cost(near(mesh, 3, tolerance=tolerance)) <= most * through).all()
 
 
 def test_a_solver_gives_the_surface_that_fair_gives():

@@ -101,8 +101,9 @@ def fair(
         section 5]. For the thin plate only.
     pad_size : float from 0 to 1
         What holds control vertices off curves. 0: point forces, which leave a spot of curvature at
-        each. Otherwise forces spread over pads, which leave none; the size is the pad's width as a
-        share of the faces around the vertex. The surface still passes through every vertex.
+        each. Otherwise forces spread over pads, which leave none: each reaches the same length
+        along all edges, at 1 up to 1.5 times the shortest edge at its vertex, and less where the
+        mesh turns unevenly. The surface still passes through every vertex.
     normals : (n, 3) float
         The surface's normal at each control vertex, of any length; NaN or zero: none. Vertices on
         curves take none (report["warnings"]). For the thin plate, from level 1 on.
@@ -150,8 +151,8 @@ def fair(
         a level.
     relative_residual : float
         Where the solver stops: residual relative to the control polyhedron's, and error relative to
-        the solution in the energy norm. 1e-4 leaves nothing to see: normals within 0.05 degrees,
-        positions within 1e-5 of the mesh's size. Take 1e-8 for measurements.
+        the solution in the energy norm. 1e-4 leaves nothing to see: positions
+        within 1e-4 of the mesh's size, on smooth meshes within 1e-5 in the median. Take 1e-8 for measurements.
     step_tolerance : float, share of the mesh's size
         The Gauss-Newton steps stop when the points still have to move less than this. 0: 0.03 of
         relative_residual, from 1e-6 to 1e-5.
