@@ -24,7 +24,6 @@ from .operators import (
     in_place,
     inspect,
     live,
-    old_names,
     presets,
     step,
 )
@@ -58,7 +57,6 @@ _MODULES = (
     check,
     inspect,
     presets,
-    old_names,
     pictures,
     step,
     main_panel,

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a faired object remembers, and what was found on any mesh: hidden properties in the file.
 
-Records are JSON in text properties. Older files have them as custom properties in the user's
-sight, and other settings. Both are taken over when such a file is opened or objects are appended
-from it.
+Records are JSON in text properties. Settings in a file may be what no field takes; those count as
+unset when the file is opened or objects are appended from it.
 """
 
 import json
@@ -15,7 +14,7 @@ from bpy.app.handlers import persistent
 from bpy.props import FloatVectorProperty, PointerProperty, StringProperty
 
 from . import records
-from .blender import Mesh, Object, all_objects, all_scenes, attach, detach
+from .blender import Object, all_objects, all_scenes, attach, detach
 from .settings import FairingSettings, Settings, copy_settings
 
 # by the names of object and record: panels ask at every redraw, and records are long
@@ -145,36 +144,18 @@ def _plain(value: Any) -> Any:
     return str(value)
 
 
-# --- older files
-
-_OLD_RECORDS = {
-    "fairing_report": "report",
-    "fairing_readout": "readout",
-    "fairing_check": "defects",
-}
-_OLD_RANGE, _OLD_COLOUR = "fairing_curvature_range", "fairing_active_colour"
 _GROUPS = ("discrete_fairing", "discrete_fairing_live", "discrete_fairing_inspection")
-_GONE = ("epsilon", "vertex_release", "repair_orientation")
 
 
 @persistent
-def take_over_old_properties(*_: Any) -> None:
-    """Moves what older files keep in custom properties to the hidden ones; of linked data it stays
-    where it is. Settings without a meaning become those that nobody has set.
+def unset_unsound_settings(*_: Any) -> None:
+    """Settings without a meaning become those that nobody has set, of linked data too: panels show
+    these as well.
     """
     for owner in (*all_objects(), *all_scenes()):
-        if owner.library is None:
-            _take_over_settings(owner.discrete_fairing)
-        for group in _GROUPS:  # panels show those of linked objects too
+        for group in _GROUPS:
             _unset_unsound(getattr(owner, group, None))
-    for target in all_objects():
-        if target.library is None:
-            for old, name in _OLD_RECORDS.items():
-                _move_text(target, old, name)
     for mesh in bpy.data.meshes:
-        if mesh.library is None:
-            _move_range(mesh)
-            _move_text(mesh, _OLD_COLOUR, "active_colour")
         _unset_unsound(cast(Any, mesh).discrete_fairing)
 
 
@@ -200,42 +181,6 @@ def _is_sound(known: Any, value: Any) -> bool:
     return all(known.hard_min <= number <= known.hard_max for number in numbers)
 
 
-def _move_text(owner: Any, old: str, name: str) -> None:
-    value = owner.get(old)
-    if isinstance(value, str):
-        del owner[old]
-        if not owner.discrete_fairing.is_property_set(name):
-            setattr(owner.discrete_fairing, name, value)
-
-
-def _move_range(mesh: Mesh) -> None:
-    text = mesh.get(_OLD_RANGE)
-    if not isinstance(text, str):
-        return
-    del mesh[_OLD_RANGE]
-    try:
-        mesh.discrete_fairing.curvature_range = json.loads(text)
-    except (TypeError, ValueError, RecursionError, OverflowError):
-        return  # the next refresh of the colours makes it anew
-
-
-def _take_over_settings(group: Any) -> None:
-    # from Blender 5.0 on what add-ons have declared is kept apart from custom properties
-    system = getattr(group, "bl_system_properties_get", None)
-    stored = group if system is None else system()
-    if stored is None:
-        return
-    for name in _GONE:
-        if name in stored:
-            del stored[name]
-    if "tolerance" not in stored:  # nobody has set it: a scene with the default, or no surface
-        return
-    if "tolerance_unit" not in stored:
-        group.tolerance_unit = "SCENE"
-    if isinstance(group, FAIRING_PG_surface) and "pad_size" not in stored:
-        group.pad_size = 0.0  # all that there was: Recompute is to make the same surface
-
-
 # linking and appending has a handler since Blender 4.3
 _HANDLERS = [
     getattr(bpy.app.handlers, name)
@@ -248,16 +193,16 @@ def register() -> None:
     attach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
     attach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
     for handlers in _HANDLERS:
-        handlers.append(take_over_old_properties)
+        handlers.append(unset_unsound_settings)
     # the file that is open now, as in preferences.py
     if not bpy.app.background:
-        bpy.app.timers.register(take_over_old_properties, first_interval=0.0)
+        bpy.app.timers.register(unset_unsound_settings, first_interval=0.0)
 
 
 def unregister() -> None:
-    if bpy.app.timers.is_registered(take_over_old_properties):
-        bpy.app.timers.unregister(take_over_old_properties)
+    if bpy.app.timers.is_registered(unset_unsound_settings):
+        bpy.app.timers.unregister(unset_unsound_settings)
     for handlers in _HANDLERS:
-        handlers.remove(take_over_old_properties)
+        handlers.remove(unset_unsound_settings)
     detach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
     detach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)

@@ -12,23 +12,9 @@ from .settings import METRES
 _TOLD = {"IN": ("in", "IN"), "FT": ("in", "IN")}
 
 
-def why_not(path: str) -> str:
-    """Why no file of that name can be written, as a sentence; empty where it can."""
-    if _is_rhino(path) and not core.why_missing() and not core.module().can_write_3dm():
-        return (
-            "A .3dm file needs the Python module rhino3dm, which is not installed. Choose a name "
-            "that ends in .step."
-        )
-    return ""
-
-
 def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> None:
-    """The file, a part an object, whole or not at all; raises OSError. A file of Rhino if it ends in
-    .3dm, else a STEP file. `scale`: units of the file in a Blender unit.
-    """
-    known = core.module()
-    write = known.write_3dm if _is_rhino(path) else known.write_step
-    write(
+    """The file, a part an object, whole or not at all; raises OSError. `scale`: units of the file in a Blender unit."""
+    core.module().write_step(
         path,
         [job.patches.transformed(job.placement) for job in jobs],
         unit=unit.lower(),
@@ -36,10 +22,6 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
         names=[job.name for job in jobs],
         colours=[colours.of_patches(job.colours, job.patches) for job in jobs],
     )
-
-
-def _is_rhino(path: str) -> bool:
-    return path.lower().endswith(".3dm")
 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:

@@ -55,7 +55,7 @@ _TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
 Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
-names; OUT may also be a file of spline patches for CAD, STEP or Rhino's. Coordinates stay what they are: no axes are
+names; OUT may also be a file of spline patches for CAD, as STEP. Coordinates stay what they are: no axes are
 swapped, no units converted, whatever the formats."""
 _EXAMPLES = f"""\
 examples:
@@ -229,9 +229,9 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--format",
-        choices=(*FORMATS, "step", "3dm"),
+        choices=(*FORMATS, "step"),
         help="type of the files in an output folder [each like its input]",
-        metavar="obj|ply|stl|step|3dm",
+        metavar="obj|ply|stl|step",
     )
     made.add_argument(
         "--overwrite",

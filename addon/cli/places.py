@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FORMATS = ("obj", "ply", "stl")
-CAD_FORMATS = ("step", "stp", "3dm")  # for outputs only
+CAD_FORMATS = ("step", "stp")  # for outputs only
 _NAME = "{name}"
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from ..cad import words
 from ..cad.fit import PatchJob, refused
 from ..cad.settings import METRES
-from ..cad.step import why_not, write_jobs
+from ..cad.step import write_jobs
 from ..errors import JobError
 from .files import write_whole
 from .places import Place, is_cad
@@ -20,7 +20,7 @@ _ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "insist")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("files for CAD (OUT ends in .step, .stp or .3dm)")
+    group = parser.add_argument_group("files for CAD (OUT ends in .step or .stp)")
     group.add_argument(
         "--fit-tolerance",
         type=_positive,
@@ -53,11 +53,8 @@ def wanted_of(
     arguments: argparse.Namespace, settings: SimpleNamespace, ways: Sequence[Place]
 ) -> SimpleNamespace | None:
     """What is asked of files for CAD; None where none is written. Raises ValueError if that is said
-    all the same, or if such a file cannot be written.
+    all the same.
     """
-    for way in ways:
-        if reason := why_not(str(way.target)):
-            raise ValueError(reason)
     if not any(is_cad(way.target) for way in ways):
         for name in _ONLY_HERE:
             if getattr(arguments, name) is not None:

@@ -6,7 +6,6 @@ A preset is a script that sets the active operator's properties, as Blender's re
 panel runs and keeps the same scripts with the settings that it shows in the operator's place.
 """
 
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
@@ -19,7 +18,6 @@ from ..settings import NAMES
 from ..ui.main import PRESET_FOLDER, settings_at_hand
 
 _FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
-_OLD_SUBFOLDER = "operator/object.fair_surface"  # of an operator that has another name now
 # belongs to the work at hand, not to the kind of thing that is made
 NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
 
@@ -65,21 +63,7 @@ CLASSES = (OBJECT_OT_fairing_preset_add, OBJECT_OT_fairing_preset_apply)
 _register_classes, _unregister_classes = registration(*CLASSES)
 
 
-def take_over_old_presets() -> None:
-    """Moves the user's presets from the old operator's folder to where Blender looks now. One whose
-    name is taken stays.
-    """
-    for folder in bpy.utils.preset_paths(_OLD_SUBFOLDER):
-        for old in sorted(Path(folder).glob("*.py")):
-            new = Path(folder).parent / Path(PRESET_FOLDER).name / old.name
-            with suppress(OSError):  # a folder that only others may write
-                new.parent.mkdir(exist_ok=True)
-                if not new.exists():
-                    old.rename(new)
-
-
 def register() -> None:
-    take_over_old_presets()
     _register_classes()
     bpy.utils.register_preset_path(_FOLDER)
 

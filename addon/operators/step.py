@@ -4,14 +4,14 @@
 from typing import TYPE_CHECKING, Any, cast
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from .. import core, prediction
+from .. import prediction
 from ..blender import Answer, Context, Object, registration
 from ..cad.fit import PatchJob, refused
 from ..cad.settings import PatchSettings, StepSettings, scale_to
-from ..cad.step import summary, why_not, write_jobs
+from ..cad.step import summary, write_jobs
 from ..memory import source_of
 from ..mesh.read import source_objects
 from . import fair, fill
@@ -49,27 +49,13 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
     bl_label = "Export Fair Surface"
     bl_options = {"PRESET"}
     cancelled_text = "The export was cancelled: nothing was written"
+    filename_ext = ".step"
 
     if TYPE_CHECKING:
         filepath: str  # what ExportHelper adds
 
-    filter_glob: StringProperty(default="*.step;*.stp;*.3dm", options={"HIDDEN"})
-    file_type: EnumProperty(
-        name="Type",
-        description="Which files are offered; the name's ending decides",
-        items=(
-            ("STEP", "STEP (.step)", "Solids and shells, which every CAD system reads"),
-            ("3DM", "Rhino (.3dm)", "Surfaces edge to edge. Needs the Python module rhino3dm"),
-        ),
-        default="STEP",
-    )
-
+    filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
     _from_browser = False
-
-    @property
-    def filename_ext(self) -> str:
-        """What ExportHelper puts to a name."""
-        return ".3dm" if self.file_type == "3DM" else ".step"
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         self._from_browser = True
@@ -78,10 +64,6 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
 
     def execute(self, context: Context) -> Answer:
         """The file browser calls it too; then the window stays alive."""
-        reason = why_not(self.filepath)
-        if reason:
-            self.report({"ERROR"}, reason)
-            return {"CANCELLED"}
         if not self._from_browser or bpy.app.background:
             return super().execute(context)
         jobs = self._prepare(context)
@@ -91,8 +73,6 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
         layout = cast(bpy.types.UILayout, self.layout)
         layout.use_property_split = True
         layout.use_property_decorate = False
-        if core.module().can_write_3dm():
-            layout.prop(self, "file_type")
         for name in StepSettings.__annotations__ | PatchSettings.__annotations__:
             layout.prop(self, name)
 

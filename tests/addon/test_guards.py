@@ -20,10 +20,9 @@ MAY_USE_FILES = {
     "addon/cli/whole.py",  # reads an output, to see whether it is complete
     "addon/ui/pictures.py",  # the names of the pictures of the shipped presets
     "addon/queue.py",  # `os`, for the priority of threads
-    "addon/operators/presets.py",  # the folder of the shipped presets; those of the old operator move
+    "addon/operators/presets.py",  # the folder of the shipped presets
     "native/binding/discrete_fairing/whole_files.py",  # writes a file beside its place first
     "native/binding/discrete_fairing/step.py",  # opens the one that it is given there
-    "native/binding/discrete_fairing/rhino.py",  # `os`, to say what a path may be
 }
 
 # All their numbers can be tested, and used, without Blender.
@@ -129,7 +128,6 @@ def test_no_blender_where_numbers_are_made(path):
 @pytest.mark.parametrize("path", sorted(BINDING.rglob("*.py")), ids=named)
 def test_the_core_knows_nothing_of_blender(path):
     outside = guards.outside_imports(path.read_text(encoding="utf-8"))
-    outside -= {"rhino3dm"} if path.name == "rhino.py" else set()  # where somebody has installed it
     assert all(guards.is_allowed_outside(name) for name in outside) and not outside & guards.BLENDER
 
 

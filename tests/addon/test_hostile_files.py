@@ -11,7 +11,7 @@ from scenes import CUBE, activate, add, fair
 from addon import freshness, records
 from addon.inspection import display
 from addon.live import handlers
-from addon.memory import keep, recall, take_over_old_properties
+from addon.memory import keep, recall, unset_unsound_settings
 from addon.ui import check, compare, inspect, main
 
 PANELS = (
@@ -130,7 +130,7 @@ def test_settings_without_a_meaning_are_those_that_nobody_has_set(tmp_path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
         wanted.objects = ["Box Fair"]
-    take_over_old_properties()
+    unset_unsound_settings()
     linked = wanted.objects[0]
     assert linked.library and linked.discrete_fairing.levels == 3
     bpy.context.collection.objects.link(linked)

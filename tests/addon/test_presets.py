@@ -11,7 +11,6 @@ from fake_layout import Layout
 from scenes import CUBE, add, fair
 
 import addon
-from addon.operators import presets
 from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES, FairingSettings
 from addon.ui import pictures
@@ -80,20 +79,6 @@ def test_a_preset_from_before_still_opens(tmp_path):
     for gone in ("vertex_release", "repair_orientation"):
         assert gone not in FairingSettings.__dict__ and settings.get(gone) is None
     assert settings.repair == "MEND"
-
-
-def test_presets_of_the_old_operator_move(tmp_path, monkeypatch):
-    old, new = tmp_path / "operator/object.fair_surface", tmp_path / PRESET_FOLDER
-    for folder in (old, new):
-        folder.mkdir(parents=True)
-    (old / "Mine.py").write_text(OLD)
-    (old / "Both.py").write_text("old")
-    (new / "Both.py").write_text("new")
-    monkeypatch.setattr(bpy.utils, "preset_paths", lambda subdir: [str(tmp_path / subdir)])
-    presets.take_over_old_presets()
-    assert (new / "Mine.py").read_text() == OLD and not (old / "Mine.py").exists()
-    assert (new / "Both.py").read_text() == "new" and (old / "Both.py").read_text() == "old"
-    presets.take_over_old_presets()
 
 
 def test_own_preset(tmp_path, monkeypatch):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Any call of the writers: a whole file of finite numbers, or a refusal that leaves nothing."""
+"""Any call of the writer of STEP files: a whole file of finite numbers, or a refusal that leaves nothing."""
 
 import math
 import os
@@ -12,7 +12,6 @@ import discrete_fairing as df
 import numpy as np
 from hypothesis import strategies as st
 
-WRITERS = (df.write_step, df.write_3dm) if df.can_write_3dm() else (df.write_step,)
 CUBE = df.fit_patches(*meshes.cube(), levels=2, insist=True, tolerance=0.1)
 OPEN = df.fit_patches(*meshes.grid(1, 1), levels=2, insist=True, tolerance=0.1)
 REFUSALS = {"BAD_OPTION", "BAD_SHAPE"}
@@ -33,7 +32,7 @@ MATRIX = st.lists(st.floats(), min_size=16, max_size=16).map(lambda v: np.reshap
 
 @st.composite
 def calls(draw: st.DrawFn) -> dict[str, Any]:
-    """Arguments of a writer, mostly ones that go together."""
+    """Arguments of write_step, mostly ones that go together."""
     parts = draw(st.lists(st.sampled_from((CUBE, OPEN)), min_size=1, max_size=3))
     count = st.just(len(parts)) | st.integers(0, 3)
     options: dict[str, Any] = {}
@@ -46,7 +45,6 @@ def calls(draw: st.DrawFn) -> dict[str, Any]:
             many = draw(count)
             options[name] = draw(st.lists(values, min_size=many, max_size=many) | values)
     return {
-        "writer": draw(st.sampled_from(WRITERS)),
         "patches": draw(st.just(parts) | st.sampled_from((CUBE, None, [], [3], "cube"))),
         "options": options,
         "path": draw(st.just("a.step") | PATH),
@@ -76,7 +74,7 @@ def check(folder: Path, call: dict[str, Any]) -> str:
     before = sorted(folder.rglob("*"))
     try:
         path = place(folder, call["path"])
-        call["writer"](path, call["patches"], **call["options"])
+        df.write_step(path, call["patches"], **call["options"])
     except df.FairingError as error:
         assert error.code in REFUSALS and len(str(error)) > 15, error
         assert sorted(folder.rglob("*")) == before
@@ -85,8 +83,7 @@ def check(folder: Path, call: dict[str, Any]) -> str:
         assert error.strerror and error.filename == os.fsdecode(path), error
         assert sorted(folder.rglob("*")) == before
         return "OSError"
-    if call["writer"] is df.write_step:
-        check_step(Path(os.fsdecode(path)).read_bytes().decode("ascii"))
+    check_step(Path(os.fsdecode(path)).read_bytes().decode("ascii"))
     assert not list(folder.glob(".*.part"))
     return "file"
 
@@ -104,7 +101,7 @@ def check_step(text: str) -> None:
 
 
 def check_moved(matrix: np.ndarray) -> None:
-    """Finite patches, or a refusal: of the matrix, or by the writer of what it makes of them."""
+    """Finite patches, or a refusal: of the matrix, or by write_step of what it makes of them."""
     try:
         with np.errstate(all="ignore"):
             moved = CUBE.transformed(matrix)

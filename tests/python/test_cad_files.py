@@ -20,10 +20,6 @@ import step_seams
 resource = pytest.importorskip("resource", reason="Windows has neither such limits nor pipes")
 
 CURVED = {"energy": "total_curvature"}
-WRITERS = [pytest.param(df.write_step, id="step")]
-if df.can_write_3dm():
-    WRITERS.append(pytest.param(df.write_3dm, id="3dm"))
-every_writer = pytest.mark.parametrize("write", WRITERS)
 
 
 @pytest.fixture(scope="module")
@@ -65,30 +61,27 @@ def test_a_surface_that_is_refused_leaves_no_file(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@every_writer
-def test_a_full_disk_leaves_the_old_file(write, cube, old):
+def test_a_full_disk_leaves_the_old_file(cube, old):
     with pytest.raises(OSError) as caught, full_disk():
-        write(old, cube)
+        df.write_step(old, cube)
     assert caught.value.filename == str(old) and caught.value.strerror
     assert old.read_text() == "old" and only(old)
 
 
-@every_writer
-def test_a_full_disk_leaves_no_part_of_a_new_file(write, cube, tmp_path):
+def test_a_full_disk_leaves_no_part_of_a_new_file(cube, tmp_path):
     with pytest.raises(OSError), full_disk():
-        write(tmp_path / "a.file", cube)
+        df.write_step(tmp_path / "a.file", cube)
     assert not list(tmp_path.iterdir())
 
 
-@every_writer
-def test_a_folder_without_permission(write, cube, old):
+def test_a_folder_without_permission(cube, old):
     """For root, too: as somebody who has no rights there."""
     user = os.geteuid()
     old.parent.chmod(0o555)
     os.seteuid(user or 65534)
     try:
         with pytest.raises(PermissionError) as caught:
-            write(old, cube)
+            df.write_step(old, cube)
     finally:
         os.seteuid(user)
         old.parent.chmod(0o755)
@@ -96,18 +89,16 @@ def test_a_folder_without_permission(write, cube, old):
     assert old.read_text() == "old" and only(old)
 
 
-@every_writer
-def test_a_folder_that_is_missing_is_named(write, cube, tmp_path):
+def test_a_folder_that_is_missing_is_named(cube, tmp_path):
     with pytest.raises(FileNotFoundError) as caught:
-        write(tmp_path / "none" / "a.file", cube)
+        df.write_step(tmp_path / "none" / "a.file", cube)
     assert caught.value.filename == str(tmp_path / "none" / "a.file")
 
 
-@every_writer
-def test_a_folder_in_the_place_of_the_file(write, cube, tmp_path):
+def test_a_folder_in_the_place_of_the_file(cube, tmp_path):
     (tmp_path / "a.file").mkdir()
     with pytest.raises(OSError) as caught:
-        write(tmp_path / "a.file", cube)
+        df.write_step(tmp_path / "a.file", cube)
     assert caught.value.filename == str(tmp_path / "a.file")
     assert (tmp_path / "a.file").is_dir() and only(tmp_path / "a.file")
 
@@ -122,12 +113,11 @@ def test_an_interruption_midway(cube, old, monkeypatch):
     assert old.read_text() == "old" and only(old)
 
 
-@every_writer
-def test_a_link_stays_one(write, cube, old):
+def test_a_link_stays_one(cube, old):
     old.chmod(0o640)
     link = old.with_name("link")
     link.symlink_to(old)
-    write(link, cube)
+    df.write_step(link, cube)
     assert link.is_symlink() and old.stat().st_size > 1000
     assert stat.S_IMODE(old.stat().st_mode) == 0o640
 
@@ -142,10 +132,9 @@ def test_a_pipe_is_written_to_itself(cube, tmp_path):
     assert found[0].endswith("END-ISO-10303-21;\n") and only(pipe)
 
 
-@every_writer
-def test_a_long_name_is_a_name(write, cube, tmp_path):
+def test_a_long_name_is_a_name(cube, tmp_path):
     path = tmp_path / ("n" * 250 + ".step")
-    write(path, cube)
+    df.write_step(path, cube)
     assert only(path)
 
 
@@ -170,62 +159,55 @@ BAD = [
 ]
 
 
-@every_writer
 @pytest.mark.parametrize("options", BAD, ids=str)
-def test_bad_options(write, cube, old, options):
+def test_bad_options(cube, old, options):
     with pytest.raises(df.FairingError) as caught:
-        write(old, cube, **options)
+        df.write_step(old, cube, **options)
     assert caught.value.code == "BAD_OPTION" and next(iter(options)) in str(caught.value)
     assert Path(old).read_text() == "old" and only(old)
 
 
-@every_writer
 @pytest.mark.parametrize("patches", [None, 3, [None], ["a"]], ids=str)
-def test_what_is_no_patches_is_refused(write, patches, old):
+def test_what_is_no_patches_is_refused(patches, old):
     with pytest.raises(df.FairingError, match="patches"):
-        write(old, patches)
+        df.write_step(old, patches)
     assert old.read_text() == "old" and only(old)
 
 
-@every_writer
 @pytest.mark.parametrize("path", [None, 3, "", "a\0b", b"a\0", "\ud800", object()], ids=repr)
-def test_what_names_no_file_is_refused(write, cube, path):
+def test_what_names_no_file_is_refused(cube, path):
     with pytest.raises(df.FairingError, match="it must be the name of a file") as caught:
-        write(path, cube)
+        df.write_step(path, cube)
     assert caught.value.code == "BAD_OPTION"
 
 
-@every_writer
-def test_links_in_a_circle_are_told(write, cube, tmp_path):
+def test_links_in_a_circle_are_told(cube, tmp_path):
     path = tmp_path / "a.file"
     path.symlink_to("b.file")
     (tmp_path / "b.file").symlink_to("a.file")
     with pytest.raises(OSError) as caught:
-        write(path, cube)
+        df.write_step(path, cube)
     assert (caught.value.errno, caught.value.filename) == (errno.ELOOP, str(path))
     assert path.is_symlink()
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
-@every_writer
-def test_a_full_device_behind_a_name_is_told(write, cube, tmp_path):
+def test_a_full_device_behind_a_name_is_told(cube, tmp_path):
     path = tmp_path / "a.file"
     path.symlink_to("/dev/full")
     with pytest.raises(OSError) as caught:
-        write(path, cube)
+        df.write_step(path, cube)
     assert (caught.value.errno, caught.value.filename) == (errno.ENOSPC, str(path))
     assert only(path)
 
 
-@every_writer
-def test_permissions_stay_private(write, cube, old):
+def test_permissions_stay_private(cube, old):
     old.chmod(0o600)
-    write(old, cube)
+    df.write_step(old, cube)
     assert stat.S_IMODE(old.stat().st_mode) == 0o600 and old.stat().st_size > 1000
 
 
-@every_writer
-def test_what_is_being_written_is_out_of_reach(write, cube, old, monkeypatch):
+def test_what_is_being_written_is_out_of_reach(cube, old, monkeypatch):
     """Nobody else can plant a link there, or read what an old file of mode 600 kept private."""
     made = []
     whole = tempfile.mkdtemp
@@ -242,7 +224,7 @@ def test_what_is_being_written_is_out_of_reach(write, cube, old, monkeypatch):
     monkeypatch.setattr(tempfile, "mkdtemp", folder)
     monkeypatch.setattr(df.whole_files, "put", put)
     with pytest.raises(KeyboardInterrupt):
-        write(old, cube)
+        df.write_step(old, cube)
     assert len(made) == 1 and old.read_text() == "old" and only(old)
 
 
@@ -257,13 +239,12 @@ def test_patches_are_moved_by_finite_matrices_alone(cube, matrix):
     assert caught.value.code == "BAD_SHAPE"
 
 
-@every_writer
-def test_a_large_part_keeps_looking_outward(write, cube, tmp_path):
+def test_a_large_part_keeps_looking_outward(cube, tmp_path):
     """Its volume is no number any more; its coordinates are."""
     large = cube.transformed(np.diag([1e150, 1e150, 1e150, 1]))
-    write(tmp_path / "a.file", large)
+    df.write_step(tmp_path / "a.file", large)
     with pytest.raises(df.FairingError, match="finite coordinates"):
-        write(tmp_path / "b.file", large, scale=1e200)
+        df.write_step(tmp_path / "b.file", large, scale=1e200)
     assert only(tmp_path / "a.file")
 
 

@@ -14,7 +14,6 @@ from .fairing import fair
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
 from .result import Result
-from .rhino import can_write_3dm, write_3dm
 from .solver import Solver
 from .step import write_step
 
@@ -27,13 +26,11 @@ __all__ = [
     "Solver",
     "SplinePatches",
     "__version__",
-    "can_write_3dm",
     "check",
     "fair",
     "fit_patches",
     "predicted_size",
     "repair_orientation",
     "spline_knots",
-    "write_3dm",
     "write_step",
 ]
