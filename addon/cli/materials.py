@@ -21,7 +21,11 @@ def free_stem(target: Path) -> str:
 
 
 def _named_in(target: Path) -> set[str]:
-    """The files of materials that an OBJ names before its first vertex, where exporters do."""
+    """The files of materials that an OBJ names before its first vertex, where exporters do; a device
+    has none, and may never end.
+    """
+    if not target.is_file():
+        return set()
     try:
         with target.open("rb") as stream:
             return set(_materials(stream))

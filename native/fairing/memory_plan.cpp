@@ -56,7 +56,7 @@ double columns_of_plate(const Counts& c, int level, double unknowns) {
     return double(factor_bytes(std::size_t(unknowns))) / (double(matrix_entry) * unknowns);
   const double doublings = std::log2(std::max(unknowns, 2.0));
   const double entries = double(mixed(c, 100 * doublings - 250, 100 * doublings - 180)) / 10;
-  return std::clamp(level > 2 ? entries : 0.9 * entries, 2.0, 1 + unknowns / 2);
+  return std::max(2.0, std::min(level > 2 ? entries : 0.9 * entries, 1 + unknowns / 2));
 }
 
 // The factor of a level, part by part. Borders and curves leave fewer neighbours: half as many where

@@ -50,16 +50,19 @@ def test_none_is_the_default(energy):
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.parametrize("name", CLOSED)
 def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
+    """Steps between point forces do not settle on a cube or on handles as taut as 1, and say so."""
     vertices, faces = mesh_of(name)
-    found = [
-        tight.fair(vertices, faces, levels=2, energy=energy, tension=tension)
+    found = {
+        tension: tight.fair(vertices, faces, levels=2, energy=energy, tension=tension)
         for tension in (0, 0.25, 0.5, 0.75, 1)
-    ]
-    areas = [area(result) for result in found]
+    }
+    areas = [area(result) for result in found.values()]
     assert areas == sorted(areas, reverse=True)
-    for result in found:
+    for tension, result in found.items():
         assert np.array_equal(result.vertices[: len(vertices)], vertices)
-        assert result.report["converged"]
+        told = any(warning["code"] == "NOT_CONVERGED" for warning in result.report["warnings"])
+        assert result.report["converged"] != told
+        assert not told or (tension == 1 and energy == "total_curvature")
 
 
 @pytest.mark.parametrize("name", CLOSED)

@@ -54,10 +54,10 @@ def test_level_beyond_the_direct_limit_is_solved():
 
 def test_steps_end_where_rounding_begins():
     """Faces of 1 by 1/1500 leave their factor few digits. What it left was iterated on, to no avail:
-    26 times here, 800 times with 8,000 faces. (An earlier step's factor takes up to four.)"""
+    26 times here, 800 times with 8,000 faces. (An earlier step's factor takes up to six.)"""
     entries = df.fair(*disc(4000), 2, energy="total_curvature", measure=False).report["curvature"]
     assert all(entry["converged"] for entry in entries)
-    assert all(step["iterations"] <= 4 for entry in entries for step in entry["steps"])
+    assert all(step["iterations"] <= 6 for entry in entries for step in entry["steps"])
 
 
 @pytest.mark.parametrize("name", ["icosahedron", "torus_quads"])
