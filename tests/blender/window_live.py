@@ -222,9 +222,8 @@ def test_undo_of_object_mode_edits():
 def test_undo_takes_live_along():
     """The step before has the source hidden under its surface: neither is left half way."""
     harness.add_suzanne()
-    bpy.context.scene.discrete_fairing.levels = 2
     with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fairing_surface() == {"FINISHED"}
+        assert bpy.ops.object.fairing_surface(levels=2) == {"FINISHED"}
         target = bpy.context.view_layer.objects.active
         target.discrete_fairing_live.levels = 1
         bpy.ops.ed.undo_push(message="the surface is made")
