@@ -27,6 +27,13 @@ OUT = Path(__file__).resolve().parents[2] / "out" / "fuzz"
 LAST = OUT / "last.json"
 EXAMPLES = 300  # a child
 FILES_EACH = 5  # children, one is for files
+CHILD = settings(
+    max_examples=EXAMPLES,
+    deadline=None,
+    database=None,
+    phases=(Phase.generate, Phase.shrink),
+    suppress_health_check=[*HealthCheck],
+)
 
 
 def search(number: int) -> None:
@@ -35,13 +42,7 @@ def search(number: int) -> None:
     counts: collections.Counter[str] = collections.Counter()
 
     @seed(number)
-    @settings(
-        max_examples=EXAMPLES,
-        deadline=None,
-        database=None,
-        phases=(Phase.generate, Phase.shrink),
-        suppress_health_check=[*HealthCheck],
-    )
+    @CHILD
     @given(st.one_of(cases(), cases(), cases(), halves()))
     def any_input(case: Case) -> None:
         case.write(LAST)
@@ -66,13 +67,7 @@ def search_files(number: int) -> None:
     """The same for files, whose calls are shown as they are: they hold what JSON does not have."""
 
     @seed(number)
-    @settings(
-        max_examples=EXAMPLES,
-        deadline=None,
-        database=None,
-        phases=(Phase.generate, Phase.shrink),
-        suppress_health_check=[*HealthCheck],
-    )
+    @CHILD
     @given(written.calls())
     def any_file(call: dict[str, Any]) -> None:
         with tempfile.TemporaryDirectory() as folder:
