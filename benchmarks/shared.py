@@ -35,7 +35,7 @@ def one(path: Path, files: Any, data: Any) -> dict[str, Any]:
         levels=levels,
         crease_edges=creases,
         corner_vertices=corners,
-        repair_orientation=True,
+        repair="mend",
     )
     level = runs.finest(report)
     return {

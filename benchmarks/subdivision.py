@@ -77,7 +77,7 @@ def run() -> dict[str, Any]:
                 levels=LEVELS,
                 interpolation="approximate",
                 tolerance=SHARE * deviation,
-                repair_orientation=True,
+                repair="mend",
                 **options,
             )
             entry[setting] = figures(ours.vertices, ours.triangles.astype(np.int64))

@@ -105,18 +105,10 @@ auto beside_python(Call&& call) {
 }
 
 py::list check_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                      const Contiguous<std::int64_t>& offsets, bool repair_orientation) {
+                      const Contiguous<std::int64_t>& offsets) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
-  const Findings findings = beside_python(
-      [&] { return find_defects(mesh.view(), {.repair_orientation = repair_orientation}); });
+  const Findings findings = beside_python([&] { return find_defects(mesh.view()); });
   return to_python(findings.defects);
-}
-
-py::array flipped_faces(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                        const Contiguous<std::int64_t>& offsets) {
-  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
-  const std::vector<std::int64_t> faces = beside_python([&] { return faces_to_flip(mesh.view()); });
-  return py::array_t<std::int64_t>(py::ssize_t(faces.size()), faces.data());
 }
 
 void readable_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
@@ -151,11 +143,7 @@ PYBIND11_MODULE(_native, m) {
         "discrete_fairing.fair on plain arrays: vertices (n, 3) and shapes (k, n, 3) float64,\n"
         "corners and offsets int64. Returns what Result takes.");
   m.def("check", &check_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("repair_orientation"),
-        "The arguments of Defect for each defect of a mesh.");
-  m.def("faces_to_flip", &flipped_faces, py::arg("vertices").noconvert(),
-        py::arg("corners").noconvert(), py::arg("offsets").noconvert(),
-        "Ids (f,) int64 of the faces to reverse for all neighbours to agree.");
+        py::arg("offsets").noconvert(), "The arguments of Defect for each defect of a mesh.");
   m.def("require_readable", &readable_arrays, py::arg("vertices").noconvert(),
         py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("repair"),
         "Raises what fair() would for these arrays before it looks at the mesh.");

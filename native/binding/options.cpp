@@ -85,7 +85,6 @@ void bind_options(py::module_& m) {
   setting("joint", &O::features, &FeatureOptions::region, &RegionOptions::joint);
   setting("repair", &O::repair);
   setting("weld", &O::weld);
-  setting("repair_orientation", &O::repair_orientation);
   setting("interpolation", &O::interpolation);
   setting("tolerance", &O::tolerance);
   setting("weights", &O::weights);

@@ -205,8 +205,6 @@ py::list to_python(const Defects& defects) {
       entry["elements"] = defect.elements;
     entry["kind"] = name(defect.kind);
     entry["severity"] = defect.severity == Severity::error ? "error" : "warning";
-    entry["repair"] = Defect::turns_faces(defect.code) ? py::object(py::str("orientation"))
-                                                       : py::object(py::none());
     entry["repairable"] = defect.repairable;
     list.append(entry);
   }

@@ -104,7 +104,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
 
 void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& report) const {
   watch.enter(Phase::check, 0);
-  CheckResult checked = fairing::check(input, {options_.repair_orientation});
+  CheckResult checked = fairing::check(input, {options_.repair == Repair::mend});
   if (options_.energy != Energy::thin_plate) require_two_sides(checked.warnings);
   report.warnings = std::move(checked.warnings);
   report.flipped_faces = std::move(checked.flipped_faces);

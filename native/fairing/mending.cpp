@@ -108,7 +108,6 @@ Mending::Mending(const PolygonMesh& input, const FairOptions& options)
       counted_(mended_.changed() ? mended_.bytes() : 0),
       mesh_(input),
       options_(options) {
-  options_.repair_orientation |= options.repair == Repair::mend;
   if (!mended_.changed()) return;
   mesh_ = mended_.mesh.view();
   map_options(input);

@@ -61,7 +61,6 @@ struct FairOptions {
   // Mending: vertices no farther apart than this become one, mesh units; 0: those at one point;
   // negative: none.
   double weld = -1;
-  bool repair_orientation = false;
 
   Interpolation interpolation = Interpolation::exact;
   // Approximate: the farthest that a control vertex may move, in mesh units. One number for all,

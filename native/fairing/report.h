@@ -82,7 +82,7 @@ struct Report {
   std::vector<Warning> warnings;
   // What Repair::mend has done, each with all elements of the input concerned.
   std::vector<Warning> repairs;
-  // Input faces that were reversed by repair_orientation or Repair::mend.
+  // Input faces that were reversed by Repair::mend.
   std::vector<std::int64_t> flipped_faces;
 
   // Whether the surface is as near to the solution as was promised; one that is not has a warning

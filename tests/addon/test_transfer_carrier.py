@@ -181,7 +181,7 @@ def test_turned_faces():
     arrays = control_arrays(
         [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)], [[0, 1, 2, 3], [1, 2, 4]]
     )
-    result, carrier = core_run(arrays, 1, repair_orientation=True)
+    result, carrier = core_run(arrays, 1, repair="mend")
     assert result.report["flipped_faces"]
     found = carrier.corner(arrays.positions[arrays.corners])
     assert np.allclose(found, carrier.point(arrays.positions)[refined_corners(result)])

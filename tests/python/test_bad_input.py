@@ -91,12 +91,12 @@ def test_orientation_repaired_on_request():
     faces = FACES.copy()
     faces[[3, 11]] = faces[[3, 11], ::-1]
     before = faces.copy()
-    result = df.fair(POINTS, faces, 2, repair_orientation=True)
+    result = df.fair(POINTS, faces, 2, repair="mend")
     assert list(result.report["flipped_faces"]) == [3, 11] and np.array_equal(faces, before)
     corner = result.vertices[result.triangles]
     volume = np.linalg.det(corner).sum() / 6
     assert volume > 3
-    sound = df.fair(POINTS, FACES, 2, repair_orientation=True)
+    sound = df.fair(POINTS, FACES, 2, repair="mend")
     assert list(sound.report["flipped_faces"]) == []
     assert np.abs(np.sort(sound.vertices, 0) - np.sort(result.vertices, 0)).max() < 1e-8
 

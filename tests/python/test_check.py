@@ -26,7 +26,6 @@ def first_error(vertices, faces):
 def test_nothing_is_wrong_with_clean_meshes(name):
     vertices, faces = meshes.ALL[name]()
     assert df.check(vertices, faces) == []
-    assert df.repair_orientation(vertices, faces).tolist() == []
 
 
 def test_all_kinds_at_once():
@@ -48,13 +47,12 @@ def test_all_kinds_at_once():
     edges = {tuple(sorted(e)) for e in half_edges([faces[9]])} | {(min(a, b), max(a, b))}
     assert {tuple(e) for e in report["NONMANIFOLD_EDGE"].elements} == edges
     assert report["NONMANIFOLD_EDGE"].kind == "edge"
-    assert report["INCONSISTENT_ORIENTATION"].repair == "orientation"
+    assert report["INCONSISTENT_ORIENTATION"].repairable
     assert 5 in report["INCONSISTENT_ORIENTATION"].elements
     assert report["ISOLATED_VERTICES"].elements == [12, 14]
     assert report["ISOLATED_VERTICES"].kind == "vertex"
     warnings = ("NONMANIFOLD_EDGE", "ISOLATED_VERTICES")
     assert all((d.severity == "warning") == (c in warnings) for c, d in report.items())
-    assert all(d.repair is None for c, d in report.items() if c != "INCONSISTENT_ORIENTATION")
 
 
 def test_what_ends_the_search():
@@ -118,35 +116,24 @@ def test_orientation_and_one_sidedness_of_different_parts():
         ("NON_ORIENTABLE", one_sided),
         ("INCONSISTENT_ORIENTATION", [3]),
     ]
-    with pytest.raises(df.FairingError) as caught:
-        df.repair_orientation(vertices, faces)
-    assert (caught.value.code, caught.value.elements, caught.value.kind) == (
-        "NON_ORIENTABLE",
-        one_sided,
-        "face",
-    )
 
 
 def test_the_repair_mends_it():
     faces = FACES.copy()
     faces[[3, 11]] = faces[[3, 11], ::-1]
     assert found(POINTS, faces) == [("INCONSISTENT_ORIENTATION", [3, 11])]
-    (mended,) = df.check(POINTS, faces, repair_orientation=True)
-    assert (mended.severity, mended.repair) == ("warning", "orientation")
-    flip = df.repair_orientation(POINTS, faces)
-    assert flip.tolist() == [3, 11] and flip.dtype.kind == "i"
-    faces[flip] = faces[flip, ::-1]
+    mended = df.fair(POINTS, faces, 1, repair="mend").report
+    assert mended["flipped_faces"] == [3, 11]
+    assert [repair["code"] for repair in mended["repairs"]] == ["INCONSISTENT_ORIENTATION"]
+    faces[[3, 11]] = faces[[3, 11], ::-1]
     assert df.check(POINTS, faces) == []
 
 
-def test_repair_needs_no_good_geometry():
-    points = POINTS * [1, 1, 0]
+def test_orientation_needs_no_good_geometry():
     faces = FACES.copy()
     faces[7] = faces[7, ::-1]
-    assert df.repair_orientation(points, faces).tolist() == [7]
-    with pytest.raises(df.FairingError) as caught:
-        df.repair_orientation(points, [[0, 1, 99]])
-    assert caught.value.code == "INDEX_OUT_OF_RANGE"
+    defects = {d.code: d for d in df.check(POINTS * [1, 1, 0], faces)}
+    assert defects["INCONSISTENT_ORIENTATION"].elements == [7]
 
 
 def damaged(seed):

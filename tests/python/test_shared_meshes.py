@@ -73,18 +73,18 @@ def test_mending_leaves_sheets_that_meet_and_one_sided_ones(path, weld):
 
 
 @pytest.mark.parametrize("path", shared_files("bad", *SUFFIXES))
-@pytest.mark.parametrize("repair", [False, True])
+@pytest.mark.parametrize("repair", ["refuse", "mend"])
 def test_bad_meshes_end_well(path, repair):
     try:
         vertices, faces = read_mesh(path)
     except ValueError as error:
         pytest.skip(f"the reader refuses it: {error}")
     try:
-        result = tight.fair(vertices, faces, 1, repair_orientation=repair)
+        result = tight.fair(vertices, faces, 1, repair=repair)
     except df.FairingError as error:
         assert error.code in CODES and len(str(error)) > 15
         assert error.elements or error.code in ("EMPTY_MESH", "NO_FACES")
-        assert not repair or error.code != "INCONSISTENT_ORIENTATION"
+        assert repair == "refuse" or error.code != "INCONSISTENT_ORIENTATION"
         return
     assert_sound(result, vertices)
     assert result.report["converged"]

@@ -262,7 +262,7 @@ def test_orientation_is_a_sheet_s_own_affair():
     turned[size + 1] = turned[size + 1, ::-1]  # one against its own page
     with pytest.raises(df.FairingError, match="looks"):
         fair(vertices, turned, 2)
-    repaired = fair(vertices, turned, 2, repair_orientation=True)
+    repaired = fair(vertices, turned, 2, repair="mend")
     assert repaired.report["flipped_faces"] == [size + 1]
 
 

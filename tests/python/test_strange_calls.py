@@ -70,7 +70,7 @@ def test_levels_that_are_several(levels):
     [
         {"threads": np.array([1, 2])},
         {"measure": np.array([True, False])},
-        {"repair_orientation": np.zeros(3)},
+        {"measure": np.zeros(3)},
         {"epsilon": 10**400},
         {"pad_size": np.array([1.0, 0.0])},
         {"tolerance": [[0.1], [0.2]], "interpolation": "approximate"},
@@ -150,14 +150,14 @@ class Scribbler(threading.Thread):
                 array[...] = good
 
 
-@pytest.mark.parametrize("what", ["fair", "check", "repair", "solver", "predicted"])
+@pytest.mark.parametrize("what", ["fair", "check", "mend", "solver", "predicted"])
 def test_arrays_that_change_in_mid_run(what):
     """The call sees one state of them, be it nonsense: an error, or the surface."""
     points, corners, offsets = POINTS.copy(), CORNERS.copy(), OFFSETS.copy()
     calls = {
         "fair": lambda: df.fair(points, (corners, offsets), 1),
         "check": lambda: df.check(points, (corners, offsets)),
-        "repair": lambda: df.repair_orientation(points, (corners, offsets)),
+        "mend": lambda: df.fair(points, (corners, offsets), 1, repair="mend"),
         "solver": lambda: df.Solver(points, (corners, offsets), 1).solve(points),
         "predicted": lambda: df.predicted_size(len(points), (corners, offsets), 1),
     }
@@ -170,7 +170,7 @@ def test_arrays_that_change_in_mid_run(what):
     calls[what]()
 
 
-NUMBERS = sorted(set(SETTINGS) - {"repair_orientation", "measure"})
+NUMBERS = sorted(set(SETTINGS) - {"measure"})
 
 
 @pytest.mark.parametrize(

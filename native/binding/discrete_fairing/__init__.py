@@ -8,7 +8,7 @@
 
 from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
-from .checking import Defect, check, predicted_size, repair_orientation
+from .checking import Defect, check, predicted_size
 from .errors import MemoryWarning
 from .fairing import fair
 from .fitting import fit_patches
@@ -30,7 +30,6 @@ __all__ = [
     "fair",
     "fit_patches",
     "predicted_size",
-    "repair_orientation",
     "spline_knots",
     "write_step",
 ]

@@ -29,10 +29,8 @@ class Defect:
         What the elements are.
     severity: "error" or "warning"
         An error stops a run, a warning does not.
-    repair: "orientation" or None
-        "orientation" if `fair(..., repair_orientation=True)` repairs it.
     repairable: bool
-        Whether `fair(..., repair="mend")` repairs it.
+        Whether `fair(..., repair="mend")` mends it.
     """
 
     code: str
@@ -40,37 +38,19 @@ class Defect:
     elements: list[int] | list[tuple[int, int]]
     kind: str
     severity: str
-    repair: str | None
     repairable: bool
 
 
-def check(
-    vertices: ArrayLike,
-    faces: ArrayLike | Sequence[Sequence[int]],
-    repair_orientation: bool = False,
-) -> list[Defect]:
+def check(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[Defect]:
     """Every kind of defect of a mesh, in the order in which `fair` would meet them.
 
     The list is empty if there is none. Skips tests that earlier defects make meaningless: an index
-    out of range ends the search. With `repair_orientation`, inconsistent orientation counts as a
-    warning. Raises FairingError BAD_SHAPE, for arrays of a wrong shape or type, and OUT_OF_MEMORY.
+    out of range ends the search. Raises FairingError BAD_SHAPE, for arrays of a wrong shape or type,
+    and OUT_OF_MEMORY.
     """
     corners, offsets = face_arrays(faces)
-    repair = switch("repair_orientation", repair_orientation)
-    found = _native.check(vertex_array(vertices), corners, offsets, repair)
+    found = _native.check(vertex_array(vertices), corners, offsets)
     return [Defect(**defect) for defect in found]
-
-
-def repair_orientation(
-    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]
-) -> np.ndarray:
-    """Ids (f,) int64 of the faces to reverse so that all neighbours agree.
-
-    They are the minority in each connected part. Raises FairingError where there is no answer:
-    NON_ORIENTABLE, or arrays that make no faces.
-    """
-    corners, offsets = face_arrays(faces)
-    return _native.faces_to_flip(vertex_array(vertices), corners, offsets)
 
 
 def predicted_size(

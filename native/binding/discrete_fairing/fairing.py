@@ -44,7 +44,6 @@ def fair(
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
     repair: str = "refuse",
     weld: float | None = None,
-    repair_orientation: bool = False,
     method: str = "multigrid",
     relative_residual: float = 1e-4,
     max_iterations: int = 200,
@@ -144,8 +143,6 @@ def fair(
     weld : float, mesh units
         With repair="mend": vertices no farther apart become one; 0: those at one point. None: no
         welding.
-    repair_orientation : bool
-        Flip faces that are oriented against their neighbours (report["flipped_faces"]).
     method : "multigrid" or "back_leg"
         The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps
         a level.

@@ -193,7 +193,6 @@ SETTINGS = {
     "joint": choice(_native.RegionContinuity),
     "repair": choice(_native.Repair),
     "weld": distance,
-    "repair_orientation": switch,
     "method": choice(_native.Method),
     "relative_residual": real,
     "max_iterations": whole,

@@ -4,22 +4,6 @@
 #include "mesh/validate/checks.h"
 
 namespace fairing {
-namespace {
-
-bool prevents_orientation(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::empty_mesh:
-    case ErrorCode::no_faces:
-    case ErrorCode::bad_shape:
-    case ErrorCode::too_large:
-    case ErrorCode::index_out_of_range:
-    case ErrorCode::repeated_vertex:
-    case ErrorCode::non_orientable: return true;
-    default: return false;
-  }
-}
-
-}  // namespace
 
 bool Defect::mended(ErrorCode what, ElementKind of) {
   switch (what) {
@@ -54,13 +38,6 @@ Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options) {
   }
   warn_of_isolated_vertices(mesh, found);
   return result;
-}
-
-std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh) {
-  Findings findings = find_defects(mesh, {.repair_orientation = true});
-  for (const Defect& defect : findings.defects)
-    if (prevents_orientation(defect.code)) defect.raise();
-  return std::move(findings.flipped_faces);
 }
 
 CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {

@@ -65,10 +65,6 @@ struct Findings {
 // tests a meaning. Defects are returned, not thrown.
 Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options = {});
 
-// The faces that must turn over for all neighbours to agree. Throws FairingError where that has no
-// answer: non_orientable, or arrays that do not make faces.
-std::vector<std::int64_t> faces_to_flip(const PolygonMesh& mesh);
-
 // Throws the first error of find_defects as FairingError. With repair_orientation, the faces to be
 // reversed come back in the result, for make_control_mesh. Linear time up to hashing and sorting.
 CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
