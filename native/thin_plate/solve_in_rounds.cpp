@@ -44,8 +44,8 @@ constexpr int most_corrections = 16, most_of_couples = 32;
 constexpr double coarse_plate_gap = 1e-2;
 // Of placed vertices, and a gap that they do not close.
 constexpr int most_turns = 6;
-constexpr double hopeless_gap = 1e-2;
-constexpr double telling_force = 0.03;  // where so much is left of the loads, the gap is known
+constexpr double largest_placed_gap = 1e-2;
+constexpr double settled_force = 0.03;  // where so much is left of the loads, the gap is known
 constexpr int most_rounds = 16, most_cheap_rounds = 60;
 
 // What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
@@ -67,9 +67,10 @@ struct ThinPlateSolver::Rounds {
   int level;
   std::span<const Vec3> targets;
   const PcgLimits& limits;
+  HoldInSpace* constraint;  // or null
+  HeldState& held;
   double* x;
 
-  HoldInSpace* constraint = solver.constraint_;
   Pads* pads = solver.pads_.get();
   const Couples* couples = solver.has_couples(level) ? solver.couples_.get() : nullptr;
   LoadSteps<3> steps =
@@ -86,7 +87,7 @@ struct ThinPlateSolver::Rounds {
   double wanted_gap() const { return top() ? gap_wanted : coarse_plate_gap; }
 
   double gain_wanted() const {
-    if (constraint && !solver.is_placed_) return solve_gain_of_bounds;
+    if (constraint && !held.placed) return solve_gain_of_bounds;
     const bool few = expects_few();
     if (report.pad_corrections > 0) return few ? solve_gain_of_few : solve_gain;
     if (solver.grid(level).n() < fine) return solve_gain;
@@ -109,7 +110,7 @@ struct ThinPlateSolver::Rounds {
     const double begun = norm(solver.workers_, 3 * solver.grid(level).size(), residual());
     const LevelSolve solve = solver.hierarchy_.solve(
         std::size_t(level - solver.base_), now,
-        [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, r); }, x,
+        [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, held, r); }, x,
         [&](const PcgResult& so_far) {
           solver.report_done(
               level, 1 - std::pow(left_by_iteration, report.iterations + so_far.iterations));
@@ -122,8 +123,8 @@ struct ThinPlateSolver::Rounds {
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     const LevelOperator& op = *solver.operators_[std::size_t(level - solver.base_)];
-    if (pads && !solver.is_placed_ && !solve.direct && !op.single_precision_suffices())
-      solver.residual_on_pads(level, targets, x, residual());
+    if (pads && !held.placed && !solve.direct && !op.single_precision_suffices())
+      solver.residual_on_pads(level, targets, x, held, residual());
   }
 
   // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
@@ -142,7 +143,7 @@ struct ThinPlateSolver::Rounds {
     double left = 0, loads = 0;
   };
   Sizes correct_loads() {
-    const Loads &loads = solver.loads_, &forces = solver.forces_;
+    const Loads &loads = held.loads, &forces = held.forces;
     Loads product;
     const std::vector<double> give =
         give_of_springs(solver.shared_.unknowns, solver.shared_.weights, solver.stiffness_, *pads);
@@ -162,7 +163,7 @@ struct ThinPlateSolver::Rounds {
       report.normal_angle = std::max(report.normal_angle, angle);
       tilt = std::max(tilt, std::min(angle, std::numbers::pi - angle));
       out.left += couples->mass()[c].dot(correction.moments[c].cwiseAbs2());
-      out.loads += couples->mass()[c].dot(solver.moments_[c].cwiseAbs2());
+      out.loads += couples->mass()[c].dot(held.moments[c].cwiseAbs2());
     }
     return out;
   }
@@ -177,7 +178,7 @@ struct ThinPlateSolver::Rounds {
     const double size = std::sqrt(std::max(0.0, of_loads.loads + of_couples.loads));
     report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
     double force_norm = 0;
-    for (const Vec3& f : solver.forces_) force_norm += f.squaredNorm();
+    for (const Vec3& f : held.forces) force_norm += f.squaredNorm();
     return tilt <= wanted_tilt() &&
            (report.pad_force <= wanted_force() || std::sqrt(force_norm) <= limits.noise);
   }
@@ -212,8 +213,8 @@ struct ThinPlateSolver::Rounds {
     const bool guesses = bounds && constraint->far();
     if (guesses) steps.forget();
     Multipliers<3> step = guesses ? correction : steps.change(correction);
-    for (std::size_t v = 0; v < step.loads.size(); ++v) solver.loads_[v] += step.loads[v];
-    for (std::size_t c = 0; c < step.moments.size(); ++c) solver.moments_[c] += step.moments[c];
+    for (std::size_t v = 0; v < step.loads.size(); ++v) held.loads[v] += step.loads[v];
+    for (std::size_t c = 0; c < step.moments.size(); ++c) held.moments[c] += step.moments[c];
     report.pad_corrections += loads;
     if (bounds) {
       constraint->change(step.bounds);
@@ -229,7 +230,7 @@ struct ThinPlateSolver::Rounds {
 
   void run_rounds() {
     for (;;) {
-      solver.residual_on_pads(level, targets, x, residual());
+      solver.residual_on_pads(level, targets, x, held, residual());
       solve();
       const bool loads = loads_settled();
       if ((whole || report.enough) && (loads || corrections_left() <= 0)) {
@@ -262,15 +263,15 @@ struct ThinPlateSolver::Rounds {
   bool run_placed() {
     constraint->place(x);
     targets = constraint->aims();
-    solver.is_placed_ = true;
+    held.placed = constraint;
     take_weights();
     bool settled = false;  // where vertices are; from then on loads alone change
     for (int turns = 0;; ++turns) {
-      solver.residual_on_pads(level, targets, x, residual());
+      solver.residual_on_pads(level, targets, x, held, residual());
       solve();
       constraint->put_placed(x);
-      solver.residual_on_pads(level, targets, x, residual());
-      constraint->take_pulls(solver.pulls_);
+      solver.residual_on_pads(level, targets, x, held, residual());
+      constraint->take_pulls(held.pulls);
       const double energy = solver.energy(level, x);
       const bool loads = loads_settled();
       if (whole && (loads || corrections_left() <= 0)) {
@@ -280,8 +281,8 @@ struct ThinPlateSolver::Rounds {
       }
       const bool nearly = loads_nearly_settled();
       settled = settled || (constraint->turn(energy, aim * gap_wanted) &&
-                            (loads || report.pad_force < telling_force));
-      if (turns > 0 && constraint->gap() > hopeless_gap) return false;
+                            (loads || report.pad_force < settled_force));
+      if (turns > 0 && constraint->gap() > largest_placed_gap) return false;
       if (turns >= most_turns && !whole) return false;
       whole = settled && (loads || nearly);
       constraint->put_placed(x);
@@ -294,7 +295,8 @@ struct ThinPlateSolver::Rounds {
   void leave_places() {
     constraint->leave_places();
     targets = constraint->aims();
-    solver.is_placed_ = whole = false;
+    held.placed = nullptr;
+    whole = false;
     take_weights();
     steps.forget();
   }
@@ -306,7 +308,7 @@ struct ThinPlateSolver::Rounds {
       run_rounds();
       if (constraint && top()) constraint->finish(solver.energy(level, x), x);
     }
-    solver.is_placed_ = false;
+    held.placed = nullptr;
     if (constraint) {
       report.constraint_gap = constraint->gap();
       report.converged = report.converged && report.constraint_gap <= wanted_gap();
@@ -319,15 +321,17 @@ struct ThinPlateSolver::Rounds {
 };
 
 LevelReport ThinPlateSolver::solve_in_rounds(int level, std::span<const Vec3> targets,
-                                             const PcgLimits& limits, double* x) {
+                                             const PcgLimits& limits, HoldInSpace* constraint,
+                                             HeldState& held, double* x) {
   if (pads_) pads_->set_level(grid(level));
   if (has_couples(level)) couples_->set_level(grid(level));
-  forces_.assign(loads_.size(), Vec3::Zero());
-  Rounds rounds{*this, level, targets, limits, x};
+  held.forces.assign(held.loads.size(), Vec3::Zero());
+  Rounds rounds{*this, level, targets, limits, constraint, held, x};
   LevelReport report = rounds.run();
-  pace_ = report;
+  equivalent_solve_ = report;
   if (rounds.gain > 0)
-    pace_.iterations = int(-report.iterations * std::log(limits.tolerance) / rounds.gain);
+    equivalent_solve_.iterations =
+        int(-report.iterations * std::log(limits.tolerance) / rounds.gain);
   report.level = level;
   report.points = grid(level).size();
   report.unknowns = count_unknowns(grid(level), shared_.unknowns);

@@ -86,7 +86,7 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& c
   if (pads_ && !pads_->any()) pads_.reset();
   if (!options.normals.empty() && top() > 0) {
     couples_ = std::make_unique<Couples>(mesh, options.chart, options.normals, workers);
-    moments_.assign(couples_->size(), Vec2::Zero());
+    held_.moments.assign(couples_->size(), Vec2::Zero());
   }
   if (!shared_.unknowns.any_vertex) return;
   const Array<float> diagonal =
@@ -110,15 +110,16 @@ void ThinPlateSolver::take_shape(const FeatureCurves& curves, const VertexWeight
   if (shared_.weights != weights) set_weights(weights, top());
 }
 
-void ThinPlateSolver::set_fixed(int level, std::span<const Vec3> targets, double* x) const {
+void ThinPlateSolver::set_fixed(int level, std::span<const Vec3> targets,
+                                const FeatureCurves& curves, double* x) const {
   const GridLevel& lat = grid(level);
   for (std::size_t v = 0; v < targets.size(); ++v)
     if (!shared_.unknowns.vertex[v])
       for (int a = 0; a < 3; ++a) x[3 * v + std::size_t(a)] = targets[v][a];
   const int stride = grid(top()).n() / lat.n();
   for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
-    if (curves_->run[e] < 0) continue;
-    const auto points = curves_->of(Index(e));
+    if (curves.run[e] < 0) continue;
+    const auto points = curves.of(Index(e));
     for (int k = 1; k < lat.n(); ++k)
       for (int a = 0; a < 3; ++a)
         x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
@@ -173,8 +174,10 @@ PcgLimits ThinPlateSolver::limits_of(double tolerance, const Scales& scale,
 }
 
 LevelReport ThinPlateSolver::solve_level(int level, std::span<const Vec3> targets,
-                                         const PcgLimits& limits, double* x) {
-  if (pads_ || constraint_ || has_couples(level)) return solve_in_rounds(level, targets, limits, x);
+                                         const PcgLimits& limits, HoldInSpace* constraint,
+                                         HeldState& held, double* x) {
+  if (pads_ || constraint || has_couples(level))
+    return solve_in_rounds(level, targets, limits, constraint, held, x);
   residual(level, targets, x, hierarchy_.state().residual.data());
   LevelReport report;
   report.level = level;
@@ -211,8 +214,6 @@ const Array<double>& ThinPlateSolver::surface_below(int level, Array<double>& x)
 
 void ThinPlateSolver::start_level(int level, std::span<const Vec3> targets,
                                   const Array<double>& below, Array<double>& x) {
-  if (pads_) start_loads(level);
-  if (couples_) start_couples(level);
   if (level == base_)
     refine_linearly(grid(level), targets, workers_, x.data());
   else
@@ -226,15 +227,15 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
                                    const std::function<void(const double*)>& on_prediction,
                                    const std::function<void(int, Array<double>&)>& on_level,
                                    HoldInSpace* constraint) {
-  constraint_ = constraint;
-  if (constraint_) constraint_->set_stiffness(stiffness_);
+  if (constraint) constraint->set_stiffness(stiffness_);
   double energy_below = 0;  // energies hardly change from level to level
   for (int l = base_; l <= top(); ++l) {
     monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, top() - l));
     if (weighted_up_to_ >= 0 && l > weighted_up_to_) set_weights(VertexWeights(shared_.weights), l);
     const Array<double>& below = surface_below(l, x);
     const Scales scale = scales(l, targets, x.data());
-    const Loads loads = loads_, whole = whole_below_;
+    const Loads loads = held_.loads, coarse_forces = held_.coarse_forces;
+    start_held(l, !constraint, held_);
     start_level(l, targets, below, x);
     if (l == top() && on_prediction) on_prediction(x.data());
     const auto tolerance = [&](int level) {
@@ -245,27 +246,25 @@ void ThinPlateSolver::solve_nested(std::span<const Vec3> targets, Array<double>&
     const PcgLimits limits = limits_of(tolerance(l), scale, energy_below);
     if (l == top()) finest_limits_ = limits;
     // Tolerances begin from what holds the interpolating surface.
-    if (constraint_ && pads_ && l == std::clamp(level_of_first_loads, base_, top())) {
-      HoldInSpace* const held = std::exchange(constraint_, nullptr);
-      solve_level(l, targets, limits, x.data());
-      constraint_ = held;
-    }
-    reports.push_back(solve_level(l, targets, limits, x.data()));
+    if (constraint && pads_ && l == std::clamp(level_of_first_loads, base_, top()))
+      solve_level(l, targets, limits, nullptr, held_, x.data());
+    reports.push_back(solve_level(l, targets, limits, constraint, held_, x.data()));
     if (leave_thrown_pads(l, targets, x.data())) {
-      std::tie(loads_, whole_below_) = std::tie(loads, whole);
+      std::tie(held_.loads, held_.coarse_forces) = std::tie(loads, coarse_forces);
+      start_held(l, !constraint, held_);
       start_level(l, targets, below, x);
-      const LevelReport thrown =
-          std::exchange(reports.back(), solve_level(l, targets, limits, x.data()));
+      const LevelReport thrown = std::exchange(
+          reports.back(), solve_level(l, targets, limits, constraint, held_, x.data()));
       reports.back().iterations += thrown.iterations;
       reports.back().pad_corrections += thrown.pad_corrections;
     }
     if (l < top()) energy_below = energy(l, x.data());
     if (l < top())
-      hierarchy_.choose_degree(pads_ || constraint_ || has_couples(l) ? pace_ : reports.back(),
-                               tolerance(l), tolerance(l + 1));
+      hierarchy_.choose_degree(
+          pads_ || constraint || has_couples(l) ? equivalent_solve_ : reports.back(), tolerance(l),
+          tolerance(l + 1));
     on_level(l, x);
   }
-  constraint_ = nullptr;
 }
 
 void ThinPlateSolver::solve_moved(std::span<const Vec3> before, std::span<const Vec3> targets,
@@ -280,42 +279,45 @@ void ThinPlateSolver::solve_moved(std::span<const Vec3> before, std::span<const 
   if (on_prediction) on_prediction(x.data());
   PcgLimits limits = finest_limits_;
   limits.tolerance = tolerance;
-  reports.push_back(solve_level(top(), targets, limits, x.data()));
+  reports.push_back(solve_level(top(), targets, limits, nullptr, held_, x.data()));
+}
+
+FeatureCurves ThinPlateSolver::moves_of_curves(const Array<double>& x) const {
+  FeatureCurves moves = *curves_;
+  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+    if (moves.run[e] < 0) continue;
+    Vec3* const moved =
+        moves.points.data() + std::size_t(moves.run[e]) * std::size_t(moves.points_per_edge);
+    const double* const now = x.data() + 3 * std::size_t(grid(top()).edge_base(Index(e)));
+    for (int k = 0; k < moves.points_per_edge; ++k)
+      moved[k] -= Vec3(now[3 * k], now[3 * k + 1], now[3 * k + 2]);
+  }
+  return moves;
 }
 
 // The difference solves the same system, for the differences of what is fixed or weighted.
 void ThinPlateSolver::add_difference(std::span<const Vec3> before, std::span<const Vec3> targets,
                                      Array<double>& x, std::vector<LevelReport>& reports) {
-  const Loads loads = loads_;  // start_level() begins those of the difference
-  const Moments moments = moments_;
-  moved_.resize(targets.size());
-  for (std::size_t v = 0; v < targets.size(); ++v) moved_[v] = targets[v] - before[v];
-  const FeatureCurves& curves = *curves_;
-  moved_curves_ = curves;
-  const GridLevel& finest = grid(top());
-  for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
-    if (curves.run[e] < 0) continue;
-    Vec3* const moved = moved_curves_.points.data() +
-                        std::size_t(curves.run[e]) * std::size_t(curves.points_per_edge);
-    const double* const now = x.data() + 3 * std::size_t(finest.edge_base(Index(e)));
-    for (int k = 0; k < curves.points_per_edge; ++k)
-      moved[k] -= Vec3(now[3 * k], now[3 * k + 1], now[3 * k + 2]);
-  }
-  curves_ = &moved_curves_;
+  std::vector<Vec3> moves(targets.size());
+  for (std::size_t v = 0; v < targets.size(); ++v) moves[v] = targets[v] - before[v];
+  const FeatureCurves curves = moves_of_curves(x);
   PcgLimits rough;
   rough.tolerance = difference_tolerance;
   rough.from_start = true;
   rough.noise = finest_limits_.noise;
   rough.max_iterations = options_.max_iterations;
-  for (int l = base_; l < top(); ++l) {
-    start_level(l, moved_, surface_below(l, difference_), difference_);
-    reports.push_back(solve_level(l, moved_, rough, difference_.data()));
+  HeldState held{{}, Moments(held_.moments.size(), Vec2::Zero())};
+  Array<double> difference;
+  for (int l = base_; l <= top(); ++l) {
+    start_held(l, true, held);
+    start_level(l, moves, surface_below(l, difference), difference);
+    set_fixed(l, moves, curves, difference.data());
+    if (l < top())
+      reports.push_back(solve_level(l, moves, rough, nullptr, held, difference.data()));
   }
-  start_level(top(), moved_, surface_below(top(), difference_), difference_);
-  curves_ = &curves;
-  for_each_index(workers_, 3 * finest.size(), [&](std::size_t i) { x[i] += difference_[i]; });
-  for (std::size_t v = 0; v < loads.size(); ++v) loads_[v] += loads[v];
-  for (std::size_t c = 0; c < moments.size(); ++c) moments_[c] += moments[c];
+  for_each_index(workers_, 3 * grid(top()).size(), [&](std::size_t i) { x[i] += difference[i]; });
+  for (std::size_t v = 0; v < held_.loads.size(); ++v) held_.loads[v] += held.loads[v];
+  for (std::size_t c = 0; c < held.moments.size(); ++c) held_.moments[c] += held.moments[c];
 }
 
 LevelReport ThinPlateSolver::solve_again(int level, std::span<const Vec3> targets, Array<double>& x,
@@ -323,8 +325,8 @@ LevelReport ThinPlateSolver::solve_again(int level, std::span<const Vec3> target
   Array<double> polyhedron(3 * grid(level).size());
   const Scales scale = scales(level, targets, polyhedron.data());
   set_fixed(level, targets, x.data());
-  return solve_level(level, targets, limits_of(tolerance, scale, energy(level, x.data())),
-                     x.data());
+  return solve_level(level, targets, limits_of(tolerance, scale, energy(level, x.data())), nullptr,
+                     held_, x.data());
 }
 
 }  // namespace fairing

@@ -19,6 +19,16 @@ namespace fairing {
 
 class HoldInSpace;
 
+// What holds a surface's control vertices.
+struct HeldState {
+  Loads loads;                          // on the pads; empty without
+  Moments moments;                      // of the couples that fix normals
+  Loads forces{};                       // left at the control vertices on pads
+  Loads coarse_forces{};                // of the hats on the level below a start; or empty
+  const HoldInSpace* placed = nullptr;  // what has placed vertices, while they are
+  std::vector<Vec3> pulls{};            // by which these are held
+};
+
 // The thin-plate system of a control mesh on all its levels, in working coordinates. Builds every
 // level once; solves as often as weights or control positions change.
 //
@@ -68,7 +78,7 @@ class ThinPlateSolver {
   // level.
   const Array<double>& surface_below(int level, Array<double>& x);
   // x <- the start of a level: the control polyhedron on the coarsest, the prolongated surface
-  // below on others.
+  // below on others; without loads and couples.
   void start_level(int level, std::span<const Vec3> targets, const Array<double>& below,
                    Array<double>& x);
 
@@ -84,19 +94,21 @@ class ThinPlateSolver {
 
   // Puts whatever is no unknown in its place: control vertices, points of curves, all outside a
   // region.
-  void set_fixed(int level, std::span<const Vec3> targets, double* x) const;
+  void set_fixed(int level, std::span<const Vec3> targets, double* x) const {
+    set_fixed(level, targets, *curves_, x);
+  }
 
   // The plate's own energy, and with tension's: what is minimized.
   double bending(int level, const double* x);
   double energy(int level, const double* x);
 
   // On the pads, of the surface that was solved for last; empty without pads.
-  Loads& loads() { return loads_; }
+  Loads& loads() { return held_.loads; }
   // Null without.
   const Pads* pads() const { return pads_.get(); }
   // What fixes normals; null where none is.
   const Couples* couples() const { return couples_.get(); }
-  const Moments& moments() const { return moments_; }
+  const Moments& moments() const { return held_.moments; }
 
   // The norm of the control polyhedron's residual on a level: what residuals are relative to.
   double reference_residual(int level, std::span<const Vec3> targets) {
@@ -111,26 +123,34 @@ class ThinPlateSolver {
   // x: room for a surface.
   Scales scales(int level, std::span<const Vec3> targets, double* x);
   PcgLimits limits_of(double tolerance, const Scales& scale, double energy_scale) const;
+  // `constraint` may be null.
   LevelReport solve_level(int level, std::span<const Vec3> targets, const PcgLimits& limits,
-                          double* x);
+                          HoldInSpace* constraint, HeldState& held, double* x);
   // On pads, within tolerances or with fixed normals (solve_in_rounds.cpp).
   struct Rounds;
   LevelReport solve_in_rounds(int level, std::span<const Vec3> targets, const PcgLimits& limits,
-                              double* x);
+                              HoldInSpace* constraint, HeldState& held, double* x);
   // What holds the plate, before those rounds (forces.cpp).
-  void take_pulls(const double* r);
-  void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, double* r);
-  void start_loads(int level);
+  void take_pulls(const double* r, HeldState& held) const;
+  void residual_on_pads(int level, std::span<const Vec3> targets, const double* x, HeldState& held,
+                        double* r);
+  // Those of a level, from those of the one below; `foretells` how they change.
+  void start_held(int level, bool foretells, HeldState& held);
+  void start_loads(int level, bool foretells, HeldState& held);
   // Where x has been thrown off the mesh, point forces take the place of pads. Whether any has.
   bool leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x);
   // Whether couples fix normals on a level: not where hats have no points.
   bool has_couples(int level) const {
     return couples_ && level >= std::min(Couples::first_level, top());
   }
-  void start_couples(int level);
+  void start_couples(int level, Moments& moments);
   void measure_couples(int level);
   void report_progress(int level, const PcgResult& so_far, double tolerance);
   void report_done(int level, double done);  // of the finest level's solve, from 0 to 1
+  void set_fixed(int level, std::span<const Vec3> targets, const FeatureCurves& curves,
+                 double* x) const;
+  // What moves points of curves from where x has them to where they are to be.
+  FeatureCurves moves_of_curves(const Array<double>& x) const;
   void add_difference(std::span<const Vec3> before, std::span<const Vec3> targets, Array<double>& x,
                       std::vector<LevelReport>& reports);
 
@@ -147,23 +167,14 @@ class ThinPlateSolver {
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;
-  std::unique_ptr<Pads> pads_;         // null: control vertices are held by point forces
-  HoldInSpace* constraint_ = nullptr;  // while a surface is solved for from nothing
+  std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   std::vector<double> stiffness_;
-  Loads loads_, forces_;              // on the pads; left at the control vertices on them
-  Loads whole_below_;                 // what hats carried on the level below a start; or empty
   std::unique_ptr<Couples> couples_;  // null: no normal is fixed
-  Moments moments_;                   // of the couples
-  bool is_placed_ = false;            // whether the constraint has placed vertices
-  std::vector<Vec3> pulls_;           // by which these are held
-  LevelSolve pace_;                   // what one solve in place of a level's many would have taken
+  HeldState held_;                    // of the surface that was solved for last
+  LevelSolve equivalent_solve_;       // what one in place of a level's many would have taken
   Array<double> below_;               // the level below a start
   PcgLimits finest_limits_;           // of the last surface that was solved from nothing
-  // Of solve_moved.
-  std::vector<Vec3> moved_;
-  FeatureCurves moved_curves_;
-  Array<double> difference_;
 };
 
 }  // namespace fairing
