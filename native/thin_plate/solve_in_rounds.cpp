@@ -30,22 +30,29 @@ namespace {
 constexpr double solve_gain = 0.15, solve_gain_of_bounds = 0.2, first_gain_of_fine = 0.02;
 // The same where two or three corrections of loads are to be enough.
 constexpr double solve_gain_of_few = 0.3, first_gain_of_few = 0.007;
-constexpr int fine = 16;  // pieces of an edge
+// Pieces of an edge from which on a level is fine.
+constexpr int fine_pieces = 16;
 // What a correction leaves of the forces, before two of them have said it.
 constexpr double first_ratio = 0.3;
 // Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
 constexpr double left_by_iteration = 0.9;
-// Of the corrections to the loads: below the finest level they are starts only.
+// Of what loads carry, relative: what the forces left may be below the finest level, where loads are
+// starts only.
 constexpr double coarse_force_tolerance = 2e-2;
-constexpr double aim = 0.5;  // of the tolerance: what a last correction is to come to
-constexpr int most_corrections = 16, most_of_couples = 32;
-// For tolerances, and where a round costs little: below the finest level, or with a factor.
-// The duality gap that will do below the finest level: the next level changes as much.
+// Of a tolerance: what the last correction is to come to.
+constexpr double last_correction_aim = 0.5;
+// Corrections a level, of loads alone and where couples hold normals.
+constexpr int most_corrections = 16, most_corrections_with_couples = 32;
+// The duality gap, relative to the energy, that will do below the finest level: the next level
+// changes as much.
 constexpr double coarse_plate_gap = 1e-2;
-// Of placed vertices, and a gap that they do not close.
-constexpr int most_turns = 6;
+// Of vertices placed on their balls: rounds, and a gap after which no further one closes it.
+constexpr int most_placed_rounds = 6;
 constexpr double largest_placed_gap = 1e-2;
-constexpr double settled_force = 0.03;  // where so much is left of the loads, the gap is known
+// Of what loads carry, relative: with so much left the gap of placed vertices is known.
+constexpr double settled_force = 0.03;
+// Rounds with new weights for tolerances; the second where a round costs little: below the finest
+// level, or with a factor.
 constexpr int most_rounds = 16, most_cheap_rounds = 60;
 
 // What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
@@ -90,7 +97,7 @@ struct ThinPlateSolver::Rounds {
     if (constraint && !held.placed) return solve_gain_of_bounds;
     const bool few = expects_few();
     if (report.pad_corrections > 0) return few ? solve_gain_of_few : solve_gain;
-    if (solver.grid(level).n() < fine) return solve_gain;
+    if (solver.grid(level).n() < fine_pieces) return solve_gain;
     return few ? first_gain_of_few : first_gain_of_fine;
   }
   // Where no more is asked than can be seen; not where the way of steps hangs on it.
@@ -187,12 +194,12 @@ struct ThinPlateSolver::Rounds {
   bool loads_nearly_settled() {
     if (left_before > 0 && left > 0) ratio = std::clamp(left / left_before, 0.05, 1.0);
     left_before = left;
-    return (ratio * report.pad_force <= aim * wanted_force() &&
-            ratio * tilt <= aim * wanted_tilt()) ||
+    return (ratio * report.pad_force <= last_correction_aim * wanted_force() &&
+            ratio * tilt <= last_correction_aim * wanted_tilt()) ||
            corrections_left() <= 1;
   }
   int corrections_left() const {
-    return (couples ? most_of_couples : most_corrections) + report.constraint_rounds -
+    return (couples ? most_corrections_with_couples : most_corrections) + report.constraint_rounds -
            report.pad_corrections;
   }
 
@@ -280,10 +287,10 @@ struct ThinPlateSolver::Rounds {
         return loads && constraint->gap() <= gap_wanted;
       }
       const bool nearly = loads_nearly_settled();
-      settled = settled || (constraint->turn(energy, aim * gap_wanted) &&
+      settled = settled || (constraint->turn(energy, last_correction_aim * gap_wanted) &&
                             (loads || report.pad_force < settled_force));
       if (turns > 0 && constraint->gap() > largest_placed_gap) return false;
-      if (turns >= most_turns && !whole) return false;
+      if (turns >= most_placed_rounds && !whole) return false;
       whole = settled && (loads || nearly);
       constraint->put_placed(x);
       if (!settled) steps.forget();
