@@ -92,6 +92,7 @@ std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_e
         std::reverse(loop.begin() + 1, loop.end());
         if (!first_missing(loop, rims).empty()) refuse(h, missing, rims);
       }
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
         if (!used.insert(std::uint64_t(a) << 32 | std::uint64_t(b)).second)

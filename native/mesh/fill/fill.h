@@ -29,7 +29,7 @@ struct FilledHole {
   std::vector<Triangle> triangles;
 };
 
-// Turns loops given against the hole's direction around. Throws FairingError for what is no hole of
+// The loops as find_holes() has them, in whatever direction and from wherever they were given. Throws FairingError for what is no hole of
 // this mesh: index_out_of_range, repeated_vertex, nonmanifold_edge, bad_option.
 std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
                                 std::vector<Hole> holes);
