@@ -17,6 +17,10 @@ from .fairing import fair
 from .options import native_options
 from .watching import Progress, SeveralRuns, check_watchers
 
+# A filling is remeshed where fairing has made its area so many times as large: up to there its edges
+# are within a tenth of the length wanted, and to fair it twice only costs as much again.
+_GROWN = 1.2
+
 # Rings of faces around a hole whose vertices say how the surface goes on.
 _RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
@@ -154,15 +158,19 @@ def fill_holes(
     mesh = _Mesh(points, corners, offsets)
     shares = np.linspace(0.1, 1.0, _ROUNDS * len(loops) + 1)
     states = [("none", True, 0)] * len(loops)
+    seen: list[_Near] = []
     for turn in range(_ROUNDS if joint != "position" else 0):
-        if turn and any(len(own) for own, _ in found):
+        if turn:
+            if not any(hole.grown > _GROWN for hole in seen):
+                break
             found = filler.refine(np.concatenate([own for own, _ in found]), *watchers)
-        first = len(points)
+        first, seen = len(points), []
         for row, (own, triangles) in enumerate(found):
             at = turn * len(loops) + row
             run = watched.run(shares[at], shares[at + 1])
             near = _Near(mesh, own, triangles, first, _RINGS[joint])
             moved, states[row] = near.faired(energy, run)
+            seen.append(near)
             first += len(own)
             found[row] = moved, triangles
     watched.finish()
@@ -217,6 +225,7 @@ class _Near:
         flat = [np.searchsorted(known, face).tolist() for face in faces]
         self._new = np.searchsorted(known, triangles)
         self._faces = flat + self._new.tolist()
+        self.grown = 1.0  # the area of the filling, over that before it was faired
         self._weights = np.where(np.arange(len(known)) < size, np.inf, 0.0)
 
     def faired(
@@ -242,12 +251,22 @@ class _Near:
             tries.append((moved, (functional, bool(levels[-1]["converged"]), folds)))
             if levels[-1]["converged"] and not folds:
                 break
-        return min(tries, key=lambda t: (t[1][2], not t[1][1]))
+        moved, state = min(tries, key=lambda t: (t[1][2], not t[1][1]))
+        vertices = np.concatenate([self._vertices[: len(self._vertices) - len(moved)], moved])
+        self.grown = self._area(vertices) / self._area(self._vertices)
+        return moved, state
+
+    def _normals(self, vertices: np.ndarray) -> np.ndarray:
+        """(t, 3) of its new triangles, twice as long as their areas."""
+        corner = vertices[self._new]
+        return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+
+    def _area(self, vertices: np.ndarray) -> float:
+        return float(np.linalg.norm(self._normals(vertices), axis=1).sum())
 
     def _folds(self, vertices: np.ndarray) -> int:
         """Edges between new triangles that turn by more than a right angle."""
-        corner = vertices[self._new]
-        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        normal = self._normals(vertices)
         sides = np.sort(self._new[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         owner = np.repeat(np.arange(len(self._new)), 3)
         order = np.lexsort(sides.T)
