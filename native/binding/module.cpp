@@ -154,6 +154,7 @@ PYBIND11_MODULE(_native, m) {
         "A message about other elements of that kind.");
   bind_solver(m);
   bind_splines(m);
+  bind_fill(m);
   bind_end();
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;

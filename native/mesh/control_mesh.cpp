@@ -37,7 +37,7 @@ void take_faces(const SplitMesh& split, ControlMesh& control) {
   control.sides.reserve(std::size_t(sides));
 }
 
-// --- edges, sides and rings, by OpenMesh: the one place that knows it ---
+// --- edges, sides and rings, by OpenMesh, which only fill/refine.cpp knows beside ---
 
 // The half-edges alone: positions have no business here. Only handles and prev/next/opposite are
 // used, as circulators changed their sense between OpenMesh versions.

@@ -11,6 +11,7 @@ from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
 from .errors import MemoryWarning
 from .fairing import fair
+from .filling import Filled, FilledHole, fill_holes, find_holes
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
 from .result import Result
@@ -20,6 +21,8 @@ from .step import write_step
 __all__ = [
     "Defect",
     "FairingError",
+    "Filled",
+    "FilledHole",
     "MemoryWarning",
     "Monitor",
     "Result",
@@ -28,6 +31,8 @@ __all__ = [
     "__version__",
     "check",
     "fair",
+    "fill_holes",
+    "find_holes",
     "fit_patches",
     "predicted_size",
     "spline_knots",

@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holes of a mesh, found and closed by the fairest surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, index_array, vertex_array
+from .errors import fairing_error
+from .fairing import fair
+from .options import native_options
+from .watching import Progress, SeveralRuns, check_watchers
+
+# A filling is remeshed where fairing has made its area so many times as large: up to there its edges
+# are within a tenth of the length wanted, and to fair it twice only costs as much again.
+_GROWN = 1.2
+
+# Rings of faces around a hole whose vertices say how the surface goes on.
+_RINGS = {"position": 0, "tangent": 1, "curvature": 2}
+
+# The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
+# the density wanted, and is faired again.
+_ROUNDS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class FilledHole:
+    """What has become of one hole.
+
+    loops: list of (k,) int64
+        Its rim, and those of its islands.
+    vertices, faces: range
+        Ids of the new vertices and faces in `Filled`.
+    energy: str
+        The energy that was minimized; "none" where no vertex was new.
+    converged: bool
+        Whether its steps came to their end.
+    folds: int
+        Edges at which the surface turns back, the rim's included.
+    """
+
+    loops: list[np.ndarray]
+    vertices: range
+    faces: range
+    energy: str
+    converged: bool
+    folds: int
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """A mesh whose holes are closed.
+
+    vertices: (N, 3) float64
+        The n old ones first, to the last bit.
+    faces: (M, 3) int64, or the pair (corners, offsets) where not all are triangles
+        The m old ones first.
+    new_faces: (M - m,) int64
+        Ids of the new ones, which are triangles.
+    holes: list of FilledHole
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray | tuple[np.ndarray, np.ndarray]
+    new_faces: np.ndarray
+    holes: list[FilledHole]
+
+
+def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[np.ndarray]:
+    """The holes of a mesh: (k,) int64 vertex ids around each, as a face that fills it runs.
+
+    A walk that touches itself in a vertex is cut there into several loops. The border of an open
+    sheet is a loop like others. Loops begin with their least id and come in the order of these. At
+    edges of more than two faces, and where neighbours disagree on their orientation, there is no
+    telling what a hole is: such walks are left out. Raises FairingError for arrays that make no
+    mesh.
+    """
+    filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
+    return [np.array(loop, np.int64) for loop in filler.find(_native.Monitor(), None)]
+
+
+def fill_holes(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    *,
+    holes: Sequence[Any] | None = None,
+    joint: str = "curvature",
+    energy: str = "total_curvature",
+    density: float = 1.0,
+    threads: int = 0,
+    progress: Progress | None = None,
+    monitor: _native.Monitor | None = None,
+) -> Filled:
+    """Close holes with the fairest surface that goes on from the faces around.
+
+    Triangles over the rim, of the least largest dihedral angle and then of the least area [Barequet
+    and Sharir 1995; Liepa 2003]; split, flipped and relaxed to the density of the rim [Botsch and
+    Kobbelt 2004]; then faired with the faces around held. Nothing that was there changes, not by a
+    bit. Only the faces near a hole take part in fairing.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+        In any unit of length.
+    faces : (m, 3) or (m, 4) int, a list of polygons, or the pair (corners, offsets) of flat arrays
+        All looking the same way.
+    holes : sequence
+        Each a loop of vertex ids, as find_holes() gives them, in either direction; or a sequence of
+        such loops, the rim first, then those of islands in the hole. None: all holes, each loop by
+        itself.
+    joint : "position", "tangent" or "curvature"
+        What the filling takes over at the rim: nothing but the place (the least area), the tangent
+        planes (of one ring of faces), or the curvature (of two rings).
+    energy : "total_curvature", "thin_plate" or "minimum_variation"
+        As in fair(). Where it does not converge, or folds, the thin plate takes its place
+        (FilledHole.energy).
+    density : float
+        New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
+        new vertices, but where the mesh would get an edge twice.
+    threads : int
+        0: all cores. The result is the same, to the last bit, for any number.
+    progress : callable(fraction, phase)
+        Called from this thread; returning False cancels.
+    monitor : Monitor
+        For watching and cancelling from another thread.
+
+    Returns
+    -------
+    Filled
+
+    Raises
+    ------
+    FairingError
+        BAD_OPTION for a loop that is no hole, NONMANIFOLD_EDGE, REPEATED_VERTEX and
+        INDEX_OUT_OF_RANGE with the ids concerned; TOO_LARGE for loops of more than 16,384 vertices;
+        CANCELLED after a cancel.
+    """
+    check_watchers(progress, monitor)
+    if joint not in _RINGS:
+        raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(_RINGS)}.")
+    native_options(energy=energy, threads=threads)  # refuses what fair() would
+    if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
+        raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
+    points = vertex_array(vertices)
+    corners, offsets = face_arrays(faces)
+    watched = SeveralRuns(progress, monitor, threads)
+    filler = _native.Filler(points, corners, offsets)
+    quiet = watched.run(0.0, 0.1)
+    watchers = quiet["monitor"], quiet["progress"]
+    loops = _asked(holes) if holes is not None else [[h] for h in filler.find(*watchers)]
+    found = filler.fill(loops, float(density), *watchers)
+    mesh = _Mesh(points, corners, offsets)
+    shares = np.linspace(0.1, 1.0, _ROUNDS * len(loops) + 1)
+    states = [("none", True, 0)] * len(loops)
+    seen: list[_Near] = []
+    for turn in range(_ROUNDS if joint != "position" else 0):
+        if turn:
+            if not any(hole.grown > _GROWN for hole in seen):
+                break
+            found = filler.refine(np.concatenate([own for own, _ in found]), *watchers)
+        first, seen = len(points), []
+        for row, (own, triangles) in enumerate(found):
+            at = turn * len(loops) + row
+            run = watched.run(shares[at], shares[at + 1])
+            near = _Near(mesh, own, triangles, first, _RINGS[joint])
+            moved, states[row] = near.faired(energy, run)
+            seen.append(near)
+            first += len(own)
+            found[row] = moved, triangles
+    watched.finish()
+    return _put_together(mesh, [list(map(np.array, h)) for h in loops], found, states)
+
+
+def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
+    """The caller's holes as loops of plain ids."""
+    found = []
+    for hole in holes:
+        nested = len(hole) > 0 and np.ndim(hole[0]) == 1
+        parts = hole if nested else [hole]
+        found.append([index_array(part, "holes").reshape(-1).tolist() for part in parts])
+    return found
+
+
+@dataclass(frozen=True)
+class _Mesh:
+    points: np.ndarray  # (n, 3)
+    corners: np.ndarray  # (c,)
+    offsets: np.ndarray  # (m + 1,)
+
+    def touching(self, vertices: np.ndarray) -> np.ndarray:
+        """(f,) ids of the faces with one of these vertices."""
+        marked = np.zeros(len(self.points), bool)
+        marked[vertices] = True
+        at = np.flatnonzero(marked[self.corners])
+        return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
+
+    def corners_of(self, faces: np.ndarray) -> list[list[int]]:
+        starts, ends = self.offsets[faces].tolist(), self.offsets[faces + 1].tolist()
+        return [self.corners[a:b].tolist() for a, b in zip(starts, ends, strict=True)]
+
+
+class _Near:
+    """What fills one hole, and the faces around, as a mesh of its own."""
+
+    def __init__(
+        self, mesh: _Mesh, own: np.ndarray, triangles: np.ndarray, first: int, rings: int
+    ) -> None:
+        self._own = own
+        rim = np.unique(triangles[triangles < len(mesh.points)])
+        faces: list[list[int]] = []
+        ids = rim
+        for _ in range(rings):
+            faces = mesh.corners_of(mesh.touching(ids))
+            ids = np.unique(np.concatenate([rim, *faces]).astype(np.int64))
+        size = len(ids)
+        fresh = np.arange(first, first + len(own))
+        self._vertices = np.concatenate([mesh.points[ids], own])
+        known = np.concatenate([ids, fresh])
+        flat = [np.searchsorted(known, face).tolist() for face in faces]
+        self._new = np.searchsorted(known, triangles)
+        self._faces = flat + self._new.tolist()
+        self.grown = 1.0  # the area of the filling, over that before it was faired
+        self._weights = np.where(np.arange(len(known)) < size, np.inf, 0.0)
+
+    def faired(
+        self, energy: str, watchers: dict[str, Any]
+    ) -> tuple[np.ndarray, tuple[str, bool, int]]:
+        """The places of its own vertices; the energy, whether it converged, and folds."""
+        if not len(self._own):
+            return self._own, ("none", True, self._folds(self._vertices))
+        tries = []
+        for functional in dict.fromkeys([energy, "thin_plate"]):
+            result = fair(
+                self._vertices,
+                self._faces,
+                levels=0,
+                energy=functional,
+                interpolation="approximate",
+                weights=self._weights,
+                **watchers,
+            )
+            levels = result.report.get("curvature") or [{"converged": True}]
+            folds = self._folds(result.vertices)
+            moved = result.vertices[len(self._vertices) - len(self._own) : len(self._vertices)]
+            tries.append((moved, (functional, bool(levels[-1]["converged"]), folds)))
+            if levels[-1]["converged"] and not folds:
+                break
+        moved, state = min(tries, key=lambda t: (t[1][2], not t[1][1]))
+        vertices = np.concatenate([self._vertices[: len(self._vertices) - len(moved)], moved])
+        self.grown = self._area(vertices) / self._area(self._vertices)
+        return moved, state
+
+    def _normals(self, vertices: np.ndarray) -> np.ndarray:
+        """(t, 3) of its new triangles, twice as long as their areas."""
+        corner = vertices[self._new]
+        return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+
+    def _area(self, vertices: np.ndarray) -> float:
+        return float(np.linalg.norm(self._normals(vertices), axis=1).sum())
+
+    def _folds(self, vertices: np.ndarray) -> int:
+        """Edges between new triangles that turn by more than a right angle."""
+        normal = self._normals(vertices)
+        sides = np.sort(self._new[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        owner = np.repeat(np.arange(len(self._new)), 3)
+        order = np.lexsort(sides.T)
+        sides, owner = sides[order], owner[order]
+        same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+        return int(((normal[owner[same]] * normal[owner[same + 1]]).sum(axis=1) < 0.0).sum())
+
+
+def _put_together(
+    mesh: _Mesh,
+    loops: list[list[np.ndarray]],
+    found: list[tuple[np.ndarray, np.ndarray]],
+    states: list[tuple[str, bool, int]],
+) -> Filled:
+    count, faces = len(mesh.points), len(mesh.offsets) - 1
+    holes = []
+    vertex, face = count, faces
+    for rims, (own, triangles), state in zip(loops, found, states, strict=True):
+        more, filled = range(vertex, vertex + len(own)), range(face, face + len(triangles))
+        holes.append(FilledHole(rims, more, filled, *state))
+        vertex, face = more.stop, filled.stop
+    vertices = np.concatenate([mesh.points, *(own for own, _ in found)])
+    new = np.concatenate([np.empty((0, 3), np.int64), *(t for _, t in found)]).astype(np.int64)
+    sizes = np.diff(mesh.offsets)
+    corners = np.concatenate([mesh.corners, new.reshape(-1)])
+    if (sizes == 3).all():
+        whole: Any = corners.reshape(-1, 3)
+    else:
+        ends = mesh.offsets[-1] + 3 * np.arange(1, len(new) + 1)
+        whole = corners, np.concatenate([mesh.offsets, ends])
+    return Filled(vertices, whole, np.arange(faces, face), holes)

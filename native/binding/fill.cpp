@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/fill.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "binding/arrays.h"
+#include "binding/bindings.h"
+#include "binding/construct.h"
+#include "binding/runner.h"
+#include "mesh/validate/check.h"
+#include "parallel/cancel.h"
+
+namespace py = pybind11;
+
+namespace fairing {
+namespace {
+
+// A mesh with holes, and what fills them so far.
+class Filler {
+ public:
+  Filler(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+         const Contiguous<std::int64_t>& offsets)
+      : mesh_(copy_of(vertices, corners, offsets)) {}
+
+  std::vector<HoleLoop> find(Monitor& monitor, const py::object& progress) {
+    std::vector<HoleLoop> loops;
+    run(monitor, progress, [&] { loops = find_holes(mesh_.view(), half_edges()); });
+    return loops;
+  }
+
+  py::list fill(std::vector<Hole> holes, double density, Monitor& monitor,
+                const py::object& progress) {
+    run(monitor, progress, [&] {
+      holes_ = checked_holes(mesh_.view(), half_edges(), std::move(holes));
+      options_ = {.density = density};
+      filled_ = fairing::fill(mesh_.view(), half_edges(), holes_, options_);
+    });
+    return arrays();
+  }
+
+  // `points`: (k, 3), of all new vertices.
+  py::list refine(const Contiguous<double>& points, Monitor& monitor, const py::object& progress) {
+    const std::vector<double> moved = copy_of(points);
+    std::size_t at = 0;
+    for (FilledHole& hole : filled_)
+      for (Vec3& p : hole.points) {
+        p = Vec3(moved.at(at), moved.at(at + 1), moved.at(at + 2));
+        at += 3;
+      }
+    run(monitor, progress,
+        [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, filled_); });
+    return arrays();
+  }
+
+ private:
+  template <class Job>
+  void run(Monitor& monitor, const py::object& progress, Job&& job) {
+    Runner().run(
+        [&] {
+          const CancelScope scope(&monitor);
+          job();
+        },
+        monitor, nullptr, progress);
+  }
+
+  const HalfEdges& half_edges() {
+    if (!half_edges_) {
+      require_arrays(mesh_.view());
+      half_edges_ = std::make_unique<HalfEdges>(mesh_.view());
+    }
+    return *half_edges_;
+  }
+
+  // Of each hole, its own vertices (k, 3) float64 and triangles (t, 3) int32.
+  py::list arrays() const {
+    py::list found;
+    for (const FilledHole& hole : filled_) {
+      Array<double> points;
+      for (const Vec3& p : hole.points) points.insert(points.end(), p.begin(), p.end());
+      Array<std::int32_t> triangles;
+      for (const Triangle& t : hole.triangles)
+        triangles.insert(triangles.end(), t.begin(), t.end());
+      found.append(
+          py::make_tuple(to_numpy(std::move(points), 3), to_numpy(std::move(triangles), 3)));
+    }
+    return found;
+  }
+
+  OwnedPolygonMesh mesh_;
+  std::unique_ptr<HalfEdges> half_edges_;
+  std::vector<Hole> holes_;
+  FillOptions options_;
+  std::vector<FilledHole> filled_;
+};
+
+}  // namespace
+
+void bind_fill(py::module_& m) {
+  py::class_<Filler> filler(m, "Filler", "For the package's find_holes() and fill_holes().");
+  define_constructor<const Contiguous<double>&, const Contiguous<std::int64_t>&,
+                     const Contiguous<std::int64_t>&>(filler, py::arg("vertices").noconvert(),
+                                                      py::arg("corners").noconvert(),
+                                                      py::arg("offsets").noconvert());
+  filler.def("find", &Filler::find, py::arg("monitor"), py::arg("progress"))
+      .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("monitor"),
+           py::arg("progress"))
+      .def("refine", &Filler::refine, py::arg("points").noconvert(), py::arg("monitor"),
+           py::arg("progress"));
+}
+
+}  // namespace fairing

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/fill.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "mesh/fill/rims.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// How often a triangulation is looked for anew, without an edge that it had twice.
+constexpr int most_tries = 50;
+
+// Sweeps by which the wanted lengths even out along a ragged rim.
+constexpr int length_sweeps = 2;
+
+// One hole in numbers of its own: the vertices of its loops, one loop after another.
+class OneHole {
+ public:
+  OneHole(const Hole& hole, Rims& rims) : rims_(rims) {
+    for (const HoleLoop& loop : hole) {
+      begin_.push_back(ids_.size());
+      ids_.insert(ids_.end(), loop.begin(), loop.end());
+    }
+    begin_.push_back(ids_.size());
+  }
+
+  const std::vector<std::int64_t>& ids() const { return ids_; }
+
+  // The rim of the patch, without triangles.
+  Patch rim(double density) const {
+    Patch patch;
+    patch.rim = Index(ids_.size());
+    for (const std::int64_t v : ids_) patch.points.push_back(rims_.point(v));
+    patch.lengths.resize(ids_.size());
+    for (std::size_t l = 0; l + 1 < begin_.size(); ++l) {
+      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
+        patch.lengths[i] = ((patch.points[i] - patch.points[after(i, l)]).norm() +
+                            (patch.points[i] - patch.points[before(i, l)]).norm()) /
+                           (2 * (density > 0 ? density : 1));
+      for (int sweep = 0; sweep < length_sweeps; ++sweep) even_out(patch.lengths, l);
+    }
+    return patch;
+  }
+
+  void triangulate_into(Patch& patch) {
+    walk_all(patch.points);
+    std::set<std::pair<std::size_t, std::size_t>> forbidden;
+    for (int tries = 0; tries < most_tries; ++tries) {
+      const std::vector<Triangle> found = triangulate(polygon(patch.points, forbidden));
+      if (found.empty()) break;
+      if (!forbid_twins(found, forbidden)) {
+        for (const Triangle& t : found)
+          patch.triangles.push_back(
+              {walk_[std::size_t(t[0])], walk_[std::size_t(t[1])], walk_[std::size_t(t[2])]});
+        return;
+      }
+    }
+    fan_into(patch);
+  }
+
+  bool joined(Index a, Index b) const {
+    return rims_.are_joined(ids_[std::size_t(a)], ids_[std::size_t(b)]);
+  }
+
+ private:
+  std::size_t after(std::size_t i, std::size_t l) const {
+    return i + 1 == begin_[l + 1] ? begin_[l] : i + 1;
+  }
+  std::size_t before(std::size_t i, std::size_t l) const {
+    return i == begin_[l] ? begin_[l + 1] - 1 : i - 1;
+  }
+
+  void even_out(std::vector<double>& lengths, std::size_t l) const {
+    std::vector<double> even;
+    for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
+      even.push_back((lengths[before(i, l)] + 2 * lengths[i] + lengths[after(i, l)]) / 4);
+    std::copy(even.begin(), even.end(), lengths.begin() + std::ptrdiff_t(begin_[l]));
+  }
+
+  // One walk around the hole and, over bridges, around its islands: the nearest first.
+  void walk_all(const std::vector<Vec3>& points) {
+    walk_.clear();
+    for (std::size_t i = 0; i < begin_[1]; ++i) walk_.push_back(Index(i));
+    std::vector<std::uint8_t> reached(begin_.size() - 1, 0);
+    reached[0] = 1;
+    for (std::size_t left = begin_.size() - 2; left > 0; --left) {
+      double least = std::numeric_limits<double>::infinity();
+      std::size_t place = 0, shore = 0, island = 0;
+      for (std::size_t l = 1; l + 1 < begin_.size(); ++l) {
+        if (reached[l]) continue;
+        for (std::size_t p = 0; p < walk_.size(); ++p) {
+          stop_if_cancelled(p);
+          for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i) {
+            const double distance = (points[std::size_t(walk_[p])] - points[i]).squaredNorm();
+            if (distance >= least || joined(walk_[p], Index(i))) continue;
+            least = distance, place = p, shore = i, island = l;
+          }
+        }
+      }
+      if (island == 0) no_surface();
+      bridge(place, shore, island);
+      reached[island] = 1;
+    }
+  }
+
+  void bridge(std::size_t place, std::size_t shore, std::size_t island) {
+    std::vector<Index> way;
+    std::size_t i = shore;
+    do {
+      way.push_back(Index(i));
+      i = after(i, island);
+    } while (i != shore);
+    way.push_back(Index(shore));
+    way.push_back(walk_[place]);
+    bridges_.insert(std::minmax(walk_[place], Index(shore)));
+    walk_.insert(walk_.begin() + std::ptrdiff_t(place) + 1, way.begin(), way.end());
+  }
+
+  SpacePolygon polygon(const std::vector<Vec3>& points,
+                       const std::set<std::pair<std::size_t, std::size_t>>& forbidden) const {
+    SpacePolygon found;
+    for (std::size_t p = 0; p < walk_.size(); ++p) {
+      const Index a = walk_[p], b = walk_[(p + 1) % walk_.size()];
+      found.points.push_back(points[std::size_t(a)]);
+      const bool is_bridge = bridges_.contains(std::minmax(a, b));
+      found.normals.push_back(
+          is_bridge ? Vec3(Vec3::Zero())
+                    : rims_.normal_beside(ids_[std::size_t(b)], ids_[std::size_t(a)]));
+    }
+    found.may_join = [this, &forbidden](std::size_t low, std::size_t high) {
+      const Index a = walk_[low], b = walk_[high];
+      return a != b && !joined(a, b) && !bridges_.contains(std::minmax(a, b)) &&
+             (forbidden.empty() || !forbidden.contains({low, high}));
+    };
+    return found;
+  }
+
+  // Around islands a triangulation may join two vertices twice. Whether it does; the second time is
+  // forbidden from now on.
+  bool forbid_twins(const std::vector<Triangle>& triangles,
+                    std::set<std::pair<std::size_t, std::size_t>>& forbidden) const {
+    std::map<std::pair<Index, Index>, std::pair<std::size_t, std::size_t>> first;
+    const std::size_t before = forbidden.size();
+    for (const Triangle& t : triangles)
+      for (const auto& [low, high] : {std::pair(t[0], t[1]), {t[1], t[2]}, {t[0], t[2]}}) {
+        const std::pair<std::size_t, std::size_t> places{low, high};
+        const bool side = high == low + 1 || (low == 0 && high + 1 == Index(walk_.size()));
+        if (side) continue;
+        const auto ends = std::minmax(walk_[places.first], walk_[places.second]);
+        const auto [at, is_new] = first.try_emplace({ends.first, ends.second}, places);
+        if (!is_new && at->second != places) forbidden.insert(places);
+      }
+    return forbidden.size() > before;
+  }
+
+  // Where every triangulation would double an edge of the mesh: around a vertex in the middle.
+  void fan_into(Patch& patch) const {
+    if (begin_.size() > 2) no_surface();
+    const auto size = ids_.size();
+    Vec3 middle = Vec3::Zero();
+    double length = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      middle += patch.points[i] / double(size);
+      length += patch.lengths[i] / double(size);
+    }
+    patch.points.push_back(middle);
+    patch.lengths.push_back(length);
+    for (std::size_t i = 0; i < size; ++i)
+      patch.triangles.push_back({Index(i), Index((i + 1) % size), Index(size)});
+  }
+
+  [[noreturn]] void no_surface() const {
+    throw FairingError(ErrorCode::bad_option,
+                       "The islands of the hole at vertex " + std::to_string(ids_[0]) +
+                           " cannot be joined to its rim: fill it without them.",
+                       {ids_[0]}, ElementKind::vertex);
+  }
+
+  Rims& rims_;
+  std::vector<std::int64_t> ids_;
+  std::vector<std::size_t> begin_;  // of each loop, and the end
+  std::vector<Index> walk_;
+  std::set<std::pair<Index, Index>> bridges_;
+};
+
+// With its own vertices numbered on from `first`; its edges between vertices of rims are noted.
+FilledHole numbered(const Patch& patch, const OneHole& hole, std::int64_t first, Rims& rims) {
+  FilledHole filled;
+  const auto rim = std::size_t(patch.rim);
+  filled.points.assign(patch.points.begin() + patch.rim, patch.points.end());
+  filled.lengths.assign(patch.lengths.begin() + patch.rim, patch.lengths.end());
+  const auto id = [&](Index v) {
+    const auto i = std::size_t(v);
+    return i < rim ? hole.ids()[i] : first + std::int64_t(i - rim);
+  };
+  if (first + std::int64_t(filled.points.size()) > std::numeric_limits<Index>::max())
+    throw FairingError(ErrorCode::too_large, "The mesh would have too many vertices.");
+  for (const Triangle& t : patch.triangles) {
+    filled.triangles.push_back({Index(id(t[0])), Index(id(t[1])), Index(id(t[2]))});
+    for (int i = 0; i < 3; ++i) {
+      const Index a = t[std::size_t(i)], b = t[std::size_t((i + 1) % 3)];
+      if (a < patch.rim && b < patch.rim) rims.join(id(a), id(b));
+    }
+  }
+  return filled;
+}
+
+void refine_patch(Patch& patch, const OneHole& hole, const FillOptions& options,
+                  Relaxation relaxation) {
+  if (options.density > 0)
+    refine(patch, [&](Index a, Index b) { return hole.joined(a, b); }, relaxation);
+}
+
+}  // namespace
+
+std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                             std::span<const Hole> holes, const FillOptions& options) {
+  Rims rims(mesh, half_edges, holes);
+  std::vector<FilledHole> filled;
+  std::int64_t next = mesh.vertex_count();
+  for (const Hole& hole : holes) {
+    OneHole one(hole, rims);
+    Patch patch = one.rim(options.density);
+    one.triangulate_into(patch);
+    refine_patch(patch, one, options, Relaxation::taut);
+    filled.push_back(numbered(patch, one, next, rims));
+    next += std::int64_t(filled.back().points.size());
+  }
+  return filled;
+}
+
+void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
+                  const FillOptions& options, std::vector<FilledHole>& filled) {
+  Rims rims(mesh, half_edges, holes);
+  std::int64_t before = mesh.vertex_count(), next = before;
+  for (std::size_t h = 0; h < holes.size(); ++h) {
+    OneHole one(holes[h], rims);
+    Patch patch = one.rim(options.density);
+    std::map<std::int64_t, Index> own;
+    for (std::size_t i = 0; i < one.ids().size(); ++i) own[one.ids()[i]] = Index(i);
+    patch.points.insert(patch.points.end(), filled[h].points.begin(), filled[h].points.end());
+    patch.lengths.insert(patch.lengths.end(), filled[h].lengths.begin(), filled[h].lengths.end());
+    for (const Triangle& t : filled[h].triangles) {
+      Triangle local;
+      for (std::size_t i = 0; i < 3; ++i)
+        local[i] = t[i] < mesh.vertex_count() ? own.at(t[i])
+                                              : Index(patch.rim + (std::int64_t(t[i]) - before));
+      patch.triangles.push_back(local);
+    }
+    before += std::int64_t(filled[h].points.size());
+    refine_patch(patch, one, options, Relaxation::sliding);
+    filled[h] = numbered(patch, one, next, rims);
+    next += std::int64_t(filled[h].points.size());
+  }
+}
+
+}  // namespace fairing

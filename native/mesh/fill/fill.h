@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Closes holes with new triangles. What was there stays: new vertices and faces are numbered on.
+//
+// All functions here may throw FairingError(cancelled) and std::bad_alloc.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/fill/holes.h"
+#include "mesh/fill/refine.h"
+
+namespace fairing {
+
+struct FillOptions {
+  // New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no new
+  // vertices, where the hole can do without.
+  double density = 1;
+};
+
+// The loop around a hole and those of islands in it, each running as find_holes() has them.
+using Hole = std::vector<HoleLoop>;
+
+// The new faces of one hole: triangles of vertex ids, of which those from the mesh's number of
+// vertices on are its own, and follow on those of the hole before.
+struct FilledHole {
+  std::vector<Vec3> points;     // of its own vertices
+  std::vector<double> lengths;  // of edges wanted at each
+  std::vector<Triangle> triangles;
+};
+
+// The loops as find_holes() has them, in whatever direction and from wherever they were given. Throws FairingError for what is no hole of
+// this mesh: index_out_of_range, repeated_vertex, nonmanifold_edge, bad_option.
+std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                                std::vector<Hole> holes);
+
+// Fills checked holes, one after another. Throws FairingError: too_large for loops of more than
+// 16,384 vertices.
+std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                             std::span<const Hole> holes, const FillOptions& options);
+
+// The same filling, whose vertices have been moved, with triangles that fit its new shape.
+void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
+                  const FillOptions& options, std::vector<FilledHole>& filled);
+
+}  // namespace fairing

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/refine.h"
+
+#include <Eigen/Geometry>
+#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Mesh = OpenMesh::TriConnectivity;
+using Half = OpenMesh::HalfedgeHandle;
+using EdgeHandle = OpenMesh::EdgeHandle;
+using VertexHandle = OpenMesh::VertexHandle;
+
+// An edge is split, or collapsed, where that brings its length nearer to the one wanted.
+constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
+
+// Rounds of splits, and sweeps of relaxation in each: angles change no more after some ten, of
+// which the first few find the number of points.
+constexpr int most_rounds = 40, settled_rounds = 6, sweeps = 4;
+
+constexpr std::size_t most_points = 100'000'000;
+
+// Cosine of the sharpest turn that a flip may leave between its two triangles, or make with one.
+constexpr double sharpest = 0.5;
+
+class Refinement {
+ public:
+  Refinement(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation)
+      : patch_(patch), joined_(joined), relaxation_(relaxation) {
+    mesh_.request_vertex_status();
+    mesh_.request_halfedge_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    for (std::size_t v = 0; v < patch.points.size(); ++v) mesh_.add_vertex();
+    for (const Triangle& t : patch.triangles) {
+      const VertexHandle corners[3] = {VertexHandle(t[0]), VertexHandle(t[1]), VertexHandle(t[2])};
+      if (!mesh_.add_face(corners, 3).is_valid())
+        throw FairingError(ErrorCode::nonmanifold_vertex,
+                           "The rim of the hole touches itself in a way that no surface fills.");
+    }
+  }
+
+  void run() {
+    flip_all();
+    int settled = 0;
+    for (int round = 0; round < most_rounds && settled < settled_rounds; ++round) {
+      const std::size_t split = split_all(), collapsed = collapse_all();
+      flip_all();
+      const std::size_t few = mesh_.n_edges() / 100;
+      settled += split + collapsed <= few;
+      for (int sweep = 0; sweep < sweeps; ++sweep) {
+        relax();
+        flip_all();
+      }
+    }
+    write();
+  }
+
+ private:
+  const Vec3& point(VertexHandle v) const { return patch_.points[std::size_t(v.idx())]; }
+  double& wanted(VertexHandle v) { return patch_.lengths[std::size_t(v.idx())]; }
+  VertexHandle from(Half h) const { return mesh_.from_vertex_handle(h); }
+  VertexHandle to(Half h) const { return mesh_.to_vertex_handle(h); }
+  bool on_rim(VertexHandle v) const { return v.idx() < patch_.rim; }
+  bool is_gone(EdgeHandle e) const { return mesh_.status(e).deleted(); }
+  VertexHandle opposite(Half h) const { return to(mesh_.next_halfedge_handle(h)); }
+
+  // Length over the one wanted there.
+  double relative_length(EdgeHandle e) {
+    const Half h = mesh_.halfedge_handle(e, 0);
+    return (point(to(h)) - point(from(h))).norm() * 2 / (wanted(to(h)) + wanted(from(h)));
+  }
+
+  Vec3 area(VertexHandle a, VertexHandle b, VertexHandle c) const {
+    return (point(b) - point(a)).cross(point(c) - point(a));
+  }
+
+  // The smallest angle's cosine at the corners of a triangle: large is bad; 2 without area.
+  double badness(VertexHandle a, VertexHandle b, VertexHandle c) const {
+    const Vec3 sides[3] = {point(b) - point(a), point(c) - point(b), point(a) - point(c)};
+    double worst = -1;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &leaving = sides[i], &arriving = sides[(i + 2) % 3];
+      const double lengths = leaving.norm() * arriving.norm();
+      if (lengths <= 0) return 2;
+      worst = std::max(worst, -leaving.dot(arriving) / lengths);
+    }
+    return worst;
+  }
+
+  std::size_t split_all() {
+    std::vector<std::pair<double, int>> longest;
+    for (int e = 0; e < int(mesh_.n_edges()); ++e) {
+      const EdgeHandle edge(e);
+      if (is_gone(edge) || mesh_.is_boundary(edge)) continue;
+      const double length = relative_length(edge);
+      if (length > too_long) longest.push_back({-length, e});
+    }
+    std::sort(longest.begin(), longest.end());
+    if (patch_.points.size() + longest.size() > most_points)
+      throw FairingError(ErrorCode::too_large,
+                         "The filling would have more than a hundred million vertices: lower the "
+                         "density.");
+    for (std::size_t i = 0; i < longest.size(); ++i) {
+      stop_if_cancelled(i);
+      split(EdgeHandle(longest[i].second));
+    }
+    return longest.size();
+  }
+
+  void split(EdgeHandle e) {
+    const Half h = mesh_.halfedge_handle(e, 0);
+    const VertexHandle a = from(h), b = to(h);
+    const Vec3 middle = (point(a) + point(b)) / 2;
+    const double length = (wanted(a) + wanted(b)) / 2;
+    patch_.points.push_back(middle);
+    patch_.lengths.push_back(length);
+    mesh_.split(e, mesh_.add_vertex());
+  }
+
+  std::size_t collapse_all() {
+    std::size_t count = 0;
+    for (int e = 0; e < int(mesh_.n_edges()); ++e) {
+      stop_if_cancelled(std::size_t(e));
+      const EdgeHandle edge(e);
+      if (is_gone(edge) || mesh_.is_boundary(edge) || relative_length(edge) >= too_short) continue;
+      for (const int side : {0, 1}) {
+        const Half h = mesh_.halfedge_handle(edge, side);
+        if (on_rim(from(h)) || !may_collapse(h)) continue;
+        mesh_.collapse(h);
+        ++count;
+        break;
+      }
+    }
+    return count;
+  }
+
+  // Whether from(h), inside, may go where to(h) is: no edge gets long, no triangle turns over.
+  bool may_collapse(Half h) {
+    if (!mesh_.is_collapse_ok(h)) return false;
+    const VertexHandle gone = from(h), kept = to(h);
+    Half spoke = h;
+    do {
+      const VertexHandle other = to(spoke), next = opposite(spoke);
+      if (other != kept && on_rim(other) && on_rim(kept) && joined_(other.idx(), kept.idx()))
+        return false;
+      const double length = (point(other) - point(kept)).norm();
+      if (2 * length > too_long * (wanted(other) + wanted(kept))) return false;
+      if (other != kept && next != kept) {
+        const Vec3 before = area(gone, other, next), after = area(kept, other, next);
+        if (before.dot(after) <= sharpest * before.norm() * after.norm()) return false;
+      }
+      spoke = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(spoke));
+    } while (spoke != h);
+    return true;
+  }
+
+  // Until no flip makes the smallest of two triangles' angles larger.
+  void flip_all() {
+    std::vector<int> open(mesh_.n_edges());
+    for (std::size_t e = 0; e < open.size(); ++e) open[e] = int(e);
+    for (int pass = 0; pass < 50 && !open.empty(); ++pass) {
+      std::vector<int> next;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        stop_if_cancelled(i);
+        const EdgeHandle edge(open[i]);
+        if (!should_flip(edge)) continue;
+        mesh_.flip(edge);
+        for (const int side : {0, 1}) {
+          const Half h = mesh_.halfedge_handle(edge, side);
+          next.push_back(mesh_.next_halfedge_handle(h).idx() / 2);
+          next.push_back(mesh_.prev_halfedge_handle(h).idx() / 2);
+        }
+      }
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      open = std::move(next);
+    }
+  }
+
+  bool should_flip(EdgeHandle e) {
+    if (is_gone(e) || mesh_.is_boundary(e) || !mesh_.is_flip_ok(e)) return false;
+    const Half h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
+    const VertexHandle a = from(h), b = to(h), c = opposite(h), d = opposite(back);
+    if (on_rim(c) && on_rim(d) && joined_(c.idx(), d.idx())) return false;
+    const double now = std::max(badness(a, b, c), badness(b, a, d));
+    const double then = std::max(badness(c, d, b), badness(d, c, a));
+    if (then >= now - 1e-9) return false;
+    const Vec3 old[2] = {area(a, b, c), area(b, a, d)}, fresh[2] = {area(c, d, b), area(d, c, a)};
+    const Vec3 mean = old[0] + old[1];
+    for (const Vec3& normal : fresh)
+      if (normal.dot(mean) <= sharpest * normal.norm() * mean.norm()) return false;
+    return true;
+  }
+
+  void relax() {
+    for (int v = patch_.rim; v < int(mesh_.n_vertices()); ++v) {
+      stop_if_cancelled(std::size_t(v));
+      const VertexHandle vertex(v);
+      if (mesh_.status(vertex).deleted()) continue;
+      const Half first = mesh_.halfedge_handle(vertex);
+      Vec3 mean = Vec3::Zero(), normal = Vec3::Zero();
+      double length = 0;
+      int count = 0;
+      Half h = first;
+      do {
+        mean += point(to(h));
+        length += wanted(to(h));
+        normal += area(vertex, to(h), opposite(h));
+        ++count;
+        h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+      } while (h != first);
+      Vec3 step = mean / count - point(vertex);
+      if (relaxation_ == Relaxation::sliding && normal.squaredNorm() > 0)
+        step -= step.dot(normal) / normal.squaredNorm() * normal;
+      patch_.points[std::size_t(v)] += step;
+      wanted(vertex) = length / count;
+    }
+  }
+
+  void write() {
+    std::vector<Index> number(mesh_.n_vertices(), -1);
+    Index count = 0;
+    for (int v = 0; v < int(mesh_.n_vertices()); ++v) {
+      if (v >= patch_.rim && mesh_.status(VertexHandle(v)).deleted()) continue;
+      number[std::size_t(v)] = count;
+      patch_.points[std::size_t(count)] = patch_.points[std::size_t(v)];
+      patch_.lengths[std::size_t(count++)] = patch_.lengths[std::size_t(v)];
+    }
+    patch_.points.resize(std::size_t(count));
+    patch_.lengths.resize(std::size_t(count));
+    patch_.triangles.clear();
+    for (int f = 0; f < int(mesh_.n_faces()); ++f) {
+      const OpenMesh::FaceHandle face(f);
+      if (mesh_.status(face).deleted()) continue;
+      const Half h = mesh_.halfedge_handle(face);
+      patch_.triangles.push_back({number[std::size_t(from(h).idx())],
+                                  number[std::size_t(to(h).idx())],
+                                  number[std::size_t(opposite(h).idx())]});
+    }
+  }
+
+  Patch& patch_;
+  const std::function<bool(Index, Index)>& joined_;
+  Relaxation relaxation_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+void refine(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation) {
+  Refinement(patch, joined, relaxation).run();
+}
+
+}  // namespace fairing

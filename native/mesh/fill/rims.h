@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mesh is like around its holes. For mesh/fill/ only.
+#pragma once
+
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "mesh/fill/fill.h"
+
+namespace fairing {
+
+class Rims {
+ public:
+  // Of all vertices in these loops; the mesh must outlive this.
+  Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes);
+
+  Vec3 point(std::int64_t v) const;
+
+  // Whether an edge joins two vertices of rims, in the mesh or in what has been filled.
+  bool are_joined(std::int64_t a, std::int64_t b) const { return edges_.contains(key(a, b)); }
+  void join(std::int64_t a, std::int64_t b) { edges_.insert(key(a, b)); }
+
+  // Whether a face has the side from a to b, and it is on the border.
+  bool is_border(std::int64_t a, std::int64_t b) const { return border_.contains(way(a, b)); }
+
+  // Of unit length, of the face with that side; zero for one without area.
+  Vec3 normal_beside(std::int64_t a, std::int64_t b) const;
+
+ private:
+  // Ids of vertices have 32 bits.
+  static std::uint64_t way(std::int64_t a, std::int64_t b) {
+    return std::uint64_t(a) << 32 | std::uint64_t(b);
+  }
+  static std::uint64_t key(std::int64_t a, std::int64_t b) { return a < b ? way(a, b) : way(b, a); }
+
+  const PolygonMesh& mesh_;
+  std::unordered_map<std::uint64_t, std::int32_t> border_;  // to the face
+  std::unordered_set<std::uint64_t> edges_;
+};
+
+}  // namespace fairing

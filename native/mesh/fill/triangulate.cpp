@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/triangulate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Corners up to which all pairs are looked at: 0.4 s. A longer polygon is looked at through a
+// window of so many corners, which doubles its stride whenever it is full: 5,000 corners in 7 s.
+constexpr std::size_t most_corners = 400, window_size = 128;
+
+// Cosines that differ by less are one: the rounding of flat holes must not decide.
+constexpr double same_cosine = 1e-6;
+
+struct Best {
+  double cosine = -2;  // of the largest angle
+  double area = std::numeric_limits<double>::infinity();
+  Index middle = -1;  // the third corner of the triangle on this chord; -1: none
+  Vec3 normal = Vec3::Zero();
+
+  bool is_worse_than(double other_cosine, double other_area) const {
+    return other_cosine > cosine || (other_cosine == cosine && other_area < area);
+  }
+};
+
+// Which chords there are, and where each is kept. Corner i is at the place i of a line, the last one
+// where all strides meet.
+class Chords {
+ public:
+  explicit Chords(std::size_t corners) : corners_(corners) {
+    window_ = corners <= most_corners ? corners : window_size;
+    while (window_ << top_ < corners - 1) ++top_;
+    const std::size_t stride = std::size_t(1) << top_;
+    end_ = (corners - 1 + stride - 1) / stride * stride;
+    for (std::size_t level = 0; level <= top_; ++level) {
+      begin_.push_back(kept_.size());
+      kept_.resize(kept_.size() + ((end_ >> level) + 1) * window_);
+    }
+  }
+
+  std::size_t top() const { return top_; }
+  std::size_t window() const { return window_; }
+  std::size_t place(std::size_t corner) const { return corner + 1 == corners_ ? end_ : corner; }
+  bool is_corner(std::size_t place) const { return place + 1 < corners_ || place == end_; }
+  std::size_t corner(std::size_t place) const { return place == end_ ? corners_ - 1 : place; }
+  std::size_t last_place() const { return end_; }
+
+  // Null where the chord between two places is none that counts.
+  Best* find(std::size_t low, std::size_t high) {
+    std::size_t level = 0;
+    while (window_ << level < high - low) ++level;
+    const std::size_t mask = (std::size_t(1) << level) - 1;
+    if ((low | high) & mask) return nullptr;
+    return &kept_[begin_[level] + (low >> level) * window_ + ((high - low) >> level) - 1];
+  }
+
+ private:
+  std::size_t corners_, window_ = 0, top_ = 0, end_ = 0;
+  std::vector<std::size_t> begin_;
+  std::vector<Best> kept_;
+};
+
+class Search {
+ public:
+  explicit Search(const SpacePolygon& polygon)
+      : polygon_(polygon), chords_(polygon.points.size()) {}
+
+  std::vector<Triangle> run() {
+    const std::size_t size = polygon_.points.size();
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      Best* side = chords_.find(chords_.place(i), chords_.place(i) + 1);
+      if (i + 2 == size) side = chords_.find(i, chords_.last_place());
+      if (side) *side = {1, 0, Index(i), polygon_.normals[i]};
+    }
+    for (std::size_t level = 0; level <= chords_.top(); ++level)
+      for (std::size_t gap = level ? chords_.window() / 2 + 1 : 2; gap <= chords_.window(); ++gap)
+        look_at_all(level, gap << level);
+    return triangles();
+  }
+
+ private:
+  void look_at_all(std::size_t level, std::size_t gap) {
+    const std::size_t stride = std::size_t(1) << level;
+    for (std::size_t low = 0; low + gap <= chords_.last_place(); low += stride) {
+      stop_if_cancelled();
+      const std::size_t high = low + gap;
+      if (chords_.is_corner(low) && chords_.is_corner(high)) look_at(low, high, level);
+    }
+  }
+
+  void look_at(std::size_t low, std::size_t high, std::size_t level) {
+    const std::size_t first = chords_.corner(low), last = chords_.corner(high);
+    const bool whole = first == 0 && last + 1 == polygon_.points.size();
+    if (last == first + 1) return;  // the last side, where it is long
+    Best& best = *chords_.find(low, high);
+    if (!whole && !polygon_.may_join(first, last)) return;
+    // the longer of the other two sides spans half of this one at least
+    const std::size_t stride = level ? std::size_t(1) << (level - 1) : 1;
+    for (std::size_t middle = low + stride; middle < high; middle += stride) {
+      if (!chords_.is_corner(middle)) continue;
+      const Best *left = chords_.find(low, middle), *right = chords_.find(middle, high);
+      if (!left || !right || left->middle < 0 || right->middle < 0) continue;
+      const double bound = std::min(left->cosine, right->cosine);
+      if (bound < best.cosine) continue;
+      consider(first, chords_.corner(middle), last, *left, *right, best);
+    }
+  }
+
+  void consider(std::size_t i, std::size_t j, std::size_t k, const Best& left, const Best& right,
+                Best& best) const {
+    const std::vector<Vec3>& p = polygon_.points;
+    Vec3 normal = (p[j] - p[i]).cross(p[k] - p[i]);
+    const double length = normal.norm();
+    if (length > 0) normal /= length;
+    double cosine = std::min(
+        {left.cosine, right.cosine, turn(normal, left.normal), turn(normal, right.normal)});
+    if (i == 0 && k + 1 == p.size()) cosine = std::min(cosine, turn(normal, polygon_.normals[k]));
+    const double area = left.area + right.area + length / 2;
+    if (best.middle < 0 || best.is_worse_than(cosine, area))
+      best = {cosine, area, Index(j), normal};
+  }
+
+  // The cosine between two normals. A triangle without area has none, and is the worst.
+  static double turn(const Vec3& normal, const Vec3& other) {
+    if (other.isZero()) return 1;
+    return normal.isZero() ? -1 : std::round(normal.dot(other) / same_cosine) * same_cosine;
+  }
+
+  std::vector<Triangle> triangles() {
+    std::vector<Triangle> found;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, chords_.last_place()}};
+    while (!open.empty()) {
+      const auto [low, high] = open.back();
+      open.pop_back();
+      const std::size_t first = chords_.corner(low), last = chords_.corner(high);
+      if (last == first + 1) continue;
+      const Best* best = chords_.find(low, high);
+      if (!best || best->middle < 0) return {};
+      const std::size_t middle = chords_.place(std::size_t(best->middle));
+      found.push_back({Index(first), best->middle, Index(last)});
+      open.push_back({middle, high});
+      open.push_back({low, middle});
+    }
+    return found;
+  }
+
+  const SpacePolygon& polygon_;
+  Chords chords_;
+};
+
+}  // namespace
+
+std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
+  return polygon.points.size() < 3 ? std::vector<Triangle>{} : Search(polygon).run();
+}
+
+}  // namespace fairing

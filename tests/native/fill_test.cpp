@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Holes, their loops and their triangles.
+#include "mesh/fill/fill.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "meshes.h"
+#include "thrown.h"
+
+namespace fairing::test {
+namespace {
+
+std::vector<HoleLoop> holes_of(const OwnedPolygonMesh& mesh) {
+  const HalfEdges half_edges(mesh.view());
+  return find_holes(mesh.view(), half_edges);
+}
+
+TEST(Fill, LoopsOfHoles) {
+  EXPECT_TRUE(holes_of(cube()).empty());
+  EXPECT_TRUE(holes_of(single_quad()).empty());
+  EXPECT_EQ(holes_of(open_cylinder(7)).size(), 2u);
+  const std::vector<HoleLoop> border = holes_of(grid(2, 1));
+  ASSERT_EQ(border.size(), 1u);
+  EXPECT_EQ(border[0].size(), 6u);
+  EXPECT_EQ(border[0][0], 0);
+  EXPECT_TRUE(holes_of(three_on_an_edge()).empty());
+}
+
+SpacePolygon circle(std::size_t corners) {
+  SpacePolygon polygon;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double angle = 2 * std::acos(-1.0) * double(i) / double(corners);
+    polygon.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  polygon.normals.assign(corners, Vec3::UnitZ());
+  polygon.may_join = [](std::size_t, std::size_t) { return true; };
+  return polygon;
+}
+
+// All turn the same way, and their areas are the polygon's.
+void expect_covered(const SpacePolygon& polygon, double area) {
+  const std::vector<Triangle> found = triangulate(polygon);
+  ASSERT_EQ(found.size(), polygon.points.size() - 2);
+  double sum = 0;
+  for (const Triangle& t : found) {
+    const Vec3& a = polygon.points[std::size_t(t[0])];
+    const Vec3 n =
+        (polygon.points[std::size_t(t[1])] - a).cross(polygon.points[std::size_t(t[2])] - a);
+    EXPECT_GE(n.z(), 0);
+    sum += n.norm() / 2;
+  }
+  EXPECT_NEAR(sum, area, 1e-9);
+}
+
+TEST(Fill, TrianglesOverFlatLoopsOfAnyLength) {
+  for (const std::size_t corners : {3, 4, 50, 400, 401, 1000, 5000}) {
+    const double n = double(corners);
+    expect_covered(circle(corners), n / 2 * std::sin(2 * std::acos(-1.0) / n));
+  }
+}
+
+TEST(Fill, TrianglesInAConcaveLoop) {
+  SpacePolygon polygon;
+  for (const auto& [x, y] :
+       {std::pair{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}})
+    polygon.points.emplace_back(x, y, 0);
+  polygon.normals.assign(8, Vec3::UnitZ());
+  polygon.may_join = [](std::size_t, std::size_t) { return true; };
+  expect_covered(polygon, 7);
+}
+
+TEST(Fill, ChordsThatMayNotBe) {
+  SpacePolygon polygon = circle(4);
+  polygon.may_join = [](std::size_t low, std::size_t) { return low == 1; };
+  const std::vector<Triangle> found = triangulate(polygon);
+  ASSERT_EQ(found.size(), 2u);
+  for (const Triangle& t : found) EXPECT_TRUE(t[0] == 1 || t[1] == 1 || t[2] == 1);
+  polygon.may_join = [](std::size_t, std::size_t) { return false; };
+  EXPECT_TRUE(triangulate(polygon).empty());
+}
+
+TEST(Fill, RefinedTrianglesAreNearlyEquilateral) {
+  const SpacePolygon polygon = circle(60);
+  Patch patch{polygon.points, std::vector<double>(60, 0.1), 60, triangulate(polygon)};
+  refine(patch, [](Index, Index) { return false; }, Relaxation::taut);
+  for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(patch.points[i], polygon.points[i]);
+  double sum = 0;
+  for (const Triangle& t : patch.triangles) {
+    Vec3 p[3];
+    for (std::size_t i = 0; i < 3; ++i) p[i] = patch.points[std::size_t(t[i])];
+    sum += (p[1] - p[0]).cross(p[2] - p[0]).z() / 2;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 u = (p[(i + 1) % 3] - p[i]).normalized(), v = (p[(i + 2) % 3] - p[i]).normalized();
+      EXPECT_LT(u.dot(v), std::cos(0.45));  // 26 degrees
+    }
+  }
+  EXPECT_NEAR(sum, 30 * std::sin(2 * std::acos(-1.0) / 60), 1e-9);
+}
+
+TEST(Fill, BothEndsOfACylinder) {
+  const OwnedPolygonMesh mesh = open_cylinder(12);
+  const HalfEdges half_edges(mesh.view());
+  std::vector<Hole> holes;
+  for (HoleLoop& loop : find_holes(mesh.view(), half_edges)) {
+    std::reverse(loop.begin(), loop.end());
+    holes.push_back({loop});
+  }
+  holes = checked_holes(mesh.view(), half_edges, holes);
+  OwnedPolygonMesh closed = mesh;
+  for (const FilledHole& hole : fill(mesh.view(), half_edges, holes, {})) {
+    for (const Vec3& p : hole.points)
+      closed.coordinates.insert(closed.coordinates.end(), p.begin(), p.end());
+    for (const Triangle& t : hole.triangles) {
+      closed.corners.insert(closed.corners.end(), t.begin(), t.end());
+      closed.offsets.push_back(std::int64_t(closed.corners.size()));
+    }
+  }
+  const HalfEdges all(closed.view());
+  EXPECT_TRUE(all.nonmanifold_edges().empty());
+  for (std::int32_t k = 0; k < all.count(); ++k) {
+    ASSERT_GE(all.twin(k), 0);
+    EXPECT_FALSE(all.runs_as_twin(k));
+  }
+}
+
+TEST(Fill, RefusesWhatIsNoHole) {
+  const OwnedPolygonMesh mesh = grid(3, 3);
+  const HalfEdges half_edges(mesh.view());
+  const auto refused = [&](Hole hole) {
+    return thrown([&] { checked_holes(mesh.view(), half_edges, {std::move(hole)}); }).code;
+  };
+  EXPECT_EQ(refused({}), ErrorCode::bad_option);
+  EXPECT_EQ(refused({{0, 1}}), ErrorCode::bad_option);
+  EXPECT_EQ(refused({{0, 1, 99}}), ErrorCode::index_out_of_range);
+  EXPECT_EQ(refused({{0, 1, 0}}), ErrorCode::repeated_vertex);
+  EXPECT_EQ(refused({{5, 6, 10, 9}}), ErrorCode::bad_option);
+}
+
+}  // namespace
+}  // namespace fairing::test

@@ -1,0 +1,376 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holes closed: against surfaces that are known, and ragged ones that only must be sound."""
+
+import random
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from surface_measures import dihedrals
+
+
+def lattice(n, m, closed=(False, False)):
+    """Triangles (t, 3) of a grid of n by m points."""
+    i, j = np.meshgrid(
+        np.arange(n - (not closed[0])), np.arange(m - (not closed[1])), indexing="ij"
+    )
+    i, j = i.ravel(), j.ravel()
+    a, b = i * m + j, (i + 1) % n * m + j
+    c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
+    return np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
+def mapped(surface, n, m, closed=(False, False)):
+    a, b = (np.linspace(0, 1, k, endpoint=not c) for k, c in zip((n, m), closed, strict=True))
+    a, b = np.meshgrid(a, b, indexing="ij")
+    return np.stack(surface(a.ravel(), b.ravel()), 1), lattice(n, m, closed)
+
+
+def sphere(levels=3):
+    """An octahedron refined on the unit sphere."""
+    vertices = np.array(
+        [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float
+    )
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(levels):
+        result = df.fair(vertices, faces, levels=1)
+        vertices = result.vertices / np.linalg.norm(result.vertices, axis=1)[:, None]
+        faces = result.triangles.astype(np.int64)
+    return vertices, np.asarray(faces)
+
+
+def cut(vertices, faces, gone):
+    """The mesh without the faces `gone` (m,) bool, and without loose vertices."""
+    kept = faces[~gone]
+    used, kept = np.unique(kept, return_inverse=True)
+    return vertices[used], kept.reshape(-1, 3)
+
+
+def uses(faces):
+    """How many edges have 1, 2, ... faces."""
+    sides = np.sort(np.asarray(faces)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.bincount(np.unique(sides, axis=0, return_counts=True)[1])[1:]
+
+
+def smallest_angle(vertices, faces):
+    """Degrees."""
+    p, least = vertices[faces], 180.0
+    for i in range(3):
+        x, y = p[:, (i + 1) % 3] - p[:, i], p[:, (i + 2) % 3] - p[:, i]
+        cosine = (x * y).sum(1) / np.linalg.norm(x, axis=1) / np.linalg.norm(y, axis=1)
+        least = min(least, float(np.degrees(np.arccos(cosine.clip(-1, 1)).min())))
+    return least
+
+
+def assert_kept(filled, vertices, faces):
+    assert np.array_equal(filled.vertices[: len(vertices)], vertices)
+    assert np.array_equal(filled.faces[: len(faces)], faces)
+    assert np.array_equal(filled.new_faces, np.arange(len(faces), len(filled.faces)))
+
+
+def diameter(points):
+    return np.linalg.norm(points[:, None] - points[None], axis=2).max()
+
+
+@pytest.mark.parametrize("height", [0.85, 0.5, 0.0])
+def test_a_cap_of_a_sphere_comes_back(height):
+    whole, all_faces = sphere(4)
+    gone = (whole[all_faces][:, :, 2] > height - 1e-9).all(axis=1)
+    vertices, faces = cut(whole, all_faces, gone)
+    filled = df.fill_holes(vertices, faces)
+    assert_kept(filled, vertices, faces)
+    assert list(uses(filled.faces)[:1]) == [0] and not df.check(filled.vertices, filled.faces)
+    radii = np.linalg.norm(filled.vertices[len(vertices) :], axis=1)
+    assert abs(radii - 1).max() < 1e-6
+    (hole,) = filled.holes
+    assert (hole.energy, hole.converged, hole.folds) == ("total_curvature", True, 0)
+    assert 0.5 < len(filled.new_faces) / gone.sum() < 2
+    assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > 15
+    inner = dihedrals(vertices, faces).max()
+    assert dihedrals(filled.vertices, filled.faces).max() < 2 * inner
+
+
+def cylinder(a, b):
+    return np.cos(2 * np.pi * a), np.sin(2 * np.pi * a), 4 * b
+
+
+def torus(a, b):
+    distance = 2 + 0.7 * np.cos(2 * np.pi * b)
+    x, y = distance * np.cos(2 * np.pi * a), distance * np.sin(2 * np.pi * a)
+    return x, y, 0.7 * np.sin(2 * np.pi * b)
+
+
+def paraboloid(a, b):
+    return 2 * a - 1, 2 * b - 1, ((2 * a - 1) ** 2 + (2 * b - 1) ** 2) / 2
+
+
+def saddle(a, b):
+    return 2 * a - 1, 2 * b - 1, ((2 * a - 1) ** 2 - (2 * b - 1) ** 2) / 2
+
+
+def in_tube(c):
+    angle = np.arctan2(c[:, 1], c[:, 0])
+    return (angle > 0) & (angle < 0.5) & (np.hypot(c[:, 0], c[:, 1]) > 2)
+
+
+# largest distance to the surface over the hole's diameter: a fifth more than was measured
+KNOWN = {
+    "cylinder": (
+        (cylinder, 60, 40, (True, False)),
+        lambda c: np.linalg.norm(c - [1, 0, 2], axis=1) < 0.7,
+        lambda p: abs(np.hypot(p[:, 0], p[:, 1]) - 1),
+        2e-3,
+    ),
+    "torus": (
+        (torus, 96, 36, (True, True)),
+        in_tube,
+        lambda p: abs(np.hypot(np.hypot(p[:, 0], p[:, 1]) - 2, p[:, 2]) - 0.7),
+        3e-3,
+    ),
+    "paraboloid": (
+        (paraboloid, 41, 41),
+        lambda c: np.linalg.norm(c[:, :2], axis=1) < 0.5,
+        lambda p: abs(p[:, 2] - (p[:, 0] ** 2 + p[:, 1] ** 2) / 2),
+        9e-3,
+    ),
+    "saddle": (
+        (saddle, 41, 41),
+        lambda c: np.linalg.norm(c[:, :2], axis=1) < 0.5,
+        lambda p: abs(p[:, 2] - (p[:, 0] ** 2 - p[:, 1] ** 2) / 2),
+        6e-4,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_surfaces_come_back(name):
+    shape, chosen, distance, most = KNOWN[name]
+    whole, all_faces = mapped(*shape)
+    gone = chosen(whole[all_faces].mean(1))
+    vertices, faces = cut(whole, all_faces, gone)
+    borders = {tuple(loop) for loop in df.find_holes(whole, all_faces)}
+    assert len(borders) == {"torus": 0, "cylinder": 2}.get(name, 1)
+    away = [
+        np.linalg.norm(vertices[h] - whole[all_faces[gone]].mean((0, 1)), axis=1).max()
+        for h in df.find_holes(vertices, faces)
+    ]
+    hole = df.find_holes(vertices, faces)[int(np.argmin(away))]
+    filled = df.fill_holes(vertices, faces, holes=[hole])
+    assert_kept(filled, vertices, faces)
+    assert filled.holes[0].energy == "total_curvature" and filled.holes[0].folds == 0
+    assert distance(filled.vertices[len(vertices) :]).max() < most * diameter(vertices[hole])
+    assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > 15
+
+
+def largest_piece(faces):
+    """(m,) bool: faces of the largest piece that hangs together by edges."""
+    owner = {}
+    label = np.arange(len(faces))
+
+    def root(k):
+        while label[k] != k:
+            label[k] = label[label[k]]
+            k = label[k]
+        return k
+
+    for k, t in enumerate(faces.tolist()):
+        for a, b in zip(t, t[1:] + t[:1], strict=True):
+            other = owner.setdefault((min(a, b), max(a, b)), k)
+            label[root(k)] = root(other)
+    roots = np.array([root(k) for k in range(len(faces))])
+    return roots == np.bincount(roots).argmax()
+
+
+def ragged(faces, size, rng):
+    """(m,) bool: some `size` faces that hang together, and what they cut off."""
+    around = {}
+    for k, t in enumerate(faces.tolist()):
+        for v in t:
+            around.setdefault(v, []).append(k)
+    sides = [set() for _ in faces]
+    for k, t in enumerate(faces.tolist()):
+        for a, b in zip(t, t[1:] + t[:1], strict=True):
+            sides[k] |= (set(around[a]) & set(around[b])) - {k}
+    front = [rng.randrange(len(faces))]
+    gone = set(front)
+    while front and len(gone) < size:
+        k = front.pop(rng.randrange(len(front)))
+        fresh = sorted(sides[k] - gone)
+        gone |= set(fresh)
+        front += fresh
+    found = np.zeros(len(faces), bool)
+    found[list(gone)] = True
+    rest = np.flatnonzero(~found)
+    found[rest[~largest_piece(faces[rest])]] = True
+    return found
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_ragged_holes_are_closed(seed):
+    rng = random.Random(seed)
+    whole, all_faces = sphere(4)
+    size = rng.choice([1, 3, 10, 50, 200, 500])
+    vertices, faces = cut(whole * [1, 1.3, 0.8], all_faces, ragged(all_faces, size, rng))
+    filled = df.fill_holes(vertices, faces)
+    assert_kept(filled, vertices, faces)
+    assert uses(filled.faces)[0] == 0 and len(uses(filled.faces)) == 2
+    assert not df.check(filled.vertices, filled.faces)
+    assert not df.find_holes(filled.vertices, filled.faces)
+    assert all(hole.folds == 0 for hole in filled.holes)
+
+
+def test_holes_that_touch_in_a_vertex_are_two():
+    vertices, faces = mapped(lambda a, b: (8 * a, 8 * b, 0 * a), 9, 9)
+    centre = vertices[faces].mean(1)
+    gone = (abs(centre[:, :2] - [3.5, 3.5]).max(1) < 0.5) | (
+        abs(centre[:, :2] - [4.5, 4.5]).max(1) < 0.5
+    )
+    vertices, faces = cut(vertices, faces, gone)
+    loops = df.find_holes(vertices, faces)
+    assert sorted(map(len, loops)) == [4, 4, 32]
+    filled = df.fill_holes(vertices, faces, holes=[h for h in loops if len(h) == 4])
+    assert not df.check(filled.vertices, filled.faces)
+    assert list(map(len, df.find_holes(filled.vertices, filled.faces))) == [32]
+    assert np.array_equal(filled.vertices[:, 2], np.zeros(len(filled.vertices)))
+
+
+def test_three_islands_in_a_hole():
+    whole, all_faces = mapped(lambda a, b: (a, b, 0.2 * a * (1 - b)), 31, 31)
+    cell = np.floor(
+        whole[all_faces].mean(1)[:, :2] * 30
+    )  # whole squares: nothing touches in a point
+    gone = abs(cell - 15).max(1) < 9
+    for middle in [(10, 10), (19, 12), (15, 19)]:
+        gone &= abs(cell - middle).max(1) > 1
+    vertices, faces = cut(whole, all_faces, gone)
+    loops = [h for h in df.find_holes(vertices, faces) if len(h) < 120]
+    rim = max(loops, key=len)
+    islands = [h for h in loops if h is not rim]
+    assert len(islands) == 3
+    filled = df.fill_holes(vertices, faces, holes=[[rim, *islands]])
+    assert_kept(filled, vertices, faces)
+    assert list(map(len, df.find_holes(filled.vertices, filled.faces))) == [120]
+    assert not df.check(filled.vertices, filled.faces)
+    assert filled.holes[0].folds == 0 and len(filled.holes[0].loops) == 4
+    edges = uses(filled.faces).sum()
+    assert len(filled.vertices) - edges + len(filled.faces) == 1  # a disc
+
+
+def test_a_hole_that_winds_by_more_than_half_a_turn():
+    whole, all_faces = mapped(cylinder, 72, 24, (True, False))
+    c = whole[all_faces].mean(1)
+    angle = np.arctan2(c[:, 1], c[:, 0])
+    gone = (abs(angle) < np.radians(110)) & (abs(c[:, 2] - 2) < 0.5)
+    vertices, faces = cut(whole, all_faces, gone)
+    hole = max(df.find_holes(vertices, faces), key=lambda h: np.ptp(vertices[h][:, 2]))
+    filled = df.fill_holes(vertices, faces, holes=[hole])
+    assert not df.check(filled.vertices, filled.faces)
+    assert filled.holes[0].folds == 0
+    radii = np.hypot(*filled.vertices[len(vertices) :, :2].T)
+    assert abs(radii - 1).max() < 0.05
+
+
+def quads_with_a_hole(turn=1):
+    whole, all_faces = mapped(saddle, 13, 13)
+    quads = all_faces.reshape(2, -1, 3)
+    quads = np.concatenate([quads[0], quads[1][:, 2:]], axis=1)
+    gone = np.linalg.norm(whole[quads].mean(1)[:, :2], axis=1) < 0.4
+    return whole, quads[~gone][:, ::turn]
+
+
+def test_faces_of_any_size_and_loops_in_either_direction():
+    vertices, quads = quads_with_a_hole()
+    hole = min(df.find_holes(vertices, quads), key=len)
+    filled = df.fill_holes(vertices, quads, holes=[hole])
+    corners, offsets = filled.faces
+    assert np.array_equal(corners[: quads.size], quads.ravel())
+    assert np.array_equal(np.diff(offsets), [4] * len(quads) + [3] * len(filled.new_faces))
+    other = df.fill_holes(vertices, quads.tolist(), holes=[hole[::-1]])
+    assert np.array_equal(other.vertices, filled.vertices)
+    assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
+
+
+def test_density():
+    vertices, quads = quads_with_a_hole()
+    hole = min(df.find_holes(vertices, quads), key=len)
+    counts = [
+        len(df.fill_holes(vertices, quads, holes=[hole], density=d).new_faces)
+        for d in (0, 0.5, 1, 2)
+    ]
+    assert counts[0] == len(hole) - 2
+    assert counts[0] <= counts[1] < counts[2] and 2.5 < counts[3] / counts[2] < 6
+
+
+@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature", "minimum_variation"])
+def test_joints_and_energies(joint, energy):
+    vertices, quads = quads_with_a_hole()
+    hole = min(df.find_holes(vertices, quads), key=len)
+    filled = df.fill_holes(vertices, quads, holes=[hole], joint=joint, energy=energy)
+    x, y, z = filled.vertices[len(vertices) :].T
+    assert abs(z - (x**2 - y**2) / 2).max() < 0.02
+    assert filled.holes[0].energy == ("none" if joint == "position" else energy)
+
+
+def test_the_same_bits_for_any_number_of_threads():
+    whole, all_faces = sphere(4)
+    gone = ragged(all_faces, 200, random.Random(5))
+    vertices, faces = cut(whole, all_faces, gone)
+    one, many = (df.fill_holes(vertices, faces, threads=k) for k in (1, 3))
+    assert one.vertices.tobytes() == many.vertices.tobytes()
+    assert one.faces.tobytes() == many.faces.tobytes()
+
+
+def test_long_loops():
+    """Of more vertices than all pairs are looked at for."""
+    angle = np.linspace(0, 2 * np.pi, 3000, endpoint=False)
+    circle = np.stack([np.cos(angle), np.sin(angle), 0.2 * np.sin(3 * angle)], 1)
+    vertices = np.concatenate([circle, circle * [1.01, 1.01, 1]])
+    i = np.arange(3000)
+    j = (i + 1) % 3000
+    faces = np.concatenate([np.stack([i, i + 3000, j + 3000], 1), np.stack([i, j + 3000, j], 1)])
+    hole = df.find_holes(vertices, faces)[0]
+    assert len(hole) == 3000 and hole[0] == 0
+    filled = df.fill_holes(vertices, faces, holes=[hole], density=0)
+    assert len(filled.new_faces) == 2998 and len(filled.vertices) == len(vertices)
+    assert len(df.find_holes(filled.vertices, filled.faces)) == 1
+
+
+def refused(*arguments, **settings):
+    with pytest.raises(df.FairingError) as caught:
+        df.fill_holes(*arguments, **settings)
+    return caught.value
+
+
+def test_what_is_no_hole_is_refused_in_words():
+    vertices, quads = quads_with_a_hole()
+    hole = min(df.find_holes(vertices, quads), key=len).tolist()
+    inside = refused(vertices, quads, holes=[quads[14]])
+    assert (inside.code, inside.kind) == ("BAD_OPTION", "edge") and "both sides" in str(inside)
+    assert "none of the mesh" in str(refused(vertices, quads, holes=[hole[::2]]))
+    assert refused(vertices, quads, holes=[hole[:2]]).code == "BAD_OPTION"
+    assert refused(vertices, quads, holes=[[*hole, hole[0]]]).code == "REPEATED_VERTEX"
+    assert refused(vertices, quads, holes=[[0, 1, 10**6]]).elements == [10**6]
+    assert "another hole" in str(refused(vertices, quads, holes=[hole, hole]))
+    assert refused(vertices, quads, joint="loose").code == "BAD_OPTION"
+    assert refused(vertices, quads, density=-1).code == "BAD_OPTION"
+    assert refused(vertices, quads, energy="none").code == "BAD_OPTION"
+    fin = [hole[0], hole[1], 0, 0]
+    fin[2:] = quads[quads[:, 0] == 0][0][:2]
+    torn = refused(vertices, [*quads.tolist(), fin[:3], [hole[1], hole[0], fin[3]]], holes=[hole])
+    assert (torn.code, torn.elements) == ("NONMANIFOLD_EDGE", sorted(hole[:2]))
+
+
+def test_progress_and_cancel():
+    vertices, quads = quads_with_a_hole()
+    told = []
+    df.fill_holes(vertices, quads, progress=lambda f, phase: told.append((f, phase)))
+    assert told == sorted(told, key=lambda t: t[0]) and told[-1] == (1.0, "done")
+    assert refused(vertices, quads, progress=lambda f, phase: False).code == "CANCELLED"
+
+
+def test_nothing_to_fill():
+    vertices, faces = sphere(1)
+    filled = df.fill_holes(vertices, faces)
+    assert not filled.holes and not len(filled.new_faces)
+    assert_kept(filled, vertices, faces)
