@@ -11,6 +11,7 @@ void bind_options(pybind11::module_& m);
 
 // Adds the class Solver, which the package wraps.
 void bind_solver(pybind11::module_& m);
+void bind_strain(pybind11::module_& m);
 
 // Adds fit_splines(), which the package's fit_patches() calls, and what it wants of a Monitor.
 void bind_splines(pybind11::module_& m);

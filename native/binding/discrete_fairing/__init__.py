@@ -16,6 +16,7 @@ from .patches import SplinePatches, spline_knots
 from .result import Result
 from .solver import Solver
 from .step import write_step
+from .strain import Strain, strain
 
 __all__ = [
     "Defect",
@@ -25,6 +26,7 @@ __all__ = [
     "Result",
     "Solver",
     "SplinePatches",
+    "Strain",
     "__version__",
     "check",
     "fair",
@@ -32,5 +34,6 @@ __all__ = [
     "predicted_size",
     "repair_orientation",
     "spline_knots",
+    "strain",
     "write_step",
 ]
