@@ -11,6 +11,8 @@ void bind_options(pybind11::module_& m);
 
 // Adds the class Solver, which the package wraps.
 void bind_solver(pybind11::module_& m);
+
+// Adds strain(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 
 // Adds fit_splines(), which the package's fit_patches() calls, and what it wants of a Monitor.
