@@ -15,6 +15,9 @@ void bind_solver(pybind11::module_& m);
 // Adds the class Filler, which the package's find_holes() and fill_holes() use.
 void bind_fill(pybind11::module_& m);
 
+// Adds strain(), which the package wraps.
+void bind_strain(pybind11::module_& m);
+
 // Adds fit_splines(), which the package's fit_patches() calls, and what it wants of a Monitor.
 void bind_splines(pybind11::module_& m);
 

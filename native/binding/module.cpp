@@ -153,6 +153,7 @@ PYBIND11_MODULE(_native, m) {
   m.def("relisted", &relisted_message, py::arg("message"), py::arg("kind"), py::arg("ids"),
         "A message about other elements of that kind.");
   bind_solver(m);
+  bind_strain(m);
   bind_splines(m);
   bind_fill(m);
   bind_end();

@@ -39,6 +39,8 @@ class FairingContext {
 
   // The positions that charts and stencils were built about.
   const ControlPositions& basis() const { return basis_; }
+  // What a length in working coordinates is multiplied by to be one in world coordinates.
+  double scale() const { return frame_.scale; }
   // Other positions of the input's vertices, 3 numbers each in world coordinates, with the basis'
   // parameters of curves.
   ControlPositions control_positions(std::span<const double> coordinates) const;

@@ -23,6 +23,7 @@ ROOMS = (
     ("transfer",),
     ("multigrid",),
     ("thin_plate", "curvature"),
+    ("strain",),
     ("fairing",),
     ("binding",),
 )

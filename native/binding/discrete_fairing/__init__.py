@@ -17,6 +17,7 @@ from .patches import SplinePatches, spline_knots
 from .result import Result
 from .solver import Solver
 from .step import write_step
+from .strain import Strain, strain
 
 __all__ = [
     "Defect",
@@ -28,6 +29,7 @@ __all__ = [
     "Result",
     "Solver",
     "SplinePatches",
+    "Strain",
     "__version__",
     "check",
     "fair",
@@ -36,5 +38,6 @@ __all__ = [
     "fit_patches",
     "predicted_size",
     "spline_knots",
+    "strain",
     "write_step",
 ]

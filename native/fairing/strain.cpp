@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/strain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "fairing/context.h"
+#include "fairing/fair.h"
+#include "fairing/mending.h"
+#include "parallel/cancel.h"
+#include "strain/own_loads.h"
+
+namespace fairing {
+namespace {
+
+FairOptions options_of_strain(const FairOptions& given) {
+  if (given.energy == Energy::minimum_variation)
+    throw FairingError(ErrorCode::bad_option,
+                       "energy=\"minimum_variation\" has no strain: its control vertices stand on "
+                       "no pads, so no loads tell of them. Use energy=\"thin_plate\".");
+  if (given.energy != Energy::thin_plate)
+    throw FairingError(ErrorCode::bad_option,
+                       "Strain is that of the thin plate. Use energy=\"thin_plate\".");
+  if (given.interpolation != Interpolation::exact)
+    throw FairingError(ErrorCode::bad_option,
+                       "Strain asks how control vertices that stay fight the surface. Use "
+                       "interpolation=\"exact\".");
+  if (!(given.width_of_pads() > 0))
+    throw FairingError(ErrorCode::bad_option,
+                       "Strain is read off the loads on pads, and there are none: use a pad_size "
+                       "over 0, no epsilon, and multigrid.");
+  FairOptions options = given;
+  options.levels = std::clamp(given.levels, 1, level_of_first_loads);
+  options.shapes = {};
+  options.measure = false;
+  return options;
+}
+
+// Each face's share is its area vector; a quad's is that of its diagonals.
+Vec3 normal_of(const ControlMesh& mesh, Index v) {
+  Vec3 sum = Vec3::Zero();
+  const auto at = [&](Index u) -> const Vec3& { return mesh.positions[std::size_t(u)]; };
+  for (const Spoke& spoke : mesh.ring(v)) {
+    if (spoke.face < 0) continue;
+    const Face& f = mesh.faces[std::size_t(spoke.face)];
+    const Vec3 &a = at(f.vertex[0]), &b = at(f.vertex[1]), &c = at(f.vertex[2]);
+    sum += f.quad() ? (c - a).cross(at(f.vertex[3]) - b) : (b - a).cross(c - a);
+  }
+  return sum.stableNormalized();
+}
+
+Strain strain_of(const Mending& mending, Monitor& monitor) {
+  Report report;
+  Stopwatch watch(report, monitor);
+  FairingContext context(mending.mesh(), mending.options(), monitor, watch, report);
+  ThinPlateSolver& solver = context.system();
+  const ControlMesh& mesh = context.mesh();
+  Array<double> surface;
+  context.solve(context.basis(), false, watch, report, surface);
+  const Loads loads = solver.loads();
+  const std::vector<double> own = own_loads(solver, mesh, context.basis().working_curves);
+  Strain out;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
+    const bool has = solver.pads() && solver.pads()->under(v) && own[v] > 0;
+    out.ways.push_back(has ? Vec3(-context.scale() / own[v] * loads[v]) : Vec3::Constant(none));
+    out.lengths.push_back(has ? out.ways[v].dot(normal_of(mesh, Index(v))) : none);
+  }
+  return out;
+}
+
+}  // namespace
+
+Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  try {
+    const FairOptions own = options_of_strain(options);
+    const Mending mending(input, own);
+    Strain out = mending.in_input_ids([&] { return strain_of(mending, monitor); });
+    monitor.report(Phase::done, 1);
+    return out;
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
+}  // namespace fairing

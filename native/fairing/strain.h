@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strain: which control vertices fight the surface. The load on a vertex' pad is that fight; over
+// the load that a unit's move of this vertex alone would ask for (strain/own_loads.h), it is the way
+// by which the surface would spring, were that one vertex let go. For the thin plate.
+#pragma once
+
+#include <vector>
+
+#include "fairing/options.h"
+#include "parallel/monitor.h"
+
+namespace fairing {
+
+struct Strain {
+  // One an input vertex, in mesh units: the way itself, and its part along the control mesh's
+  // normal. NaN where no pad is: on curves, outside a region.
+  std::vector<Vec3> ways;
+  std::vector<double> lengths;
+};
+
+// Loads are solved for on level `levels` of the options, at most on the second: they hardly change
+// from there on. Throws FairingError: bad_option for other energies, for control vertices that are
+// not to stay, and for point forces.
+Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
+
+}  // namespace fairing
