@@ -86,7 +86,7 @@ def fill_soon(context: Context, targets: Sequence[Object], jobs: Sequence[Job]) 
     for target, job in zip(targets, jobs, strict=True):
         copy_settings(job.settings, target.discrete_fairing)
     _due[:] = map(Reference, targets)
-    invoke_soon(context, cast(Any, bpy.ops.object).fairing_fill, {})
+    invoke_soon(context, cast(Any, bpy.ops.object).fairing_complete, {})
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
@@ -134,10 +134,10 @@ def write_jobs(context: Context, jobs: Sequence[Job]) -> list[str]:
     return said
 
 
-class OBJECT_OT_fairing_fill(ModalRun, bpy.types.Operator):
+class OBJECT_OT_fairing_complete(ModalRun, bpy.types.Operator):
     """Make the surface whole that Adjust Last Operation has shown with fewer levels"""
 
-    bl_idname = "object.fairing_fill"
+    bl_idname = "object.fairing_complete"
     bl_label = "Complete Surface"
     bl_options = {"INTERNAL"}
     gives_way = True
@@ -156,4 +156,4 @@ class OBJECT_OT_fairing_fill(ModalRun, bpy.types.Operator):
         return {"FINISHED"}
 
 
-register, unregister = registration(OBJECT_OT_fairing_fill)
+register, unregister = registration(OBJECT_OT_fairing_complete)

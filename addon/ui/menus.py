@@ -18,6 +18,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
+        layout.operator("object.fairing_fill")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
@@ -79,10 +80,12 @@ def _draw_faces(menu: Any, _context: Context) -> None:
     )
     button.use_selection = True
     menu.layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
+    menu.layout.operator("object.fairing_fill")
 
 
 def _draw_edges(menu: Any, _context: Context) -> None:
     menu.layout.separator()
+    menu.layout.operator("object.fairing_fill")
     menu.layout.menu(VIEW3D_MT_fairing_boundary.__name__)
 
 

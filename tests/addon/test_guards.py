@@ -54,7 +54,7 @@ ROOMS = (
     {"memory"},
     {"mesh"},
     {"check", "freshness", "inspection"},
-    {"in_place", "job"},
+    {"in_place", "holes", "job"},
     {"live"},
     {"cad"},
     {"cli", "ui"},

@@ -136,7 +136,15 @@ def test_menus_have_every_operator():
     log += draw(menus.VIEW3D_MT_fairing_normals)
     own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fairing_")}
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
-    others = {"select_defect", "repair", "viewport", "preset_add", "preset_apply", "fill", "cancel"}
+    others = {
+        "select_defect",
+        "repair",
+        "viewport",
+        "preset_add",
+        "preset_apply",
+        "complete",
+        "cancel",
+    }
     assert own - {f"object.fairing_{name}" for name in others} == {
         entry for entry in log if entry.startswith("object.")
     }

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fill Hole Fair: holes of the mesh itself, closed so that nobody sees where they were."""
+
+from typing import cast
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty
+
+from ..blender import Answer, Context, Object, registration
+from ..choices import ENERGIES, JOINTS
+from ..errors import JobError
+from ..holes import Filling, Wish, fill_holes
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+
+class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
+    """Close holes with the fairest surface that goes on from the faces around. In Edit Mode: the holes whose border edges are selected, or in Face Mode what the selected faces leave"""
+
+    bl_idname = "object.fairing_fill"
+    bl_label = "Fill Hole Fair"
+    bl_options = {"REGISTER", "UNDO"}
+
+    joint: EnumProperty(
+        name="Joint",
+        description="How the filling meets the faces around",
+        items=JOINTS,
+        default="CURVATURE",
+    )
+    energy: EnumProperty(
+        name="Energy",
+        description="The quantity to minimize: Total Curvature gives half a sphere back",
+        items=ENERGIES,
+        default="TOTAL_CURVATURE",
+    )
+    density: FloatProperty(
+        name="Density",
+        description="New edges are so many times as short as those of the rim. 0: no new vertices",
+        default=1.0,
+        min=0.0,
+        max=100.0,
+        soft_max=4.0,
+    )
+    largest: IntProperty(
+        name="Largest Hole",
+        description="In Object Mode: holes of more edges stay open, as the border of a sheet should",
+        default=100,
+        min=3,
+        max=16384,
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return mesh_poll_reason(_targets(context))
+
+    def draw(self, context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.prop(self, "joint")
+        if self.joint != "POSITION":
+            layout.prop(self, "energy")
+        layout.prop(self, "density")
+        if context.mode == "OBJECT":
+            layout.prop(self, "largest")
+
+    def execute(self, context: Context) -> Answer:
+        replaces = bool(context.tool_settings.mesh_select_mode[2])
+        wish = Wish(self.joint, self.energy, self.density, self.largest, replaces)
+        done: list[Filling] = []
+        reasons: list[str] = []
+        for target in _targets(context):
+            try:
+                done.append(fill_holes(target, wish))
+            except JobError as error:
+                reasons.append(str(error))
+        if not done:
+            self.report({"ERROR"}, reasons[0])
+            return {"CANCELLED"}
+        self.report({"INFO"}, _said(done))
+        for sentence in _doubts(done):
+            self.report({"WARNING"}, sentence)
+        return {"FINISHED"}
+
+
+def _targets(context: Context) -> list[Object]:
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    return [o for o in context.selected_objects if o.type == "MESH"]
+
+
+def _holes(count: int) -> str:
+    return "1 hole" if count == 1 else f"{count:,} holes"
+
+
+def _said(done: list[Filling]) -> str:
+    holes, faces = sum(f.holes for f in done), sum(f.faces for f in done)
+    return f"{_holes(holes)} filled with {faces:,} faces"
+
+
+def _doubts(done: list[Filling]) -> list[str]:
+    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
+    said = []
+    if plates:
+        said.append(
+            f"{_holes(plates)} filled by the thin plate: the steps of the energy did not settle"
+        )
+    if folded:
+        said.append(
+            f"The filling of {_holes(folded)} folds: erase more faces around it, and fill again"
+        )
+    return said
+
+
+register, unregister = registration(OBJECT_OT_fairing_fill)

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fill Hole Fair: which holes are filled, with what, and what the new faces take over."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from scenes import activate, add, positions
+
+
+def ball(name="Ball"):
+    """A unit sphere of 1,280 triangles."""
+    bm = bmesh.new()
+    bmesh.ops.create_icosphere(bm, subdivisions=4, radius=1.0)
+    points = [tuple(v.co) for v in bm.verts]
+    faces = [[v.index for v in f.verts] for f in bm.faces]
+    bm.free()
+    return add(name, points, faces)
+
+
+def without(target, chosen):
+    """The faces for which chosen(centre) holds are erased."""
+    bm = bmesh.new()
+    bm.from_mesh(target.data)
+    gone = [f for f in bm.faces if chosen(f.calc_center_median())]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(target.data)
+    bm.free()
+    activate(target)
+    return target
+
+
+def radii(target):
+    return np.linalg.norm(positions(target.data), axis=1)
+
+
+def is_closed(mesh):
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    closed = all(e.is_contiguous for e in bm.edges)
+    bm.free()
+    return closed
+
+
+def edit(target, mode, chosen=()):
+    """Edit Mode with the faces or edges selected that these numbers name."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type=mode)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(target.data)
+    parts = bm.faces if mode == "FACE" else bm.edges
+    for part in parts:
+        part.select_set(part.index in chosen)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(target.data)
+
+
+def borders(target, chosen=lambda z: True):
+    bm = bmesh.new()
+    bm.from_mesh(target.data)
+    found = [e.index for e in bm.edges if e.is_boundary and chosen(e.verts[0].co[2])]
+    bm.free()
+    return found
+
+
+def test_all_small_holes_in_object_mode():
+    target = without(ball(), lambda c: abs(c[2]) > 0.7)
+    before = positions(target.data)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert is_closed(target.data)
+    assert np.array_equal(positions(target.data)[: len(before)], before)
+    assert np.abs(radii(target) - 1).max() < 1e-3
+
+
+def test_larger_holes_stay_open():
+    target = without(ball(), lambda c: c[2] > 0.5)
+    count = len(target.data.polygons)
+    with pytest.raises(RuntimeError, match="no hole of at most 3 edges"):
+        bpy.ops.object.fairing_fill(largest=3)
+    assert len(target.data.polygons) == count
+
+
+def test_one_edge_names_its_hole():
+    target = without(ball(), lambda c: abs(c[2]) > 0.7)
+    edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    left = borders(target)
+    assert left and borders(target, lambda z: z > 0) == []
+
+
+def test_selected_faces_are_replaced():
+    """Erase and fill: a dent disappears."""
+    target = ball()
+    for vertex in target.data.vertices:
+        if vertex.co[2] > 0.8:
+            vertex.co *= 0.7
+    activate(target)
+    dent = [f.index for f in target.data.polygons if f.center[2] > 0.5]
+    edit(target, "FACE", dent)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert is_closed(target.data)
+    assert np.abs(radii(target) - 1).max() < 1e-3
+    assert sum(f.select for f in target.data.polygons) > 0
+
+
+def test_what_the_new_faces_take_over():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    target.data.materials.append(bpy.data.materials.new("Skin"))
+    target.data.materials.append(bpy.data.materials.new("Rim"))
+    for face in target.data.polygons:
+        face.material_index, face.use_smooth = 1, True
+    group = target.vertex_groups.new(name="All")
+    group.add(range(len(target.data.vertices)), 0.5, "REPLACE")
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert all(f.material_index == 1 and f.use_smooth for f in target.data.polygons)
+    assert {round(v.groups[0].weight, 6) for v in target.data.vertices} == {0.5}
+
+
+def test_an_uneven_scale_is_seen():
+    """Half an ellipsoid: filled as it is seen in the world."""
+    target = without(ball(), lambda c: c[2] > 0.7)
+    target.scale = (1, 1, 2)
+    assert bpy.ops.object.fairing_fill(energy="THIN_PLATE") == {"FINISHED"}
+    assert is_closed(target.data)
+
+
+def test_nothing_selected_is_said():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    edit(target, "EDGE")
+    with pytest.raises(RuntimeError, match="no border edge"):
+        bpy.ops.object.fairing_fill()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_shape_keys_have_the_new_vertices():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    target.shape_key_add(name="Basis")
+    target.shape_key_add(name="Wide")
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    keys = target.data.shape_keys.key_blocks
+    places = np.array([p.co for p in keys["Wide"].data])
+    assert len(places) == len(target.data.vertices)
+    assert np.abs(np.linalg.norm(places, axis=1) - 1).max() < 1e-3
