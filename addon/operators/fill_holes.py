@@ -6,11 +6,13 @@ from typing import cast
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
 from ..holes import Filling, Wish, fill_holes
+from ..mesh.read import source_objects
 from ..poll import ExplainedPoll, mesh_poll_reason
+from .fair import poll_reason
 
 
 class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
@@ -50,7 +52,7 @@ class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        return mesh_poll_reason(_targets(context))
+        return poll_reason(context) or mesh_poll_reason(source_objects(context))
 
     def draw(self, context: Context) -> None:
         layout = cast(bpy.types.UILayout, self.layout)
@@ -67,7 +69,7 @@ class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
         wish = Wish(self.joint, self.energy, self.density, self.largest, replaces)
         done: list[Filling] = []
         reasons: list[str] = []
-        for target in _targets(context):
+        for target in source_objects(context):
             try:
                 done.append(fill_holes(target, wish))
             except JobError as error:
@@ -79,12 +81,6 @@ class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
         for sentence in _doubts(done):
             self.report({"WARNING"}, sentence)
         return {"FINISHED"}
-
-
-def _targets(context: Context) -> list[Object]:
-    if context.mode == "EDIT_MESH":
-        return list(context.objects_in_mode_unique_data)
-    return [o for o in context.selected_objects if o.type == "MESH"]
 
 
 def _holes(count: int) -> str:
