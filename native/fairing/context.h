@@ -95,12 +95,15 @@ class FairingContext {
   std::vector<double> working_tolerances() const;
   std::vector<double> weights_with_copies() const;
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
+  MeshUnits units_in_working() const;
+  double strength_of_membrane() const;
   void build(std::vector<Vec3> world, Stopwatch& watch);
 
   FairOptions options_;
   Monitor& monitor_;
   std::unique_ptr<Workers> workers_;
-  double exponent_ = 0, weight_unit_ = 0;
+  double exponent_ = 0;
+  MeshUnits units_;
   ControlMesh mesh_;  // in working coordinates
   Frame frame_;
   ControlPositions basis_;

@@ -2,7 +2,10 @@
 #include "fairing/control_positions.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "mesh/validate/check.h"
@@ -55,6 +58,34 @@ ControlPositions in_both_systems(std::vector<Vec3> world, FeatureCurves curves,
   return control;
 }
 
+using Pair = std::array<std::int64_t, 2>;
+
+// Handed points take the place of those that a piece of the chain would have.
+void take_handed(const ControlMesh& mesh, const HandedCurves& handed, FeatureCurves& curves) {
+  const auto inner = std::size_t(curves.points_per_edge);
+  if (handed.points.size() != 3 * inner * handed.edges.size())
+    throw FairingError(ErrorCode::bad_shape, "Curves of the whole have points of another level.");
+  std::vector<std::pair<Pair, std::size_t>> place;
+  for (std::size_t k = 0; k < handed.edges.size(); ++k) {
+    const auto [a, b] = handed.edges[k];
+    place.push_back({{std::min(a, b), std::max(a, b)}, k});
+  }
+  std::sort(place.begin(), place.end());
+  for (Index e = 0; e < mesh.first_copied_edge() && !place.empty(); ++e) {
+    if (curves.run[std::size_t(e)] < 0) continue;
+    const Index from = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[0]),
+                to = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[1]);
+    const Pair pair{std::min(from, to), std::max(from, to)};
+    const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
+    if (at == place.end() || at->first != pair) continue;
+    const double* points = handed.points.data() + 3 * inner * at->second;
+    Vec3* own = curves.points.data() + std::size_t(curves.run[std::size_t(e)]) * inner;
+    const bool along = handed.edges[at->second][0] == from;
+    for (std::size_t k = 0; k < inner; ++k)
+      own[along ? k : inner - 1 - k] = Eigen::Map<const Vec3>(points + 3 * k);
+  }
+}
+
 }  // namespace
 
 Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
@@ -74,8 +105,10 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
 }
 
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent) {
+                                   const Frame& frame, int subdivisions, double exponent,
+                                   const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
+  take_handed(mesh, handed, curves);
   return in_both_systems(std::move(world), std::move(curves), frame);
 }
 

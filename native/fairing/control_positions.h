@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "curves/feature_curves.h"
+#include "fairing/whole.h"
 #include "mesh/polygon_mesh.h"
 
 namespace fairing {
@@ -36,9 +37,12 @@ struct ControlPositions {
 };
 
 // Of `world` itself: the parameters of curves are those of these positions. `subdivisions`: 2^L
-// for the finest level L. `exponent`: of the control metric (stencil/metric.h).
+// for the finest level L. `exponent`: of the control metric (stencil/metric.h). Curves that are
+// `handed` down are as the whole has them. Throws FairingError(bad_shape) where their points are not
+// as many as that takes.
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent);
+                                   const Frame& frame, int subdivisions, double exponent,
+                                   const HandedCurves& handed);
 
 // Of other positions of the input's vertices: `coordinates`, in world coordinates, 3 a vertex. A
 // linear map of them: the parameters of curves and the centres' weights in their polygons are

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fairing/whole.h"
 #include "mesh/control_mesh.h"
 #include "mesh/polygon_mesh.h"
 #include "stencil/chart.h"
@@ -93,6 +94,9 @@ struct FairOptions {
   // A membrane stretched over the mesh, against swelling and overshoots: none at 0, as taut as is of
   // use at 1 (membrane_strength()).
   double tension = 0;
+
+  // Where the mesh is a piece: what it takes from the whole (fairing/outline.h). No setting.
+  OfWhole whole{};
 
   // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.
   std::span<const double> shapes{};
