@@ -99,6 +99,7 @@ class Whole:
         self.polygon = [
             np.empty(count, np.int32) for count in (numbering.triangles, numbering.quads)
         ]
+        self.has_pads = False
         self.widths = np.zeros(first.surface["input_vertices"])
         self.first: dict[str, Any] = {}
         self.seams: list[tuple[int, np.ndarray, np.ndarray]] = []
@@ -120,7 +121,9 @@ class Whole:
             self.faces[kind][rank] = faces.reshape(-1, cells, 3 + kind)
             self.polygon[kind][rank] = part.polygon[which]
         own = part.vertex_id < len(self.widths)
-        self.widths[part.vertex_id[own]] = part.report["pad_widths"]
+        if len(part.report["pad_widths"]):
+            self.widths[part.vertex_id[own]] = part.report["pad_widths"]
+            self.has_pads = True
         self.seams.append((part.index, part.seam_ids(), part.seam_points()))
         self.reports[part.index] = part.report
         if part.index == 0:
@@ -193,7 +196,7 @@ class Whole:
             "pads": {
                 "narrower": sum(pad["narrower"] for pad in pads),
                 "gone": sum(pad["gone"] for pad in pads),
-                "widths": self.widths.tolist(),
+                "widths": self.widths.tolist() if self.has_pads else [],
             },
             "normals": {
                 "fixed": sum(report["normals"]["fixed"] for report in reports),

@@ -173,7 +173,8 @@ def report_of(
         out |= {"normals": {"fixed": 0, "largest_angle": 0.0}, "pad_widths": np.zeros(len(row))}
         return out
     out |= {name: report[name] for name in NUMBERS}
-    out["pad_widths"] = np.asarray(report["pads"]["widths"])[row]
+    widths = np.asarray(report["pads"]["widths"], float)
+    out["pad_widths"] = widths[row] if len(widths) else widths
     out["pads"] = {name: report["pads"][name] for name in ("narrower", "gone")}
     out["warnings"] = [
         in_whole

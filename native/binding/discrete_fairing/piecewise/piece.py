@@ -66,10 +66,14 @@ class Piece(Record):
         any number of threads. Raises FairingError as fair() does, with ids of the piece.
         """
         check_watchers(progress, monitor)
-        options = native_options(**self.settings, threads=threads, memory_limit=memory_limit)
+        settings = dict(self.settings, threads=threads, memory_limit=memory_limit)
+        region = settings.get("region")
+        is_outside = region is not None and not len(region)
+        if is_outside:
+            del settings["region"]
+        options = native_options(**settings)
         own = Outline(self.vertices, self.corners, self.offsets, options)
-        region = self.settings.get("region")
-        if region is not None and not len(region):
+        if is_outside:
             points, report = linear_surface(own), None
         else:
             found = _native.fair(
@@ -95,7 +99,7 @@ class Piece(Record):
         seam_vertex_id, seam_vertex_row = self._vertices(own, mirrored, there & ~self.corner_owned)
         seam_edge_id, seam_edge_rows = self._edges(own, mirrored, there & ~self.side_owned)
         inside = [
-            points[self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)))]
+            points[self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)]
             for kind in (False, True)
         ]
         return Part(
@@ -161,9 +165,10 @@ class Piece(Record):
         k = np.where(against[:, None], k[::-1], k)
         return ids, own.numbering.edge_bases(own.side_edge[face, place])[:, None] + k
 
-    def _interiors(self, own: Outline, mirrored: np.ndarray, faces: np.ndarray) -> np.ndarray:
-        """(f, interior): rows of the points inside these faces, all of one kind."""
-        quad = bool(len(faces)) and bool(self.face[faces[0], 3] >= 0)
+    def _interiors(
+        self, own: Outline, mirrored: np.ndarray, faces: np.ndarray, quad: bool
+    ) -> np.ndarray:
+        """(f, interior): rows of the points inside these faces, all quads or all triangles."""
         lattice = own.numbering.lattice(quad)
         base = own.numbering.face_bases(faces, own.quads_before[faces])
         rows = base[:, None] + np.arange(lattice.interior_count)
