@@ -7,7 +7,7 @@ Plain arrays, no Blender.
 
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -140,6 +140,30 @@ def fair_arguments(
 def takes_normals(settings: Any) -> bool:
     """Whether fixed normals count: the other energies have nothing that would hold them."""
     return settings.energy == "THIN_PLATE"
+
+
+def faired(
+    arguments: Mapping[str, Any],
+    pieces: int | None = None,
+    progress: Callable[[float, str], bool | None] | None = None,
+    **monitor: Any,
+) -> Any:
+    """discrete_fairing's Result for `fair_arguments`; with `pieces`, of so many, one after another:
+    then the run takes the memory of one, and nothing is measured.
+    """
+    if pieces is None:
+        return module().fair(**arguments, progress=progress, **monitor)
+    own = {name: value for name, value in arguments.items() if name != "measure"}
+    run = {name: own.pop(name) for name in ("threads", "memory_limit")} | monitor
+    cut = module().pieces(**own, count=pieces)
+
+    def told(index: int) -> Callable[[float, str], bool | None]:
+        def tell(fraction: float, phase: str) -> bool | None:
+            return progress((index + fraction) / len(cut), phase) if progress else None
+
+        return tell
+
+    return module().join(piece.fair(**run, progress=told(piece.index)) for piece in cut)
 
 
 def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:

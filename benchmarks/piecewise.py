@@ -21,6 +21,7 @@ from typing import Any
 import table
 
 LEVELS = 5  # a control triangle becomes 1024
+RESIDUAL = 1e-6
 FACES_A_PIECE = 10_000
 SIZES = (1_000, 10_000, 50_000)  # control triangles; 391,680 are 400 million, for half an hour
 RINGS = (1, 2, 3, 4, 5, 6, 8, 10)
@@ -64,7 +65,7 @@ def plan(triangles: int, count: int, folder: Path) -> dict[str, Any]:
 
     begun = time.perf_counter()
     mesh = lumpy_torus(triangles)
-    for piece in df.pieces(*mesh, LEVELS, count=count):
+    for piece in df.pieces(*mesh, LEVELS, count=count, relative_residual=RESIDUAL):
         piece.save(folder / f"piece-{piece.index:05}.npz")
     return {"control_triangles": len(mesh[1]), "wall": time.perf_counter() - begun, **used()}
 
@@ -155,12 +156,10 @@ def two_workers(triangles: int, count: int) -> dict[str, Any]:
 def meshes() -> dict[str, tuple[Any, Any]]:
     import control_meshes
 
-    sphere = control_meshes.sphere(20)
-    rough = control_meshes.roughened(*sphere, 0.15)
     return {
         "torus, triangles": lumpy_torus(3000),
-        "sphere, quads": control_meshes.quad_sphere(20),
-        "rough sphere": (rough, sphere[1]),
+        "sphere, quads": control_meshes.quad_sphere(16, 0.0),
+        "rough sphere": control_meshes.sphere(12, 0.15),
     }
 
 
@@ -177,7 +176,7 @@ def rings() -> list[dict[str, Any]]:
     ):
         settings: dict[str, Any] = {"energy": energy, "relative_residual": residual}
         if energy != "thin_plate":
-            settings |= {"step_tolerance": 1e-10, "max_steps": 60}
+            settings |= {"step_tolerance": 1e-9, "max_steps": 60}
         for name, (points, faces) in meshes().items():
             whole = df.fair(points, faces, 2, **settings)
             for around in RINGS:

@@ -256,6 +256,13 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--threads", type=_threads, metavar="N", help="0: all cores [as in the preferences]"
     )
     made.add_argument(
+        "--pieces",
+        type=_pieces,
+        metavar="N",
+        help="fair each mesh in so many pieces, one after another, in the memory of one; needs the Python package "
+        "pymetis [whole]",
+    )
+    made.add_argument(
         "--json",
         metavar="FILE|-",
         help="write a report to a file; -: to standard output, which then has nothing else",
@@ -286,6 +293,12 @@ def _distance(text: str) -> float:
     if not 0 <= value < inf:
         raise argparse.ArgumentTypeError(f"{text!r} is not a distance, 0 or more")
     return value
+
+
+def _pieces(text: str) -> int:
+    if not text.isdecimal() or not 0 < int(text) < 2**31:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, 1 or more")
+    return int(text)
 
 
 def _threads(text: str) -> int:

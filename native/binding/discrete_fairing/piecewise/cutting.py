@@ -51,8 +51,7 @@ def pieces(
         to the whole's surface becomes about 2.6 times smaller.
     **settings
         Those of fair(), but for shapes, symmetry_plane and measure, which exclude pieces, and for
-        threads, memory_limit, progress and monitor, which Piece.fair() takes. relative_residual is
-        1e-6 by default, a hundredth of fair()'s, so that no seam is seen.
+        threads, memory_limit, progress and monitor, which Piece.fair() takes.
 
     Returns
     -------

@@ -210,6 +210,9 @@ class Whole:
                 "count": self.surface["count"],
                 "rings": self.surface["rings"],
                 "jump": jumps(self.seams, lambda ids: self.vertices[ids], self.surface["size"]),
-                "parts": reports,
+                "parts": [
+                    {key: value for key, value in report.items() if key != "pad_widths"}
+                    for report in reports
+                ],
             },
         }

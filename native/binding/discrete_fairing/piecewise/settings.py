@@ -23,10 +23,6 @@ OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # piece.fair() take
 DECIDED = ("crease_edges", "crease_angle", "corner_angle", "boundary", "boundary_edges", "repair", "weld")
 PER_VERTEX = ("tolerance", "weights", "normals")
 
-# A surface from pieces is nowhere better than its seams are, where two solutions meet a few points
-# apart. fair()'s own 1e-4 leaves jumps that reflections show (docs/pieces.md has what was measured).
-RELATIVE_RESIDUAL = 1e-6
-
 
 def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
     """All settings of the whole as the caller has written them, and the core's.
@@ -44,7 +40,6 @@ def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native
             raise fairing_error(
                 "BAD_OPTION", f"{name} is no setting of pieces(); give it to fair() of each piece."
             )
-    settings.setdefault("relative_residual", RELATIVE_RESIDUAL)
     settings["levels"] = whole("levels", levels)
     return settings, native_options(**settings)
 
