@@ -24,6 +24,7 @@ import million
 import pads
 import paper
 import peers
+import piecewise
 import renumbering
 import scaling
 import shared
@@ -38,6 +39,7 @@ BENCHMARKS = {
     "cholesky": cholesky.run,
     "peers": peers.run,
     "million": million.run,
+    "piecewise": piecewise.run,
     "sizes": sizes.run,
     "cancel": cancel.run,
     "charts": charts.run,
