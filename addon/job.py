@@ -94,13 +94,14 @@ class Job:
             )
         if self.arrays.normals is not None and not core.takes_normals(self.settings):
             self.notes.append("Fixed normals are left out: only Thin Plate holds them.")
+        self.pieces: int | None = None  # faired one after another; None: as a whole
         self.result: Any = None
 
-    def compute(self, pieces: int | None = None, **watchers: Any) -> None:
-        """Runs the core, in so many pieces; `watchers` are its `monitor` and `progress`."""
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         with errors.explained(self.name):
-            self.result = core.faired(self.arguments, pieces, **watchers)
+            self.result = core.faired(self.arguments, self.pieces, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
         world = self.shape.of_arrays(self.arrays)

@@ -118,10 +118,8 @@ def _fair_file(
                 job.arguments["weld"] = arguments.weld
             if arguments.threads is not None:
                 job.arguments["threads"] = arguments.threads
-            how: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
-            if arguments.pieces is not None:
-                how["pieces"] = arguments.pieces
-            job.compute(**how)
+            job.pieces = arguments.pieces
+            job.compute(**{} if arguments.quiet else {"progress": progress})
             progress.next_run()
     finally:
         progress.clear()

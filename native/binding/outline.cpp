@@ -47,8 +47,8 @@ py::dict outline_arrays(const Contiguous<double>& vertices, const Contiguous<std
   d["edge_kind"] = column(outline.edge_kind);
   d["curve"] = column(outline.curve);
   d["curve_points"] = rows(outline.curve_points, 3);
-  d["units"] = py::make_tuple(outline.units.edge, outline.units.edge_in_space,
-                              outline.units.weight, outline.units.weight_in_space);
+  d["units"] = py::make_tuple(outline.units.edge, outline.units.edge_in_space, outline.units.weight,
+                              outline.units.weight_in_space);
   py::dict report;
   add_mesh_report(report, outline.report);
   d["report"] = report;

@@ -81,8 +81,8 @@ void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watc
   std::vector<Vec3> positions = mesh_.positions;
   drop_systems();
   // From here on nothing fails but what is put back: all that build() sets.
-  std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_),
-                    units_, std::move(start_weights_), std::move(positions));
+  std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_), units_,
+                    std::move(start_weights_), std::move(positions));
   try {
     build(std::move(world), watch);
     ControlPositions copy = basis_;

@@ -27,8 +27,7 @@ OwnedPolygonMesh turned(const PolygonMesh& mesh, std::span<const std::int64_t> f
 // A control vertex as the result numbers it, without copies.
 std::int32_t joined(const ControlMesh& mesh, Index v) {
   const Index original = mesh.original_vertex(v);
-  return original < mesh.input_vertices ? original
-                                        : original - Index(mesh.copied_vertex.size());
+  return original < mesh.input_vertices ? original : original - Index(mesh.copied_vertex.size());
 }
 
 void take_faces(const ControlMesh& mesh, Outline& out) {

@@ -31,9 +31,9 @@ struct Outline {
   std::optional<MendedMesh> mended{};  // where that is not the one given
   FairOptions options{};               // as of that mesh
 
-  std::vector<double> centres{};          // of split polygons, 3 numbers each: behind the vertices
-  std::vector<std::int32_t> face{};       // 4 vertices a control face; -1 behind those of a triangle
-  std::vector<std::int32_t> polygon{};    // 1 a control face: the face of `mesh` that it is part of
+  std::vector<double> centres{};        // of split polygons, 3 numbers each: behind the vertices
+  std::vector<std::int32_t> face{};     // 4 vertices a control face; -1 behind those of a triangle
+  std::vector<std::int32_t> polygon{};  // 1 a control face: the face of `mesh` that it is part of
   std::vector<std::int32_t> side_edge{};  // 4 a control face
   std::vector<std::uint8_t> side_reversed{};
   std::vector<std::int32_t> edge{};       // 2 vertices an edge

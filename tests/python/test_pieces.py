@@ -330,7 +330,5 @@ def test_a_crease_is_felt_by_its_own_piece_only():
     creased = {
         p.index: p for p in cut(*torus(48, 8), count=6, rings=1, crease_edges=ring(48, 8)[:3])
     }
-    same = [
-        np.array_equal(plain[k].fair().vertices, creased[k].fair().vertices) for k in range(6)
-    ]
+    same = [np.array_equal(plain[k].fair().vertices, creased[k].fair().vertices) for k in range(6)]
     assert 2 <= sum(same) < 6

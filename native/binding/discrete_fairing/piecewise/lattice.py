@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Points of a refined surface by arithmetic, as native/grid/grid_level.h numbers them.
 
-    [control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
+[control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
 """
 
 from __future__ import annotations

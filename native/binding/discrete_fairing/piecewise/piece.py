@@ -99,7 +99,9 @@ class Piece(Record):
         seam_vertex_id, seam_vertex_row = self._vertices(own, mirrored, there & ~self.corner_owned)
         seam_edge_id, seam_edge_rows = self._edges(own, mirrored, there & ~self.side_owned)
         inside = [
-            points[self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)]
+            points[
+                self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)
+            ]
             for kind in (False, True)
         ]
         return Part(

@@ -20,7 +20,15 @@ EXCLUDED = {
 }
 OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # piece.fair() takes them
 # Decided for the whole, and handed down as elements.
-DECIDED = ("crease_edges", "crease_angle", "corner_angle", "boundary", "boundary_edges", "repair", "weld")
+DECIDED = (
+    "crease_edges",
+    "crease_angle",
+    "corner_angle",
+    "boundary",
+    "boundary_edges",
+    "repair",
+    "weld",
+)
 PER_VERTEX = ("tolerance", "weights", "normals")
 
 
