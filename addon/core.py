@@ -106,7 +106,8 @@ def fair_arguments(
         "levels": settings.levels,
         "energy": settings.energy.lower(),
         "metric_exponent": settings.metric_exponent,
-        "interpolation": settings.interpolation.lower(),
+        # what Automatic means is known where the source is
+        "interpolation": settings.interpolation.lower().replace("auto", "exact"),
         "tolerance": allowed if shares is None else allowed * shares,
         "pad_size": settings.pad_size,
         # the steps of minimum variation would burst under it
@@ -124,6 +125,8 @@ def fair_arguments(
     }
     if arrays.normals is not None and takes_normals(settings):
         arguments["normals"] = arrays.normals
+    if settings.interpolation == "LIMIT":
+        arguments |= _limit(arrays, settings)
     if pulls is not None:
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
@@ -135,6 +138,40 @@ def fair_arguments(
     if shapes is not None and len(shapes):
         arguments["shapes"] = shapes
     return arguments
+
+
+def _limit(arrays: ControlArrays, settings: Any) -> dict[str, Any]:
+    """How far vertices go to their limit positions, and how sharp Subdivision Surface has creases."""
+    found: dict[str, Any] = {"limit": settings.limit}
+    if not settings.use_crease_attribute:
+        return found
+    if arrays.edge_crease is not None:
+        creased = (arrays.edge_crease > 0) & _occurs(arrays.corner_edges, len(arrays.edges))
+        found["edge_sharpness"] = (arrays.edges[creased], _sharpness(arrays.edge_crease[creased]))
+    corners = _vertex_sharpness(arrays)
+    if corners.any():
+        found["vertex_sharpness"] = corners
+    return found
+
+
+def _vertex_sharpness(arrays: ControlArrays) -> np.ndarray:
+    """(n,) As Blender has it: a vertex with two edges, as at the corner of a sheet, is as sharp as the
+    softer of them, beside what it is itself.
+    """
+    count = len(arrays.positions)
+    own = np.zeros(count) if arrays.vertex_crease is None else _sharpness(arrays.vertex_crease)
+    if arrays.edge_crease is None:
+        return own
+    ends, sharpness = arrays.edges.ravel(), np.repeat(_sharpness(arrays.edge_crease), 2)
+    softer = np.full(count, np.inf)
+    np.minimum.at(softer, ends, sharpness)
+    two = np.bincount(ends, minlength=count) == 2
+    return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
+
+
+def _sharpness(creases: np.ndarray) -> np.ndarray:
+    """Blender's creases, 0 to 1, as the steps of subdivision for which they are sharp."""
+    return 10.0 * creases.astype(np.float64) ** 2
 
 
 def takes_normals(settings: Any) -> bool:

@@ -81,6 +81,16 @@ class FairingSettings:
         name="Vertices",
         description="Whether the surface passes through the vertices of the source or near them",
         items=INTERPOLATIONS,
+        default="AUTO",
+    )
+    limit: FloatProperty(
+        name="Follow",
+        description="Where the surface passes under Limit. 0: through the vertices of the source, as modelled; "
+        "1: where Subdivision Surface passes",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
     )
     tolerance: FloatProperty(
         name="Tolerance",
@@ -290,6 +300,31 @@ NAMES = tuple(FairingSettings.__annotations__)
 def is_near(settings: Settings) -> bool:
     """Whether the surface may miss vertices: only then do tolerances mean anything."""
     return settings.interpolation == "APPROXIMATE"
+
+
+def is_limit(settings: Settings) -> bool:
+    """Whether the surface passes through limit positions."""
+    return settings.interpolation == "LIMIT"
+
+
+def for_source(settings: Settings, source: Object) -> SimpleNamespace:
+    """A copy of the `settings`, with what AUTO comes to for `source`; a Subdivision Surface modifier
+    that is in the faired mesh already is not followed a second time.
+    """
+    own = snapshot(settings)
+    subdivided = subdivision(source) is not None
+    if subdivided and is_evaluated(settings) and own.interpolation in ("AUTO", "LIMIT"):
+        own.interpolation = "EXACT"
+    elif own.interpolation == "AUTO":
+        own.interpolation = "LIMIT" if subdivided else "EXACT"
+    return own
+
+
+def subdivision(source: Object) -> Any:
+    """The modifier by which `source` is looked at as a Catmull-Clark surface; None if there is none."""
+    modifiers: Any = source.modifiers
+    shown = (m for m in modifiers if m.type == "SUBSURF" and m.show_viewport)
+    return next((m for m in shown if m.subdivision_type == "CATMULL_CLARK"), None)
 
 
 def is_evaluated(settings: Settings) -> bool:

@@ -18,6 +18,7 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import limits
 import live
 import memory
 import million
@@ -46,6 +47,7 @@ BENCHMARKS = {
     "shared": shared.run,
     "side_by_side": side_by_side.run,
     "subdivision": subdivision.run,
+    "limits": limits.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "bevels": bevels.run,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..choices import ENERGY_MEANINGS
-from ..settings import Settings, is_evaluated, is_near
+from ..settings import Settings, is_evaluated, is_limit, is_near
 
 
 class Sidebar:
@@ -35,11 +35,14 @@ def draw_shape(
     missing_groups: dict[str, str] | None = None,
     edges_text: str = "",
     normals_text: str = "",
+    vertices_text: str = "",
+    follows: bool = False,
 ) -> None:
     """The few that everyone needs. What is known of the source stands below what it is about,
     since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
     relative tolerance comes to, which groups are not there, `edges_text`, the border edges that
-    are other than the setting says, and `normals_text`, of fixed ones.
+    are other than the setting says, `normals_text`, of fixed ones, and `vertices_text`, what
+    Automatic comes to; `follows`: whether that is Limit.
     """
     layout.prop(settings, "levels")
     if triangle_text:
@@ -47,6 +50,10 @@ def draw_shape(
     layout.prop(settings, "energy")
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     layout.prop(settings, "interpolation")
+    if vertices_text:
+        _remark(layout, vertices_text)
+    if is_limit(settings) or follows:
+        layout.prop(settings, "limit")
     if is_near(settings):
         _draw_tolerance(layout, settings, tolerance_text, missing_groups or {})
     _draw_pads(layout, settings)

@@ -19,7 +19,15 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
 from ..queue import Queue, running, status_text
-from ..settings import Settings, halves, is_evaluated, is_near
+from ..settings import (
+    Settings,
+    for_source,
+    halves,
+    is_evaluated,
+    is_limit,
+    is_near,
+    subdivision,
+)
 from .layout import (
     Folded,
     Sidebar,
@@ -80,6 +88,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
             ),
             normals_text(settings, sources),
+            vertices_text(settings, sources),
+            follows(settings, sources),
         )
         if triangles >= size.LARGE:
             draw_notice(
@@ -188,6 +198,28 @@ def normals_text(settings: Settings, sources: list[Object]) -> str:
     if not count:
         return ""
     return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Thin Plate only")
+
+
+def follows(settings: Settings, sources: list[Object]) -> bool:
+    """Whether some surface will pass through limit positions."""
+    return any(is_limit(for_source(settings, source)) for source in sources)
+
+
+def vertices_text(settings: Settings, sources: list[Object]) -> str:
+    """What Automatic comes to; empty where it is not chosen. Limit is left out, and said so, where
+    the modifier is in the mesh already.
+    """
+    if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
+        return ""
+    limit = [is_limit(for_source(settings, source)) for source in sources]
+    subdivided = any(subdivision(source) for source in sources)
+    if is_evaluated(settings) and subdivided and not any(limit):
+        return "Through: subdivided already"
+    if settings.interpolation == "LIMIT":
+        return ""
+    if all(limit):
+        return "Limit: has Subdivision Surface"
+    return "Limit where Subdivision Surface is" if any(limit) else "Through every vertex"
 
 
 def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:

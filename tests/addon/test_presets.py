@@ -99,7 +99,7 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     levels = bpy.context.scene.discrete_fairing.levels
     bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Scan.py"))
     assert target.discrete_fairing.interpolation == "APPROXIMATE"
-    assert bpy.context.scene.discrete_fairing.interpolation == "EXACT"
+    assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
     assert bpy.context.scene.discrete_fairing.levels == levels
 
 

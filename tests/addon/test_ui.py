@@ -27,6 +27,8 @@ def test_every_setting_is_shown_somewhere():
     log = []
     for settings.tolerance_unit in ("RELATIVE", "SCENE"):
         log += [entry for cls in panels for entry in draw(cls)]
+    settings.interpolation = "LIMIT"
+    log += [entry for cls in panels for entry in draw(cls)]
     assert set(NAMES) <= set(log)
 
 

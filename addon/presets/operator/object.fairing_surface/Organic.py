@@ -7,6 +7,7 @@ op = bpy.context.active_operator
 op.levels = 3
 op.energy = "THIN_PLATE"
 op.interpolation = "APPROXIMATE"
+op.limit = 1.0
 op.tolerance = 0.01
 op.relative_tolerance = 0.02
 op.tolerance_unit = "RELATIVE"
