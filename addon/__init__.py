@@ -26,6 +26,7 @@ from .operators import (
     inspect,
     live,
     presets,
+    purposes,
     step,
 )
 from .ui import check as check_panel
@@ -59,6 +60,7 @@ _MODULES = (
     check,
     inspect,
     presets,
+    purposes,
     pictures,
     step,
     main_panel,

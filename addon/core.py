@@ -20,6 +20,7 @@ MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall t
 
 # half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
 _COSINE_OF_CORNER = 0.5
+_AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
 
 
 @cache
@@ -206,6 +207,17 @@ def tolerance(settings: Any, edge_length: float) -> float:
         return 0.0
     relative = settings.tolerance_unit == "RELATIVE"
     return settings.relative_tolerance * edge_length if relative else settings.tolerance
+
+
+def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
+    """How many vertices are as far from the surface as they may be, and how many may be off at all;
+    `surface` (N, 3): its points, the vertices' first.
+    """
+    points = arguments["vertices"]
+    allowed = np.broadcast_to(arguments["tolerance"], len(points))
+    may = (allowed > 0) & _occurs(np.asarray(arguments["faces"][0]), len(points))
+    off = np.linalg.norm(surface[: len(points)] - points, axis=1)
+    return [int((off[may] >= _AT * allowed[may]).sum()), int(may.sum())]
 
 
 def crease_edges(

@@ -103,6 +103,7 @@ class Job:
             self.result = core.module().fair(**self.arguments, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
+        self._at_tolerance = core.at_tolerance(self.arguments, self.result.vertices)
         world = self.shape.of_arrays(self.arrays)
         self.faults = find_faults(self.result, self.carrier, world)
         self._to_object()
@@ -203,7 +204,11 @@ class Job:
         if wants_modifiers(settings) and old is None:
             self.notes += copy_modifiers(context, source, target, is_limit(settings))
         self.faults.write(target.data)
-        report = {**result.report, "faults": self.faults.counts}
+        report = {
+            **result.report,
+            "faults": self.faults.counts,
+            "at_tolerance": self._at_tolerance,
+        }
         memory.remember(target, source, settings, report)
         freshness.note(target, self._made)
         display.refresh(target, context.scene.discrete_fairing_inspection)

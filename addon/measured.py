@@ -141,10 +141,9 @@ class _Trial:
 
     def for_noise(self, noise: float) -> float:
         """The strongest weight that leaves so much [Morozov 1966]."""
-        found = [w for w in _WEIGHTS.tolist() if self.noise(w) >= noise]
-        if not found:
-            return float(_WEIGHTS[-1])
-        low, high = found[0], found[0] * 10.0**0.5
+        tried = [*(10.0 ** np.arange(3.0, 1.0, -0.5)).tolist(), *_WEIGHTS.tolist()]
+        low = next((w for w in tried if self.noise(w) >= noise), tried[-1])
+        high = low * 10.0**0.5
         for _ in range(4):
             middle = float(np.sqrt(low * high))
             low, high = (middle, high) if self.noise(middle) >= noise else (low, middle)

@@ -72,14 +72,14 @@ class FairingSettings:
         soft_max=5,
     )
     energy: EnumProperty(
-        name="Energy",
-        description="The quantity to minimize: how bending is measured",
+        name="Fairness",
+        description="What is to be as small as possible: bending, curvature, or its change along the surface",
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )
     interpolation: EnumProperty(
         name="Vertices",
-        description="Whether the surface passes through the vertices of the source or near them",
+        description="Whether the surface passes through the vertices of the source, near them, or where Subdivision Surface would",
         items=INTERPOLATIONS,
         default="AUTO",
     )
@@ -139,9 +139,9 @@ class FairingSettings:
         search_options={"SUGGESTION"},
     )
     pad_size: FloatProperty(
-        name="Pad Size",
-        description="What holds the vertices. 0: held on needles, which leave marks in the reflections; "
-        "above: held on pads, which do not. The larger, the calmer; the surface passes through the vertices all the same",
+        name="Hold Softly",
+        description="How the vertices hold the surface. 0: each at its own point, which leaves a mark in the reflections; "
+        "1: each over the faces around it, which leaves none. The surface passes through the vertices all the same",
         default=1.0,
         min=0.0,
         max=1.0,

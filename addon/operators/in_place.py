@@ -86,8 +86,8 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
         subtype="DISTANCE",
     )
     energy: EnumProperty(
-        name="Energy",
-        description="The quantity to minimize: how bending is measured",
+        name="Fairness",
+        description="What is to be as small as possible: bending, curvature, or its change along the surface",
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )

@@ -2,6 +2,7 @@
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, cast
 
 import bpy
@@ -18,6 +19,7 @@ from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
+from ..purposes import FOLDER, PRESET_FOLDER
 from ..queue import Queue, running, status_text
 from ..settings import (
     Settings,
@@ -30,9 +32,11 @@ from ..settings import (
 )
 from .layout import (
     Folded,
+    Known,
     Sidebar,
     draw_advanced,
     draw_creases,
+    draw_job,
     draw_result,
     draw_shape,
     draw_source,
@@ -41,8 +45,6 @@ from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import draw_pictures
 
-# where Blender looks for the presets of the operator, which are those of the panel
-PRESET_FOLDER = "operator/object.fairing_surface"
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
 
@@ -53,8 +55,13 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
     preset_add_operator = "object.fairing_preset_add"
 
     def draw(self, context: Context) -> None:
-        draw_pictures(cast(bpy.types.UILayout, self.layout), PRESET_FOLDER)
+        draw_pictures(cast(bpy.types.UILayout, self.layout))
         super().draw(context)
+
+    def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
+        """The user's own: those that come with the extension are there as pictures."""
+        own = [path for path in searchpaths if not Path(path).is_relative_to(FOLDER)]
+        return bpy.types.Menu.path_menu(cast(Any, self), own, *args, **names)
 
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
@@ -78,11 +85,10 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         settings = settings_at_hand(context)
         sources = _sources(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
-        draw_shape(
-            layout,
-            settings,
+        known = Known(
             _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
+            "" if memory is None else _held_text(memory),
             missing_groups(settings, sources),
             boundary_marks.summary(
                 o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
@@ -91,6 +97,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             vertices_text(settings, sources),
             follows(settings, sources),
         )
+        draw_job(layout, settings, known)
         if triangles >= size.LARGE:
             draw_notice(
                 layout,
@@ -105,7 +112,9 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+            _draw_button(
+                layout, "object.fairing_surface", "SURFACE_DATA", text, "VIEW3D_MT_fairing_for"
+            )
             if not sources:
                 layout.label(text="Select a mesh object first", icon="INFO")
             if context.mode == "EDIT_MESH" and settings.use_selection:
@@ -114,6 +123,10 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         draw_live(layout, context)
         if memory is not None:
             _draw_cad(layout)
+        header, more = layout.panel("fairing.more", default_closed=True)
+        header.label(text="More")
+        if more is not None:
+            draw_shape(more, settings, known)
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:
@@ -189,6 +202,14 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     return "= " + bpy.utils.units.to_string(
         units.system, "LENGTH", length * units.scale_length, precision=4
     )
+
+
+def _held_text(memory: FAIRING_PG_surface) -> str:
+    """`37 of 63 vertices at the limit`; empty where none may move."""
+    if not is_near(memory):
+        return ""
+    held = (recall(cast(Object, memory.id_data), "report") or {}).get("at_tolerance")
+    return f"{held[0]:,} of {held[1]:,} vertices at the limit" if held and held[1] else ""
 
 
 def normals_text(settings: Settings, sources: list[Object]) -> str:
@@ -288,11 +309,15 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
         draw_notice(layout, mended, icon="INFO")
 
 
-def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
-    """The one large button."""
-    row = layout.row()
+def _draw_button(
+    layout: bpy.types.UILayout, operator: str, icon: Any, text: str, menu: str = ""
+) -> None:
+    """The one large button, and a menu of what else it may do."""
+    row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
+    if menu:
+        row.menu(menu, text="For")
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:
