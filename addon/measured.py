@@ -126,6 +126,9 @@ class _Trial:
             )
         return self._known[weight]
 
+    def _off(self, weight: float) -> float:
+        return float(np.sqrt(self._measured(weight)[0]))
+
     def noise(self, weight: float) -> float:
         square, share = self._measured(weight)
         return float(np.sqrt(square / max(1.0 - share, 1e-9)))
@@ -140,13 +143,13 @@ class _Trial:
         return float(_WEIGHTS[int(np.argmin(scores))])
 
     def for_noise(self, noise: float) -> float:
-        """The strongest weight that leaves so much [Morozov 1966]."""
+        """The strongest weight that takes so much off [Morozov 1966]."""
         tried = [*(10.0 ** np.arange(3.0, 1.0, -0.5)).tolist(), *_WEIGHTS.tolist()]
-        low = next((w for w in tried if self.noise(w) >= noise), tried[-1])
+        low = next((w for w in tried if self._off(w) >= noise), tried[-1])
         high = low * 10.0**0.5
         for _ in range(4):
             middle = float(np.sqrt(low * high))
-            low, high = (middle, high) if self.noise(middle) >= noise else (low, middle)
+            low, high = (middle, high) if self._off(middle) >= noise else (low, middle)
         return low
 
 

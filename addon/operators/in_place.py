@@ -78,7 +78,7 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
     )
     noise: FloatProperty(
         name="Noise",
-        description="How far measured vertices are off, root mean square, in scene units. 0: found out from the vertices",
+        description="How far measured vertices are moved, root mean square, in scene units: as far as they are off. 0: found out from the vertices",
         default=0.0,
         min=0.0,
         soft_max=1.0,
