@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import discrete_fairing as df
+import from_tests
 import numpy as np
 import rivals
 import table
@@ -27,8 +28,33 @@ def judged(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
     return {**figures(points, triangles), "crossing": crossing_triangles(points, triangles)}
 
 
+def wall(points: np.ndarray) -> float:
+    """Largest less smallest radius of the mug's outer wall, away from handle, rim and bottom, as a
+    share of the mean.
+    """
+    x, y, z = points.T
+    radius, away = np.hypot(x, y), np.abs(np.arctan2(y, x)) > 1.6
+    outer = away & (z > 0.45) & (z < 1.5) & (radius > 0.92 * radius[away].max())
+    return float(np.ptp(radius[outer]) / radius[outer].mean())
+
+
+def walls() -> dict[str, float]:
+    """How straight each surface keeps it."""
+    mug = from_tests.modelled().mug()
+    faces = [list(map(int, face)) for face in mug.faces]
+    found = {"Subdivision Surface": wall(rivals.catmull_clark(mug.vertices, faces, LEVELS)[0])}
+    for setting, options in SETTINGS.items():
+        found[setting] = wall(
+            df.fair(mug.vertices, faces, LEVELS, repair="mend", **options).vertices
+        )
+    table.show(
+        "The mug's wall", ["surface", "spread of its radius"], list(map(list, found.items()))
+    )
+    return found
+
+
 def run() -> dict[str, Any]:
-    """All cages."""
+    """All cages, then the mug."""
     result: dict[str, Any] = {}
     rows = []
     for name, vertices, faces in cages():
@@ -54,4 +80,5 @@ def run() -> dict[str, Any]:
         ["cage", "surface", *FIGURES, "crossing", "seconds", "smaller"],
         rows,
     )
+    result["mug, spread of the wall's radius"] = walls()
     return result
