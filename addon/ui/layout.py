@@ -22,9 +22,9 @@ class Sidebar:
 
 
 class Folded(Sidebar):
-    """Mix-in of the panels below the first one."""
+    """Mix-in of the panels below Inspect."""
 
-    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_parent_id = "VIEW3D_PT_fairing_inspect"
     bl_options = {"DEFAULT_CLOSED"}
 
 
@@ -171,6 +171,11 @@ def draw_settings(
     layout.use_property_decorate = False
     draw_job(layout, settings, Known(triangle_text))
     draw_shape(layout, settings)
+    draw_folded(layout, settings, identifier)
+
+
+def draw_folded(layout: bpy.types.UILayout, settings: Settings, identifier: str) -> None:
+    """The rare ones."""
     for label, draw in FOLDED:
         header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
         header.label(text=label)

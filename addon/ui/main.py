@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
 
@@ -30,17 +29,7 @@ from ..settings import (
     is_near,
     subdivision,
 )
-from .layout import (
-    Folded,
-    Known,
-    Sidebar,
-    draw_advanced,
-    draw_creases,
-    draw_job,
-    draw_result,
-    draw_shape,
-    draw_source,
-)
+from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import draw_pictures
@@ -127,6 +116,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         header.label(text="More")
         if more is not None:
             draw_shape(more, settings, known)
+            draw_folded(more, settings, "fairing")
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:
@@ -258,33 +248,6 @@ def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:
     return found
 
 
-class _FoldedSettings(Folded):
-    draw_body: Callable[[bpy.types.UILayout, Settings], None]
-
-    def draw(self, context: Context) -> None:
-        self.draw_body(_split(self.layout), settings_at_hand(context))
-
-
-class VIEW3D_PT_fairing_source(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Source"
-    draw_body = staticmethod(draw_source)
-
-
-class VIEW3D_PT_fairing_creases(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Creases"
-    draw_body = staticmethod(draw_creases)
-
-
-class VIEW3D_PT_fairing_result(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Result"
-    draw_body = staticmethod(draw_result)
-
-
-class VIEW3D_PT_fairing_advanced(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Advanced"
-    draw_body = staticmethod(draw_advanced)
-
-
 def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
     layout.use_property_split = True
     layout.use_property_decorate = False
@@ -335,10 +298,6 @@ def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
 CLASSES = (
     VIEW3D_PT_fairing_presets,
     VIEW3D_PT_fairing,
-    VIEW3D_PT_fairing_source,
-    VIEW3D_PT_fairing_creases,
-    VIEW3D_PT_fairing_result,
-    VIEW3D_PT_fairing_advanced,
 )
 
 register, unregister = registration(*CLASSES)

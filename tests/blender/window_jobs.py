@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair for …, from defaults, in a window: each purpose on a model of its kind, one click after the selection."""
 
+import importlib
 import sys
 from pathlib import Path
 
@@ -96,7 +97,9 @@ def one_click(purpose, model):
     with bpy.context.temp_override(**harness.view()):
         answer = bpy.ops.object.fairing_for("INVOKE_DEFAULT", purpose=purpose)
     assert answer <= {"FINISHED", "RUNNING_MODAL"}, answer
-    yield 3.0
+    while importlib.import_module(f"{harness.EXTENSION}.queue").running():
+        yield 0.2
+    yield 1.0
     result = bpy.context.view_layer.objects.active
     if result.mode == "EDIT":
         with bpy.context.temp_override(**harness.view()):
