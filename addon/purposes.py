@@ -62,3 +62,8 @@ def preset_file(purpose: str) -> Path | None:
 def stem(purpose: str) -> str:
     """`Scan_Patch` for SCAN_PATCH: of its script and its picture."""
     return purpose.title()
+
+
+def is_shipped(folder: str) -> bool:
+    """Whether the presets in a folder come with the extension."""
+    return Path(folder).is_relative_to(FOLDER)

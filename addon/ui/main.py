@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
-from pathlib import Path
 from typing import Any, cast
 
 import bpy
@@ -18,7 +17,7 @@ from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
-from ..purposes import FOLDER, PRESET_FOLDER
+from ..purposes import PRESET_FOLDER, is_shipped
 from ..queue import Queue, running, status_text
 from ..settings import (
     Settings,
@@ -49,7 +48,7 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
 
     def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
         """The user's own: those that come with the extension are there as pictures."""
-        own = [path for path in searchpaths if not Path(path).is_relative_to(FOLDER)]
+        own = [path for path in searchpaths if not is_shipped(path)]
         return bpy.types.Menu.path_menu(cast(Any, self), own, *args, **names)
 
 
