@@ -18,6 +18,8 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import jobs
+import limits
 import live
 import memory
 import million
@@ -48,6 +50,8 @@ BENCHMARKS = {
     "shared": shared.run,
     "side_by_side": side_by_side.run,
     "subdivision": subdivision.run,
+    "limits": limits.run,
+    "jobs": jobs.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "bevels": bevels.run,

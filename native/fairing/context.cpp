@@ -61,13 +61,35 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   add_bytes(mended_bytes);
   normals_ = choose_normals(mesh_, options_);
   add_bytes(std::int64_t(Couples::bytes(mesh_, normals_.fixed)));
+  if (through_limits()) add_bytes(std::int64_t(LimitPositions::bytes(input)));
   // What mending took in passing.
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
-  build(mesh_.positions, watch);
+  std::vector<Vec3> cage(mesh_.positions.begin(), mesh_.positions.begin() + mesh_.input_vertices);
+  if (through_limits()) {
+    limits_ = LimitPositions(input, mesh_, options_.features.corner_vertices, options_.sharpness,
+                             options_.limit);
+    build(limits_of_input(input), std::move(cage), watch);
+  } else {
+    build(mesh_.positions, std::move(cage), watch);
+  }
+}
+
+// One a control vertex. Where they fall together the charts would have no shape.
+std::vector<Vec3> FairingContext::limits_of_input(const PolygonMesh& input) const {
+  const std::vector<double> moved = limits_.of(input.coordinates);
+  try {
+    fairing::check({moved, input.corners, input.offsets}, {options_.repair == Repair::mend});
+  } catch (const FairingError& error) {
+    throw FairingError(error.code,
+                       std::string("At the limit positions of the vertices: ") + error.what() +
+                           " Or use a lower limit, or interpolation=\"exact\".",
+                       error.elements, error.kind);
+  }
+  return all_positions(mesh_, mesh_.positions, moved);
 }
 
 void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& report) const {
@@ -77,14 +99,14 @@ void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& r
 
 void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watch,
                             ControlPositions& control) {
-  std::vector<Vec3> world = control_positions(coordinates).world;
+  ControlPositions next = control_positions(coordinates);
   std::vector<Vec3> positions = mesh_.positions;
   drop_systems();
   // From here on nothing fails but what is put back: all that build() sets.
   std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_), units_,
                     std::move(start_weights_), std::move(positions));
   try {
-    build(std::move(world), watch);
+    build(std::move(next.world), std::move(next.cage), watch);
     ControlPositions copy = basis_;
     control = std::move(copy);
   } catch (...) {
@@ -97,17 +119,19 @@ void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watc
 
 template <class Hold>
 Hold FairingContext::hold_of(const ControlPositions& control, double unit) const {
-  if (options_.interpolation == Interpolation::exact)
+  if (options_.interpolation != Interpolation::approximate)
     return Hold(mesh_, control.working, unknowns_);
   return Hold(mesh_, control.working, unknowns_, weights_with_copies(), unit, working_tolerances());
 }
 
-// `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
-void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
+// `world`: one position a control vertex; `cage`: the caller's. From here on the mesh itself is in
+// working coordinates.
+void FairingContext::build(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch) {
   watch.enter(Phase::curves, 0);
   frame_ = working_frame(mesh_, world);
   basis_ = positions_of_mesh(mesh_, std::move(world), frame_, 1 << options_.levels, exponent_,
                              options_.whole.curves);
+  basis_.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
   mesh_.positions = basis_.working;
@@ -136,8 +160,14 @@ double FairingContext::strength_of_membrane() const {
 }
 
 ControlPositions FairingContext::control_positions(std::span<const double> coordinates) const {
-  return positions_of_shape(mesh_, basis_.world, coordinates, frame_, 1 << options_.levels,
-                            exponent_);
+  const auto positions = [&](std::span<const double> held) {
+    return positions_of_shape(mesh_, basis_.world, held, frame_, 1 << options_.levels, exponent_);
+  };
+  if (!through_limits()) return positions(coordinates);
+  ControlPositions control = positions(limits_.of(coordinates));
+  for (std::size_t v = 0; v < control.cage.size(); ++v)
+    control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+  return control;
 }
 
 ThinPlateSolver& FairingContext::system() {
@@ -277,7 +307,7 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), frame_, *workers_, x, world);
   require_finite(mesh_, control, *workers_, 3 * finest().size(), world);
-  report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
+  report.largest_deviation = largest_deviation(control.cage, world);
 }
 
 }  // namespace fairing

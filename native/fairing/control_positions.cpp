@@ -47,9 +47,10 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   return result;
 }
 
-ControlPositions in_both_systems(std::vector<Vec3> world, FeatureCurves curves,
-                                 const Frame& frame) {
+ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> world,
+                                 FeatureCurves curves, const Frame& frame) {
   ControlPositions control;
+  control.cage.assign(world.begin(), world.begin() + mesh.input_vertices);
   for (const Vec3& p : world) control.working.push_back(frame.to_working(p));
   control.world = std::move(world);
   control.world_curves = std::move(curves);
@@ -109,20 +110,26 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
                                    const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
   take_handed(mesh, handed, curves);
-  return in_both_systems(std::move(world), std::move(curves), frame);
+  return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
-ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
-                                    std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent) {
+std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                std::span<const double> coordinates) {
   std::vector<Vec3> world;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
     world.emplace_back(coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]);
   for (const Index v : mesh.copied_vertex) world.push_back(world[std::size_t(v)]);
   for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c)
     world.push_back(centre_of_shape(mesh, basis_world, c, world));
+  return world;
+}
+
+ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                    std::span<const double> coordinates, const Frame& frame,
+                                    int subdivisions, double exponent) {
+  std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
-  return in_both_systems(std::move(world), std::move(curves), frame);
+  return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
 void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {

@@ -31,8 +31,12 @@ struct Frame {
 Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world);
 
 struct ControlPositions {
-  // One a control vertex: the input's, copies of them, centres of split polygons.
+  // Where the surface is held. One a control vertex: the input's, copies of them, centres of split
+  // polygons.
   std::vector<Vec3> world, working;
+  // The caller's own, one an input vertex, in world coordinates: others than `world` where the
+  // surface passes through limit positions.
+  std::vector<Vec3> cage;
   FeatureCurves world_curves, working_curves;
 };
 
@@ -50,6 +54,11 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
                                     int subdivisions, double exponent);
+
+// `coordinates`, 3 numbers an input vertex, as positions of all control vertices: copies and centres
+// follow, the latter by their weights in `basis_world`.
+std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                std::span<const double> coordinates);
 
 // Throws FairingError: bad_shape when the coordinates do not come to whole shapes of the mesh;
 // non_finite, naming the shape and the vertices.

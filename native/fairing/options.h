@@ -10,13 +10,15 @@
 
 #include "fairing/whole.h"
 #include "mesh/control_mesh.h"
+#include "mesh/limit_positions.h"
 #include "mesh/polygon_mesh.h"
 #include "stencil/chart.h"
 
 namespace fairing {
 
-// Whether control vertices stay, or move within a tolerance or against weights.
-enum class Interpolation { exact, approximate };
+// Whether control vertices stay, move within a tolerance or against weights, or go to where
+// Catmull-Clark subdivision would take them (mesh/limit_positions.h) and stay there.
+enum class Interpolation { exact, approximate, limit };
 
 // The quantity to minimise.
 enum class Energy {
@@ -70,6 +72,10 @@ struct FairOptions {
   std::vector<double> tolerance{0.0};
   // Approximate: one a vertex, or empty. 0 frees a vertex that has no tolerance, infinity fixes it.
   std::vector<double> weights;
+  // Limit: how far control vertices go, from 0, the cage, to 1, their limits; and which edges and
+  // vertices are semi-sharp on the way.
+  double limit = 1;
+  Sharpness sharpness;
   // Afterwards interpolated control vertices are released by so much, which takes off cusps; mesh
   // units. For the thin plate.
   double epsilon = 0;
