@@ -187,6 +187,8 @@ def fill_holes(
             try:
                 moved, states[row] = near.faired(energy, run)
             except _native.FairingError as error:
+                if not error.elements:
+                    raise
                 raise _in_whole(error, row, near) from error
             seen.append(near)
             first += len(own)
