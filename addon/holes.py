@@ -235,16 +235,17 @@ def _write(bm: Any, gone: np.ndarray, filled: Any, places: np.ndarray) -> None:
     old = list(bm.verts)
     bm.faces.ensure_lookup_table()
     bmesh.ops.delete(bm, geom=[bm.faces[f] for f in gone.tolist()], context="FACES")
-    for part in (*bm.faces, *bm.edges, *bm.verts):
-        part.select = False
+    for parts in (bm.faces, bm.edges, bm.verts):
+        for part in [p for p in parts if p.select]:
+            part.select = False
     faces = np.asarray(_triangles(filled))
     made: list[Any] = []
     for hole in filled.holes:
         chosen = faces[hole.faces.start : hole.faces.stop]
         made += write_hole(bm, old, filled.vertices, chosen, places)
     for face in made:
+        face.normal_update()
         face.select_set(True)
-    bm.normal_update()
 
 
 def _triangles(filled: Any) -> Any:
