@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "curvature/total_curvature.h"
+#include "fairing/checked.h"
 #include "fairing/extremes.h"
 #include "fairing/memory_plan.h"
 #include "fairing/output.h"
@@ -15,8 +16,6 @@
 #include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "hold/hold_in_space.h"
-#include "mesh/sheets.h"
-#include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 #include "thin_plate/back_leg.h"
 #include "thin_plate/release.h"
@@ -32,37 +31,6 @@ PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
     out.gone += pads.began_under(v) && !pads.under(v);
   }
   return out;
-}
-
-SheetReport sheets_of(const ControlMesh& mesh) {
-  SheetReport out;
-  const SheetNumbers sheets = number_sheets(mesh);
-  out.count = std::size_t(sheets.count);
-  std::vector<std::uint8_t> one_sided(std::size_t(mesh.vertex_count()), 0);
-  for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f)
-    one_sided[std::size_t(sheets.of_vertex[std::size_t(mesh.faces[std::size_t(f)].vertex[0])])] = 1;
-  out.one_sided = std::size_t(std::count(one_sided.begin(), one_sided.end(), 1));
-  std::vector<std::uint8_t> on_edge(std::size_t(mesh.input_vertices), 0);
-  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
-    if (!mesh.nonmanifold(e)) continue;
-    ++out.nonmanifold_edges;
-    for (const Index v : mesh.edges[std::size_t(e)].vertex)
-      on_edge[std::size_t(mesh.original_vertex(v))] = 1;
-  }
-  for (Index v = 0; v < mesh.input_vertices; ++v)
-    out.nonmanifold_vertices += mesh.fans_meet(v) && !on_edge[std::size_t(v)];
-  return out;
-}
-
-void require_two_sides(const std::vector<Warning>& warnings) {
-  for (const Warning& warning : warnings)
-    if (warning.code == name(ErrorCode::non_orientable))
-      throw FairingError(ErrorCode::non_orientable,
-                         listing(face_s, warning.elements, {"belongs", "belong"}) +
-                             " to a surface with only one side, like a Möbius strip. Only the thin "
-                             "plate takes it: for the other energies a surface needs normals that "
-                             "agree all over. Use energy=\"thin_plate\", or cut it open.",
-                         warning.elements);
 }
 
 }  // namespace
@@ -93,38 +61,57 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   add_bytes(mended_bytes);
   normals_ = choose_normals(mesh_, options_);
   add_bytes(std::int64_t(Couples::bytes(mesh_, normals_.fixed)));
+  if (through_limits()) add_bytes(std::int64_t(LimitPositions::bytes(input)));
   // What mending took in passing.
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);
   exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
-  build(mesh_.positions, watch);
+  std::vector<Vec3> cage(mesh_.positions.begin(), mesh_.positions.begin() + mesh_.input_vertices);
+  if (through_limits()) {
+    limits_ = LimitPositions(input, mesh_, options_.features.corner_vertices, options_.sharpness,
+                             options_.limit);
+    build(limits_of_input(input), std::move(cage), watch);
+  } else {
+    build(mesh_.positions, std::move(cage), watch);
+  }
+}
+
+// One a control vertex. Where they fall together the charts would have no shape.
+std::vector<Vec3> FairingContext::limits_of_input(const PolygonMesh& input) const {
+  const std::vector<double> moved = limits_.of(input.coordinates);
+  try {
+    fairing::check({moved, input.corners, input.offsets}, {options_.repair == Repair::mend});
+  } catch (const FairingError& error) {
+    throw FairingError(error.code,
+                       std::string("At the limit positions of the vertices: ") + error.what() +
+                           " Or use a lower limit, or interpolation=\"exact\".",
+                       error.elements, error.kind);
+  }
+  return all_positions(mesh_, mesh_.positions, moved);
 }
 
 void FairingContext::check(const PolygonMesh& input, Stopwatch& watch, Report& report) const {
   watch.enter(Phase::check, 0);
-  CheckResult checked = fairing::check(input, {options_.repair == Repair::mend});
-  if (options_.energy != Energy::thin_plate) require_two_sides(checked.warnings);
-  report.warnings = std::move(checked.warnings);
-  report.flipped_faces = std::move(checked.flipped_faces);
+  check_mesh(input, options_, report);
 }
 
 void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watch,
                             ControlPositions& control) {
-  std::vector<Vec3> world = control_positions(coordinates).world;
+  ControlPositions next = control_positions(coordinates);
   std::vector<Vec3> positions = mesh_.positions;
   drop_systems();
   // From here on nothing fails but what is put back: all that build() sets.
-  std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_),
-                    weight_unit_, std::move(start_weights_), std::move(positions));
+  std::tuple before(frame_, std::move(basis_), std::move(stencils_), std::move(mirrors_), units_,
+                    std::move(start_weights_), std::move(positions));
   try {
-    build(std::move(world), watch);
+    build(std::move(next.world), std::move(next.cage), watch);
     ControlPositions copy = basis_;
     control = std::move(copy);
   } catch (...) {
     drop_systems();
-    std::tie(frame_, basis_, stencils_, mirrors_, weight_unit_, start_weights_, mesh_.positions) =
+    std::tie(frame_, basis_, stencils_, mirrors_, units_, start_weights_, mesh_.positions) =
         std::move(before);
     throw;
   }
@@ -132,32 +119,55 @@ void FairingContext::rebase(std::span<const double> coordinates, Stopwatch& watc
 
 template <class Hold>
 Hold FairingContext::hold_of(const ControlPositions& control, double unit) const {
-  if (options_.interpolation == Interpolation::exact)
+  if (options_.interpolation != Interpolation::approximate)
     return Hold(mesh_, control.working, unknowns_);
   return Hold(mesh_, control.working, unknowns_, weights_with_copies(), unit, working_tolerances());
 }
 
-// `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
-void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
+// `world`: one position a control vertex; `cage`: the caller's. From here on the mesh itself is in
+// working coordinates.
+void FairingContext::build(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch) {
   watch.enter(Phase::curves, 0);
   frame_ = working_frame(mesh_, world);
-  basis_ = positions_of_mesh(mesh_, std::move(world), frame_, 1 << options_.levels, exponent_);
+  basis_ = positions_of_mesh(mesh_, std::move(world), frame_, 1 << options_.levels, exponent_,
+                             options_.whole.curves);
+  basis_.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
   mesh_.positions = basis_.working;
   require_near(mesh_, normals_.fixed);
-  stencils_ = make_stencils(mesh_, options_.chart, *workers_, membrane_strength(options_.tension));
+  units_ = units_in_working();
+  stencils_ = make_stencils(mesh_, options_.chart, *workers_, strength_of_membrane());
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
-  weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
-  start_weights_ = hold_of<HoldInSpace>(basis_, weight_unit_).weights();
+  start_weights_ = hold_of<HoldInSpace>(basis_, units_.weight).weights();
   require_anchored(mesh_, unknowns_, start_weights_);
   system();
 }
 
+// The whole's, where this is a piece of it.
+MeshUnits FairingContext::units_in_working() const {
+  return options_.whole.given ? in_lengths_of(options_.whole.units, frame_.scale, exponent_)
+                              : measure_units(mesh_, exponent_);
+}
+
+// Stencils measure it in the mean edge of their own mesh.
+double FairingContext::strength_of_membrane() const {
+  const double strength = membrane_strength(options_.tension);
+  if (!options_.whole.given || !(strength > 0)) return strength;
+  const double ratio = measure_units(mesh_, exponent_).edge / units_.edge;
+  return strength * ratio * ratio;
+}
+
 ControlPositions FairingContext::control_positions(std::span<const double> coordinates) const {
-  return positions_of_shape(mesh_, basis_.world, coordinates, frame_, 1 << options_.levels,
-                            exponent_);
+  const auto positions = [&](std::span<const double> held) {
+    return positions_of_shape(mesh_, basis_.world, held, frame_, 1 << options_.levels, exponent_);
+  };
+  if (!through_limits()) return positions(coordinates);
+  ControlPositions control = positions(limits_.of(coordinates));
+  for (std::size_t v = 0; v < control.cage.size(); ++v)
+    control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+  return control;
 }
 
 ThinPlateSolver& FairingContext::system() {
@@ -206,7 +216,7 @@ std::unique_ptr<GaussNewtonSolver> FairingContext::make_gauss_newton(
   GaussNewtonOptions options;
   if (options_.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;
-  const double length = mean_edge(mesh_, flatten(mesh_, 1));
+  const double length = units_.edge_in_space;
   options.tension = membrane_strength(options_.tension) / (length * length);
   options.step_tolerance = options_.step_tolerance_wanted();
   options.load_tolerance = std::clamp(5 * options_.relative_residual, 1e-4, 2e-3);
@@ -226,7 +236,7 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
   has_adapted_ = true;
   gauss_newton_.reset();
   gauss_newton_ = make_gauss_newton(control);
-  HoldInSpace hold = hold_of<HoldInSpace>(control, weight_unit_);
+  HoldInSpace hold = hold_of<HoldInSpace>(control, units_.weight);
   const auto on_prediction = [&](const double* start) {
     if (measured) measure_prediction(start, watch, report);
   };
@@ -297,7 +307,7 @@ void FairingContext::write(const ControlPositions& control, bool measured, Stopw
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), frame_, *workers_, x, world);
   require_finite(mesh_, control, *workers_, 3 * finest().size(), world);
-  report.largest_deviation = largest_deviation(control.world, mesh_.input_vertices, world);
+  report.largest_deviation = largest_deviation(control.cage, world);
 }
 
 }  // namespace fairing

@@ -12,6 +12,7 @@
 #include "fairing/options.h"
 #include "fairing/report.h"
 #include "fairing/symmetry.h"
+#include "mesh/limit_positions.h"
 #include "stencil/stencils.h"
 #include "thin_plate/solver.h"
 
@@ -95,13 +96,19 @@ class FairingContext {
   std::vector<double> working_tolerances() const;
   std::vector<double> weights_with_copies() const;
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
-  void build(std::vector<Vec3> world, Stopwatch& watch);
+  bool through_limits() const { return options_.interpolation == Interpolation::limit; }
+  MeshUnits units_in_working() const;
+  double strength_of_membrane() const;
+  std::vector<Vec3> limits_of_input(const PolygonMesh& input) const;
+  void build(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch);
 
   FairOptions options_;
   Monitor& monitor_;
   std::unique_ptr<Workers> workers_;
-  double exponent_ = 0, weight_unit_ = 0;
-  ControlMesh mesh_;  // in working coordinates
+  double exponent_ = 0;
+  MeshUnits units_;
+  ControlMesh mesh_;       // in working coordinates
+  LimitPositions limits_;  // where the surface passes through them
   Frame frame_;
   ControlPositions basis_;
   Stencils stencils_;

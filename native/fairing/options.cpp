@@ -71,7 +71,7 @@ double FairOptions::step_tolerance_wanted() const {
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {
-  if (interpolation == Interpolation::exact) return 0;
+  if (interpolation != Interpolation::approximate) return 0;
   if (tolerance.size() > 1) return tolerance[v];
   return tolerance[0] > 0 ? tolerance[0] : weights.empty() ? 0 : INFINITY;
 }
@@ -116,6 +116,8 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (!(o.weld <= 1e300)) refuse("weld must be a length, 0 or more.");
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
+  in_range("limit", o.limit, 0, 1);
+  check_sharpness(mesh.vertex_count(), o.sharpness);
   in_range("epsilon", o.epsilon, 0, 1e300);
   if (o.epsilon > 0 && o.energy != Energy::thin_plate)
     refuse(
@@ -146,7 +148,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (o.sweeps < 0 || o.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)
-    refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");
+    refuse("weights are for interpolation=\"approximate\"; other interpolations have none.");
   check_per_vertex(mesh, "weights", o.weights);
 }
 
