@@ -17,9 +17,10 @@
 #include "hold/hold_in_space.h"
 #include "mesh/sheets.h"
 #include "mesh/validate/check.h"
+#include "paper/back_leg.h"
+#include "paper/charts.h"
+#include "paper/release.h"
 #include "parallel/cancel.h"
-#include "thin_plate/back_leg.h"
-#include "thin_plate/release.h"
 
 namespace fairing {
 namespace {
@@ -86,7 +87,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   unknowns_ = choose_unknowns(mesh_, options_);
   RunSize size = predict_size(mesh_, unknowns_, options_.levels,
                               options_.shape_count(input.coordinates.size()), options_.energy,
-                              options_.tension > 0, options_.method == Method::back_leg);
+                              options_.tension > 0, options_.paper.method == Method::back_leg);
   const auto add_bytes = [&](std::int64_t more) {  // as far as they can be counted
     size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
   };
@@ -98,7 +99,7 @@ FairingContext::FairingContext(const PolygonMesh& input, const FairOptions& opti
   require_fit(size, options_);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);
-  exponent_ = options_.chart.kind == ChartKind::tangent ? 1.0 : options_.chart.exponent;
+  exponent_ = options_.paper.metric_exponent(options_.metric_exponent);
   build(mesh_.positions, watch);
 }
 
@@ -146,7 +147,8 @@ void FairingContext::build(std::vector<Vec3> world, Stopwatch& watch) {
   watch.enter(Phase::hierarchy, 0);
   mesh_.positions = basis_.working;
   require_near(mesh_, normals_.fixed);
-  stencils_ = make_stencils(mesh_, options_.chart, *workers_, membrane_strength(options_.tension));
+  stencils_ = make_stencils(mesh_, *charts(), options_.paper, *workers_,
+                            membrane_strength(options_.tension));
   mirrors_ = options_.energy == Energy::thin_plate ? std::vector<Mirror>{}
                                                    : find_symmetry(mesh_, basis_, frame_, options_);
   weight_unit_ = weight_unit(mesh_, flatten(mesh_, exponent_));
@@ -160,6 +162,10 @@ ControlPositions FairingContext::control_positions(std::span<const double> coord
                             exponent_);
 }
 
+std::unique_ptr<ChartMaker> FairingContext::charts() const {
+  return make_charts(mesh_, exponent_, options_.paper);
+}
+
 ThinPlateSolver& FairingContext::system() {
   if (!system_) {
     has_adapted_ = false;
@@ -169,11 +175,11 @@ ThinPlateSolver& FairingContext::system() {
     options.max_iterations = options_.max_iterations;
     options.smoother_degree = options_.smoother_degree;
     options.pad_size = options_.width_of_pads();
-    options.chart = options_.chart;
     options.normals = normals_.fixed;
     options.starts_steps = options_.energy != Energy::thin_plate;
-    system_ = std::make_unique<ThinPlateSolver>(mesh_, basis_.working_curves, stencils_, unknowns_,
-                                                start_weights_, options, *workers_, monitor_);
+    system_ =
+        std::make_unique<ThinPlateSolver>(mesh_, basis_.working_curves, *charts(), stencils_,
+                                          unknowns_, start_weights_, options, *workers_, monitor_);
   }
   return *system_;
 }
@@ -233,8 +239,9 @@ void FairingContext::solve(const ControlPositions& control, bool measured, Stopw
   const auto on_level = [&](int level, Array<double>& points) {
     if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
   };
-  if (options_.method == Method::back_leg)
-    solve_back_leg(*system_, control.working, options_.sweeps, x, report.levels, on_prediction);
+  if (options_.paper.method == Method::back_leg)
+    solve_back_leg(*system_, control.working, options_.paper.sweeps, x, report.levels,
+                   on_prediction);
   else
     system_->solve_nested(control.working, x, report.levels, on_prediction, on_level,
                           hold.active() ? &hold : nullptr);
@@ -263,10 +270,10 @@ void FairingContext::move_surface(Array<double>& x) {
 
 void FairingContext::release(const ControlPositions& control, Stopwatch& watch, Report& report,
                              Array<double>& x) {
-  if (!(options_.epsilon > 0) || options_.energy != Energy::thin_plate) return;
+  if (!(options_.paper.epsilon > 0) || options_.energy != Energy::thin_plate) return;
   watch.enter(Phase::constrain, 0.8);
   report.constraint_rounds += release_control_vertices(system(), mesh_, control.working,
-                                                       options_.epsilon / frame_.scale, x);
+                                                       options_.paper.epsilon / frame_.scale, x);
 }
 
 // The energy of working coordinates in the unit of world ones.

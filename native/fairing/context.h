@@ -88,6 +88,7 @@ class FairingContext {
              const double* x, double* world);
 
  private:
+  std::unique_ptr<ChartMaker> charts() const;
   SurfaceEnergies energies(const double* x);
   template <class Hold>
   Hold hold_of(const ControlPositions& control, double unit) const;

@@ -108,7 +108,7 @@ Mending mending_of(const PolygonMesh& input, const FairOptions& options, Monitor
 }
 
 const FairOptions& without_back_leg(const FairOptions& options) {
-  if (options.method == Method::back_leg)
+  if (options.paper.method == Method::back_leg)
     throw FairingError(
         ErrorCode::bad_option,
         "method=\"back_leg\" keeps nothing to solve again with; use multigrid for a solver.");
@@ -281,7 +281,7 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   warn_unconverged(report, options, "", report);
   GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
   const Array<double>* x = gauss_newton ? &gauss_newton->surface() : &recent_.surface();
-  if (options.epsilon > 0 && !gauss_newton) {
+  if (options.paper.epsilon > 0 && !gauss_newton) {
     released_ = recent_.surface();
     context_.release(control_, watch, report, released_);
     x = &released_;

@@ -54,7 +54,8 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
 }  // namespace
 
 ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& curves,
-                                 const Stencils& stencils, Unknowns unknowns, VertexWeights weights,
+                                 const ChartMaker& charts, const Stencils& stencils,
+                                 Unknowns unknowns, VertexWeights weights,
                                  const ThinPlateOptions& options, Workers& workers,
                                  Monitor& monitor)
     : mesh_(mesh),
@@ -81,11 +82,11 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& c
   }
   hierarchy_.complete();
   if (options.pad_size > 0)
-    pads_ = std::make_unique<Pads>(mesh, options.chart, shared_.unknowns, options.pad_size, workers,
+    pads_ = std::make_unique<Pads>(mesh, charts, shared_.unknowns, options.pad_size, workers,
                                    shared_.weights);
   if (pads_ && !pads_->any()) pads_.reset();
   if (!options.normals.empty() && top() > 0) {
-    couples_ = std::make_unique<Couples>(mesh, options.chart, options.normals, workers);
+    couples_ = std::make_unique<Couples>(mesh, charts, options.normals, workers);
     held_.moments.assign(couples_->size(), Vec2::Zero());
   }
   if (!shared_.unknowns.any_vertex) return;

@@ -37,11 +37,11 @@ struct HeldState {
 // finds that the surface is loose. Then only a new solver is of use.
 class ThinPlateSolver {
  public:
-  // `curves` are in working coordinates, on the finest level; all references must outlive the
-  // solver.
-  ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& curves, const Stencils& stencils,
-                  Unknowns unknowns, VertexWeights weights, const ThinPlateOptions& options,
-                  Workers& workers, Monitor& monitor);
+  // `curves` are in working coordinates, on the finest level; `charts` are those of the stencils.
+  // All references but to charts and options must outlive the solver.
+  ThinPlateSolver(const ControlMesh& mesh, const FeatureCurves& curves, const ChartMaker& charts,
+                  const Stencils& stencils, Unknowns unknowns, VertexWeights weights,
+                  const ThinPlateOptions& options, Workers& workers, Monitor& monitor);
   ~ThinPlateSolver();
 
   int base() const { return base_; }  // the coarsest level with unknowns worth a solve

@@ -28,7 +28,7 @@ std::vector<double> coupled(const Couples& couples, const GridLevel& grid, const
 TEST(Couples, PushNothing) {
   const ControlMesh mesh = make_control_mesh(grid(4, 4).view(), {});
   Workers workers(2);
-  Couples couples(mesh, {}, upright(mesh), workers);
+  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   ASSERT_EQ(couples.size(), 9u);
   for (const int level : {1, 2, 4}) {
     const GridLevel grid(mesh, level);
@@ -52,7 +52,7 @@ TEST(Couples, PushNothing) {
 TEST(Couples, ActOnHalfTheFacesAround) {
   const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   Workers workers(1);
-  Couples couples(mesh, {}, upright(mesh), workers);
+  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   const GridLevel grid(mesh, 4);
   couples.set_level(grid);
   Moments one(couples.size(), Vec2::Zero());
@@ -81,7 +81,7 @@ TEST(Couples, SeeTheSlopesOfAPlane) {
   std::vector<FixedNormal> normals = upright(mesh);
   normals[0].normal = normal;
   normals[1].normal = -normal;
-  const Couples level_free(mesh, {}, normals, workers);
+  const Couples level_free(mesh, ChartMaker(mesh), normals, workers);
   for (const int level : {1, 3}) {
     Couples couples = level_free;
     const GridLevel grid(mesh, level);
@@ -99,7 +99,7 @@ TEST(Couples, SeeTheSlopesOfAPlane) {
 TEST(Couples, OfOneSetAreNotNeighbours) {
   const ControlMesh mesh = make_control_mesh(torus(8, 7).view(), {});
   Workers workers(1);
-  const Couples couples(mesh, {}, upright(mesh), workers);
+  const Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   std::vector<int> seen(couples.size(), 0);
   for (const std::vector<std::size_t>& set : couples.sets_apart()) {
     for (const std::size_t c : set) ++seen[c];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thin_plate/back_leg.h"
+#include "paper/back_leg.h"
 
 #include <cmath>
 

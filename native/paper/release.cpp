@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thin_plate/release.h"
+#include "paper/release.h"
 
 namespace fairing {
 namespace {
