@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "curvature/total_curvature.h"
-#include "fairing/context.h"
+#include "fairing/systems.h"
 #include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "hold/load_steps.h"
@@ -320,21 +320,24 @@ TEST(Pads, HoldTheSurface) {
       Monitor monitor;
       Report report;
       Stopwatch watch(report, monitor);
-      FairingContext run(bent.view(), options, monitor, watch, report);
+      const std::unique_ptr<const FairingProblem> problem =
+          make_problem(bent.view(), options, watch, report);
+      FairingSystems run(*problem, monitor);
       Array<double> x;
-      run.solve(run.basis(), false, watch, report, x);
-      ThinPlateSolver& system = run.system();
+      const PlateState state = run.solve(problem->basis, false, watch, report, x);
+      ThinPlateSolver& system = run.plate();
+      ThinPlateShared& shared = system.levels().shared();
       const GridLevel& grid = run.finest();
-      for (Index v = 0; v < run.mesh().input_vertices; ++v)
+      for (Index v = 0; v < problem->mesh.input_vertices; ++v)
         for (std::size_t a = 0; a < 3; ++a)
           EXPECT_EQ(x[3 * std::size_t(v) + a],
-                    run.basis().working[std::size_t(v)][Eigen::Index(a)]);
+                    problem->basis.working[std::size_t(v)][Eigen::Index(a)]);
       Pads pads = *system.pads();
       pads.set_level(grid);
       std::vector<double> forces(3 * grid.size()), loads(3 * grid.size(), 0.0);
-      apply_thin_plate(grid, system.shared().double_rows, pads.rows(), {}, run.workers(),
-                       system.shared().double_slots, x.data(), forces.data());
-      pads.add_loads(system.loads(), loads.data());
+      apply_thin_plate(grid, shared.double_rows, pads.rows(), {}, *problem->workers,
+                       shared.double_slots, x.data(), forces.data());
+      pads.add_loads(state.loads, loads.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < loads.size(); ++i) {
         largest = std::max(largest, std::abs(loads[i]));
