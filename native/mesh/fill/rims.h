@@ -33,7 +33,9 @@ class Rims {
   }
 
  private:
-  static std::uint64_t key(std::int64_t a, std::int64_t b) { return a < b ? side(a, b) : side(b, a); }
+  static std::uint64_t key(std::int64_t a, std::int64_t b) {
+    return a < b ? side(a, b) : side(b, a);
+  }
 
   const PolygonMesh& mesh_;
   std::unordered_map<std::uint64_t, std::int32_t> border_;  // to the face
