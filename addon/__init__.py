@@ -26,6 +26,7 @@ from .operators import (
     inspect,
     live,
     presets,
+    purposes,
     step,
 )
 from .ui import check as check_panel
@@ -59,11 +60,12 @@ _MODULES = (
     check,
     inspect,
     presets,
+    purposes,
     pictures,
     step,
     main_panel,
-    check_panel,
     inspect_panel,
+    check_panel,
     compare_panel,
     menus,
     outliner,

@@ -33,12 +33,28 @@ ENERGY_MEANINGS = {
     "MINIMUM_VARIATION": "Calmest reflections",
 }
 
+# numbered as files from before the third have them
 INTERPOLATIONS = (
-    ("EXACT", "Through", "The surface passes exactly through every vertex of the source"),
+    (
+        "AUTO",
+        "Automatic",
+        "Limit where the source has a Subdivision Surface modifier, for which its vertices were placed; "
+        "Through where it has none",
+        3,
+    ),
+    ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),
     (
         "APPROXIMATE",
         "Near",
         "The surface may miss each vertex of the source by at most the tolerance, which makes it calmer",
+        1,
+    ),
+    (
+        "LIMIT",
+        "Limit",
+        "The surface passes where Subdivision Surface would: exactly through the limit positions of the vertices, "
+        "and fairer in between. For cages that were modelled under that modifier",
+        2,
     ),
 )
 

@@ -7,7 +7,7 @@ Plain arrays, no Blender.
 
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -20,6 +20,7 @@ MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall t
 
 # half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
 _COSINE_OF_CORNER = 0.5
+_AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
 
 
 @cache
@@ -106,7 +107,8 @@ def fair_arguments(
         "levels": settings.levels,
         "energy": settings.energy.lower(),
         "metric_exponent": settings.metric_exponent,
-        "interpolation": settings.interpolation.lower(),
+        # what Automatic means is known where the source is
+        "interpolation": settings.interpolation.lower().replace("auto", "exact"),
         "tolerance": allowed if shares is None else allowed * shares,
         "pad_size": settings.pad_size,
         # the steps of minimum variation would burst under it
@@ -124,6 +126,8 @@ def fair_arguments(
     }
     if arrays.normals is not None and takes_normals(settings):
         arguments["normals"] = arrays.normals
+    if settings.interpolation == "LIMIT":
+        arguments |= _limit(arrays, settings)
     if pulls is not None:
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
@@ -137,9 +141,67 @@ def fair_arguments(
     return arguments
 
 
+def _limit(arrays: ControlArrays, settings: Any) -> dict[str, Any]:
+    """How far vertices go to their limit positions, and how sharp Subdivision Surface has creases."""
+    found: dict[str, Any] = {"limit": settings.limit}
+    if not settings.use_crease_attribute:
+        return found
+    if arrays.edge_crease is not None:
+        creased = (arrays.edge_crease > 0) & _occurs(arrays.corner_edges, len(arrays.edges))
+        found["edge_sharpness"] = (arrays.edges[creased], _sharpness(arrays.edge_crease[creased]))
+    corners = _vertex_sharpness(arrays)
+    if corners.any():
+        found["vertex_sharpness"] = corners
+    return found
+
+
+def _vertex_sharpness(arrays: ControlArrays) -> np.ndarray:
+    """(n,) As Blender has it: a vertex with two edges, as at the corner of a sheet, is as sharp as the
+    softer of them, beside what it is itself.
+    """
+    count = len(arrays.positions)
+    own = np.zeros(count) if arrays.vertex_crease is None else _sharpness(arrays.vertex_crease)
+    if arrays.edge_crease is None:
+        return own
+    ends, sharpness = arrays.edges.ravel(), np.repeat(_sharpness(arrays.edge_crease), 2)
+    softer = np.full(count, np.inf)
+    np.minimum.at(softer, ends, sharpness)
+    two = np.bincount(ends, minlength=count) == 2
+    return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
+
+
+def _sharpness(creases: np.ndarray) -> np.ndarray:
+    """Blender's creases, 0 to 1, as the steps of subdivision for which they are sharp."""
+    return 10.0 * creases.astype(np.float64) ** 2
+
+
 def takes_normals(settings: Any) -> bool:
     """Whether fixed normals count: the other energies have nothing that would hold them."""
     return settings.energy == "THIN_PLATE"
+
+
+def faired(
+    arguments: Mapping[str, Any],
+    pieces: int | None = None,
+    progress: Callable[[float, str], bool | None] | None = None,
+    **monitor: Any,
+) -> Any:
+    """discrete_fairing's Result for `fair_arguments`; with `pieces`, of so many, one after another:
+    then the run takes the memory of one, and nothing is measured.
+    """
+    if pieces is None:
+        return module().fair(**arguments, progress=progress, **monitor)
+    own = {name: value for name, value in arguments.items() if name != "measure"}
+    run = {name: own.pop(name) for name in ("threads", "memory_limit")} | monitor
+    cut = module().pieces(**own, count=pieces)
+
+    def told(index: int) -> Callable[[float, str], bool | None]:
+        def tell(fraction: float, phase: str) -> bool | None:
+            return progress((index + fraction) / len(cut), phase) if progress else None
+
+        return tell
+
+    return module().join(piece.fair(**run, progress=told(piece.index)) for piece in cut)
 
 
 def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
@@ -169,6 +231,17 @@ def tolerance(settings: Any, edge_length: float) -> float:
         return 0.0
     relative = settings.tolerance_unit == "RELATIVE"
     return settings.relative_tolerance * edge_length if relative else settings.tolerance
+
+
+def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
+    """How many vertices are as far from the surface as they may be, and how many may be off at all;
+    `surface` (N, 3): its points, the vertices' first.
+    """
+    points = arguments["vertices"]
+    allowed = np.broadcast_to(arguments["tolerance"], len(points))
+    may = (allowed > 0) & _occurs(np.asarray(arguments["faces"][0]), len(points))
+    off = np.linalg.norm(surface[: len(points)] - points, axis=1)
+    return [int((off[may] >= _AT * allowed[may]).sum()), int(may.sum())]
 
 
 def crease_edges(

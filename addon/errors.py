@@ -167,8 +167,8 @@ def faults_summary(counts: Mapping[str, int]) -> str:
 def faults_remedy(settings: Any) -> str:
     """What to do about it, in one sentence; `settings`: those that the surface was made with."""
     if settings.energy == "MINIMUM_VARIATION":
-        return "Use Thin Plate, or Total Curvature with Tension."
-    help_by = [] if settings.energy == "THIN_PLATE" else ["use Thin Plate"]
+        return "Set Fairness to Thin Plate, or to Total Curvature with Tension."
+    help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Thin Plate"]
     if settings.tension < 1.0:
         help_by.insert(0, "raise Tension")
     if settings.interpolation == "EXACT":
@@ -189,9 +189,10 @@ def pads_text(pads: Mapping[str, Any]) -> str:
     if not (narrower or gone):
         return ""
     one_or_more = "1 vertex" if (narrower or gone) == 1 else f"{narrower or gone:,} vertices"
-    parts = f"narrower at {one_or_more}" if narrower else f"gone at {one_or_more}"
-    both = f" and gone at {gone:,}" if narrower and gone else ""
-    return f"Pads are {parts}{both}, where the mesh is crumpled."
+    if narrower:
+        both = f", and not softly at {gone:,}" if gone else ""
+        return f"Held less softly at {one_or_more}{both}, where faces turn sharply."
+    return f"Not held softly at {one_or_more}, where faces turn sharply."
 
 
 # of repairs: of one element, of several

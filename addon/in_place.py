@@ -14,7 +14,7 @@ import bmesh
 import numpy as np
 from mathutils import kdtree
 
-from . import core, errors, prediction, size
+from . import core, errors, measured, prediction, size
 from .blender import Context, Object
 from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
@@ -43,10 +43,12 @@ class Wish:
     tension: float
     release: bool  # whether the vertices of the selection move; always, where no others come
     factor: float = 1.0  # how far they go
+    measured: bool = False  # whether they are data, and the surface passes near them
+    noise: float = 0.0  # of these, rms along the normals, a length; 0: found out
 
     @property
     def moves(self) -> bool:
-        return self.release or not self.levels
+        return self.release or self.measured or not self.levels
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ class Faired:
     labels: np.ndarray  # (N, 3) float32, no two alike; linear between those of the vertices
     levels: int
     faults: Faults
+    noise: float = 0.0  # of measured vertices, a length
 
 
 class InPlaceJob:
@@ -81,23 +84,42 @@ class InPlaceJob:
         self._part = part = cut_out(self._arrays, near)
         refined = wish.levels > 0
         region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
-        asked = _settings(settings, wish)
+        self._asked = asked = _settings(settings, wish)
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
-        self._arguments = core.fair_arguments(
-            self._shape.of_arrays(part.arrays), asked, preferences(), region
-        )
+        self._arguments = self._arguments_of(part.arrays, region)
         if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
             whole = core.border_corners(self._shape.of_arrays(self._arrays))
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
-        if wish.moves:
+        self._free = free[part.vertices]
+        if wish.moves and not wish.measured:
             self._arguments["interpolation"] = "approximate"
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
+
+    def _arguments_of(self, arrays: Any, region: np.ndarray | None = None) -> dict[str, Any]:
+        world = self._shape.of_arrays(arrays)
+        return core.fair_arguments(world, self._asked, preferences(), region)
 
     @property
     def _rings(self) -> int:
         return _RINGS_REFINED if self._wish.levels else _RINGS[self._wish.joint]
+
+    def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
+        """What was measured, without its noise, at level 0; and how large that was. The amount is
+        found on a part of large patches.
+        """
+        part, arguments = self._part.arrays, self._arguments
+        theirs = self._chosen[self._part.faces]
+        tried = measured.sample(part, theirs)
+        if tried.sum() < theirs.sum():
+            small = cut_out(part, tried)
+            own = self._arguments_of(small.arrays)
+            free = inside(part, tried)[small.vertices] & self._free[small.vertices]
+        else:
+            own, free = arguments, self._free
+        found = measured.amount(own, free, self._wish.noise, **watchers)
+        return measured.smoothed(arguments, self._free, found.weight, **watchers), found.noise
 
     @property
     def _key(self) -> Hashable:
@@ -121,12 +143,19 @@ class InPlaceJob:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         arguments, part = self._arguments, self._part
+        noise, moved = 0.0, {}
         with errors.explained(self.name):
-            result = core.module().fair(**arguments, **watchers)
+            if self._wish.measured:
+                result, noise = self._smoothed(watchers)
+                moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
+            if self._wish.levels or not self._wish.measured:
+                result = core.module().fair(**arguments | moved, **watchers)
         self._report = result.report
-        result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
+        if not (moved and self._wish.levels):
+            result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
         points = self._shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
-        carrier = Carrier(result, part.arrays, arguments["levels"])
+        unseen = 0 if self._wish.measured else _UNSEEN_LEVELS
+        carrier = Carrier(result, part.arrays, self._wish.levels or unseen)
         world = self._shape.of_arrays(part.arrays)
         labels = np.random.default_rng(0).random((len(part.vertices), 3))
         levels = self._wish.levels
@@ -139,7 +168,9 @@ class InPlaceJob:
         chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
         faults = find_faults_in_place(result, carrier, world, theirs, self._wish)
-        self.result = Faired(part, chosen, points, splits, carrier.point(labels), levels, faults)
+        self.result = Faired(
+            part, chosen, points, splits, carrier.point(labels), levels, faults, noise
+        )
         self._taken = perf_counter() - begun
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
@@ -164,6 +195,13 @@ class InPlaceJob:
             settings = SimpleNamespace(**vars(self._wish), interpolation="APPROXIMATE")
             sentences.append(errors.faults_in_place_text(self.name, counts, settings))
         return sentences
+
+    @property
+    def notes(self) -> list[str]:
+        """What the user may want to know of a finished job, a sentence each."""
+        if not self._wish.measured:
+            return []
+        return [f"{self.name}: noise of {self.result.noise:.3g} (rms, scene units) taken off."]
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
@@ -211,7 +249,7 @@ def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: 
             f"{name}: no vertex lies inside of the selection, so none can move. "
             "Select more faces, or raise Levels."
         )
-    if wish.moves and _floats(arrays, free):
+    if wish.moves and not wish.measured and _floats(arrays, free):
         raise JobError(
             f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
         )
@@ -231,8 +269,11 @@ def _floats(arrays: Any, free: np.ndarray) -> bool:
 
 
 def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
+    unseen = 0 if wish.measured else _UNSEEN_LEVELS
     asked = vars(snapshot(settings)) | {
-        "levels": wish.levels or _UNSEEN_LEVELS,
+        "levels": wish.levels or unseen,
+        # a scan has no creases but those that somebody has marked
+        "use_sharp_edges": settings.use_sharp_edges or wish.measured,
         "joint": wish.joint,
         "energy": wish.energy,
         "tension": wish.tension,

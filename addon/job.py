@@ -27,7 +27,7 @@ from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
-from .settings import Settings, halves, is_evaluated, snapshot, wants_modifiers
+from .settings import Settings, for_source, halves, is_evaluated, is_limit, wants_modifiers
 from .transfer.carrier import Carrier
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
@@ -54,7 +54,7 @@ class Job:
         self._source = Reference(source)
         self._target = None if target is None else Reference(target)
         self.name = source.name
-        self.settings = snapshot(settings)
+        self.settings = for_source(settings, source)
         evaluated = is_evaluated(self.settings)
         with (
             without_inspection(context, source) if evaluated else nullcontext(),
@@ -94,15 +94,17 @@ class Job:
             )
         if self.arrays.normals is not None and not core.takes_normals(self.settings):
             self.notes.append("Fixed normals are left out: only Thin Plate holds them.")
+        self.pieces: int | None = None  # faired one after another; None: as a whole
         self.result: Any = None
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         with errors.explained(self.name):
-            self.result = core.module().fair(**self.arguments, **watchers)
+            self.result = core.faired(self.arguments, self.pieces, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
+        self._at_tolerance = core.at_tolerance(self.arguments, self.result.vertices)
         world = self.shape.of_arrays(self.arrays)
         self.faults = find_faults(self.result, self.carrier, world)
         self._to_object()
@@ -201,9 +203,13 @@ class Job:
             self.notes += write_own(target, own)
         memory.keep(target, "carried", carried)
         if wants_modifiers(settings) and old is None:
-            self.notes += copy_modifiers(context, source, target)
+            self.notes += copy_modifiers(context, source, target, is_limit(settings))
         self.faults.write(target.data)
-        report = {**result.report, "faults": self.faults.counts}
+        report = {
+            **result.report,
+            "faults": self.faults.counts,
+            "at_tolerance": self._at_tolerance,
+        }
         memory.remember(target, source, settings, report)
         freshness.note(target, self._made)
         display.refresh(target, context.scene.discrete_fairing_inspection)

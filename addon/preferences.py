@@ -48,7 +48,7 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
 
     speeds: StringProperty(
         name="Speeds",
-        description="Seconds a triangle of this machine's last runs, by energy, as JSON",
+        description="Seconds a triangle of this machine's last runs, by fairness, as JSON",
         default=Defaults.speeds,
         options={"HIDDEN"},
     )

@@ -72,15 +72,25 @@ class FairingSettings:
         soft_max=5,
     )
     energy: EnumProperty(
-        name="Energy",
-        description="The quantity to minimize: how bending is measured",
+        name="Fairness",
+        description="What is to be as small as possible: bending, curvature, or its change along the surface",
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )
     interpolation: EnumProperty(
         name="Vertices",
-        description="Whether the surface passes through the vertices of the source or near them",
+        description="Whether the surface passes through the vertices of the source, near them, or where Subdivision Surface would",
         items=INTERPOLATIONS,
+        default="AUTO",
+    )
+    limit: FloatProperty(
+        name="Follow",
+        description="Where the surface passes under Limit. 0: through the vertices of the source, as modelled; "
+        "1: where Subdivision Surface passes",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
     )
     tolerance: FloatProperty(
         name="Tolerance",
@@ -129,9 +139,9 @@ class FairingSettings:
         search_options={"SUGGESTION"},
     )
     pad_size: FloatProperty(
-        name="Pad Size",
-        description="What holds the vertices. 0: held on needles, which leave marks in the reflections; "
-        "above: held on pads, which do not. The larger, the calmer; the surface passes through the vertices all the same",
+        name="Hold Softly",
+        description="How the vertices hold the surface. 0: each at its own point, which leaves a mark in the reflections; "
+        "1: each over the faces around it, which leaves none. The surface passes through the vertices all the same",
         default=1.0,
         min=0.0,
         max=1.0,
@@ -290,6 +300,31 @@ NAMES = tuple(FairingSettings.__annotations__)
 def is_near(settings: Settings) -> bool:
     """Whether the surface may miss vertices: only then do tolerances mean anything."""
     return settings.interpolation == "APPROXIMATE"
+
+
+def is_limit(settings: Settings) -> bool:
+    """Whether the surface passes through limit positions."""
+    return settings.interpolation == "LIMIT"
+
+
+def for_source(settings: Settings, source: Object) -> SimpleNamespace:
+    """A copy of the `settings`, with what AUTO comes to for `source`; a Subdivision Surface modifier
+    that is in the faired mesh already is not followed a second time.
+    """
+    own = snapshot(settings)
+    subdivided = subdivision(source) is not None
+    if subdivided and is_evaluated(settings) and own.interpolation in ("AUTO", "LIMIT"):
+        own.interpolation = "EXACT"
+    elif own.interpolation == "AUTO":
+        own.interpolation = "LIMIT" if subdivided else "EXACT"
+    return own
+
+
+def subdivision(source: Object) -> Any:
+    """The modifier by which `source` is looked at as a Catmull-Clark surface; None if there is none."""
+    modifiers: Any = source.modifiers
+    shown = (m for m in modifiers if m.type == "SUBSURF" and m.show_viewport)
+    return next((m for m in shown if m.subdivision_type == "CATMULL_CLARK"), None)
 
 
 def is_evaluated(settings: Settings) -> bool:

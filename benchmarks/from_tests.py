@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
 sys.path.append(str(TESTS))  # last: benchmarks has a control_meshes of its own
 
@@ -28,14 +29,23 @@ def small_meshes() -> ModuleType:
 
 def inscribed() -> ModuleType:
     """tests/python/inscribed.py, which imports those control meshes by their own name."""
+    return _beside_own_meshes("inscribed", TESTS)
+
+
+def modelled() -> ModuleType:
+    """examples/modelling_meshes.py, a fender and a mug, which imports control meshes of its own."""
+    return _beside_own_meshes("modelling_meshes", EXAMPLES)
+
+
+def _beside_own_meshes(name: str, folder: Path) -> ModuleType:
+    """The module `name`, to which control_meshes is the one in its own folder."""
     ours = sys.modules.pop("control_meshes", None)
-    sys.modules["control_meshes"] = small_meshes()
-    sys.path.insert(0, str(TESTS))
+    sys.path.insert(0, str(folder))
     try:
-        return importlib.import_module("inscribed")
+        return importlib.import_module(name)
     finally:
-        sys.path.remove(str(TESTS))
-        sys.modules.pop("control_meshes")
+        sys.path.remove(str(folder))
+        sys.modules.pop("control_meshes", None)
         if ours:
             sys.modules["control_meshes"] = ours
 

@@ -18,12 +18,15 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import jobs
+import limits
 import live
 import memory
 import million
 import pads
 import paper
 import peers
+import piecewise
 import renumbering
 import scaling
 import shared
@@ -38,6 +41,7 @@ BENCHMARKS = {
     "cholesky": cholesky.run,
     "peers": peers.run,
     "million": million.run,
+    "piecewise": piecewise.run,
     "sizes": sizes.run,
     "cancel": cancel.run,
     "charts": charts.run,
@@ -46,6 +50,8 @@ BENCHMARKS = {
     "shared": shared.run,
     "side_by_side": side_by_side.run,
     "subdivision": subdivision.run,
+    "limits": limits.run,
+    "jobs": jobs.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "bevels": bevels.run,

@@ -4,8 +4,11 @@
 import re
 import shutil
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from time import monotonic
 
+from durations import REPORTS, write_report
 from extension import build
 from layout import OUT, ROOT
 from real_blender import TIME_LIMIT, RealBlender, places
@@ -66,8 +69,7 @@ def run_script(blender: RealBlender, script: Path) -> Tally:
 
 
 def try_all(blender: RealBlender, wanted: str) -> Tally:
-    """Every script whose name contains `wanted`, in one Blender."""
-    install(blender)
+    """Every script whose name contains `wanted`, in one Blender that has the extension."""
     folder = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (blender.exchange / "screenshots").mkdir()
@@ -75,26 +77,52 @@ def try_all(blender: RealBlender, wanted: str) -> Tally:
     scripts = [path for kind in kinds for path in sorted(folder.glob(kind)) if wanted in path.name]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
-    total = sum((run_script(blender, script) for script in scripts), Tally())
+    total, seconds = Tally(), []
+    for script in scripts:
+        start = monotonic()
+        total += run_script(blender, script)
+        seconds.append((script.name, monotonic() - start))
+    write_report(REPORTS / f"blender-{blender.version}.xml", seconds)
     kept = SCREENSHOTS / blender.version
     shutil.rmtree(kept, ignore_errors=True)
     shutil.copytree(blender.exchange / "screenshots", kept)
     return total
 
 
-def attempt(get: Callable[[], RealBlender], place: str, wanted: str) -> tuple[str, Tally]:
-    """The name and tally of one Blender; if it cannot be had, that is one failure."""
-    name = place
+def prepared(get: Callable[[], RealBlender]) -> RealBlender | str:
+    """A Blender with the extension installed, or why there is none."""
     try:
         blender = get()
-        name = f"{place} {blender.version}"
-        return name, try_all(blender, wanted)
+        install(blender)
+        return blender
     except DevError as error:
         print(f"dev.py: {error}", flush=True)
-        return name, Tally(failed=1, note=str(error))
+        return str(error)
+
+
+def attempt(blender: RealBlender | str, wanted: str) -> Tally:
+    """The tally of one Blender; one that cannot be had is one failure."""
+    if isinstance(blender, str):
+        return Tally(failed=1, note=blender)
+    try:
+        return try_all(blender, wanted)
+    except DevError as error:
+        print(f"dev.py: {error}", flush=True)
+        return Tally(failed=1, note=str(error))
 
 
 def run_suite(wanted: str = "") -> dict[str, Tally]:
-    """The tallies by Blender; one run at a time, as all share one folder."""
+    """The tallies by Blender.
+
+    They are installed one after the other, since compilers use all cores, and then run side by side: each
+    has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same folders.
+    """
     with alone("blender"):
-        return dict(attempt(get, place, wanted) for place, get in places().items())
+        blenders = {place: prepared(get) for place, get in places().items()}
+        names = [
+            place if isinstance(blender, str) else f"{place} {blender.version}"
+            for place, blender in blenders.items()
+        ]
+        with ThreadPoolExecutor(max_workers=len(blenders)) as pool:
+            tallies = pool.map(lambda blender: attempt(blender, wanted), blenders.values())
+        return dict(zip(names, tallies, strict=True))

@@ -13,6 +13,7 @@ from wheel_version import LOCAL_PART, manifest_version
 
 WHEELS = BUILD / "wheels"
 STAMP = VENV / "stamps" / "wheel"
+RELEASE = BUILD / "release"  # of the preset for tests: the core is compiled once for both
 # -Werror is for us; who builds the wheel elsewhere may have a compiler with new warnings
 PIP_WHEEL = [
     "wheel",
@@ -55,7 +56,12 @@ def build() -> Path:
     raw, folder = WHEELS / "unrepaired", WHEELS / "venv"
     shutil.rmtree(raw, ignore_errors=True)
     shutil.rmtree(folder, ignore_errors=True)
-    pip(*PIP_WHEEL, "--wheel-dir", raw, ROOT, **{LOCAL_PART: local_version()})
+    shared = [
+        f"--config-settings=build-dir={RELEASE}",
+        "--config-settings=cmake.define.DF_BUILD_TESTS=ON",
+        "--config-settings=build.targets=_native",
+    ]
+    pip(*PIP_WHEEL, *shared, "--wheel-dir", raw, ROOT, **{LOCAL_PART: local_version()})
     repair(only_wheel(raw), folder)
     return only_wheel(folder)
 

@@ -16,6 +16,8 @@ from shell import DevError, as_root, output, run, say
 OLDEST = (4, 3)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
+# each Blender has a screen of its own: their locks are apart in the roots, their sockets are not
+FIRST_SCREEN = 90
 TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs
 
 
@@ -52,7 +54,9 @@ class RealBlender:
     def window(self, *arguments: str | Path, **extra: str) -> list[str]:
         """The command line of Blender in a window on a screen of its own, drawn by the processor."""
         width, height = map(str, WINDOW)
-        screen = ["xvfb-run", "--auto-servernum", "--server-args", f"-screen 0 {width}x{height}x24"]
+        number = FIRST_SCREEN + (ROOTS.index(self.root) if self.root else len(ROOTS))
+        screen = ["xvfb-run", f"--server-num={number}"]
+        screen += ["--server-args", f"-screen 0 {width}x{height}x24"]
         blender = ["blender", "--window-geometry", "0", "0", width, height, *arguments]
         return self.command(*screen, *blender, LIBGL_ALWAYS_SOFTWARE="1", **extra)
 

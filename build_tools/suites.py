@@ -3,22 +3,22 @@
 
 import os
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import monotonic
+from time import monotonic, time
 
 import blender_suite
 import fuzzing
 import native_wheel
 import style
-from layout import BUILD, VENV_PYTHON
+from durations import REPORTS, slowest
+from layout import VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
 from tally import Tally, with_exit_code
 
-REPORTS = BUILD / "reports"
 # tests of one label alone, or all others
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
@@ -64,28 +64,28 @@ def native_suite(preset: str, *chosen: str) -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
-def faults_suite() -> dict[str, Tally]:
-    """Allocations that fail, as built and where leaks and double frees show."""
-    return {preset: native_suite(preset, *FAULTS) for preset in ("release", "asan-ubsan")}
+def faults_suite() -> Tally:
+    """Allocations that fail, where leaks and double frees show."""
+    return native_suite("asan-ubsan", *FAULTS)
 
 
-def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
-    """pytest on one folder or file below tests/."""
+# a process for each core; the tests of one file stay together, for what they share
+ON_ALL_CORES = ("--numprocesses=auto", "--dist=loadfile")
+
+
+def pytest_suite(name: str, *options: str, only: Iterable[str] = (), **environment: str) -> Tally:
+    """pytest on one folder or file below tests/, or on the folder's files `only`."""
     native_wheel.install()
     report = fresh_report(name.replace("/", "-"))
-    command = [VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", f"tests/{name}"]
+    paths = [f"tests/{name}/test_{file}.py" for file in only] or [f"tests/{name}"]
+    command = [VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", *paths]
     code = run(*command, *options, check=False, **environment)
     return with_exit_code(read_junit(report), code)
 
 
-def fuzz_suite() -> dict[str, Tally]:
-    """A fixed budget of random calls, and the corpus, twice."""
-    return {
-        "as built": pytest_suite("fuzz"),
-        "sanitized": pytest_suite(
-            "fuzz", "--hypothesis-profile=few", **fuzzing.sanitized_environment()
-        ),
-    }
+def fuzz_suite() -> Tally:
+    """A fixed budget of random calls, and the corpus."""
+    return pytest_suite("fuzz", *ON_ALL_CORES, **fuzzing.sanitized_environment())
 
 
 def addon_suite() -> Tally:
@@ -94,7 +94,7 @@ def addon_suite() -> Tally:
         return Tally(
             note="bpy exists for Python 3.11 only: the add-on is tested in the real Blender alone"
         )
-    return pytest_suite("addon")
+    return pytest_suite("addon", *ON_ALL_CORES)
 
 
 def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
@@ -110,7 +110,7 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "native": lambda: native_suite("release", *NO_FAULTS),
     "sanitizers": lambda: native_suite("asan-ubsan", *NO_FAULTS),
     "faults": faults_suite,
-    "python": lambda: pytest_suite("python"),
+    "python": lambda: pytest_suite("python", *ON_ALL_CORES),
     "fuzz": fuzz_suite,
     "addon": addon_suite,
     "build_tools": lambda: pytest_suite("build_tools"),
@@ -149,8 +149,26 @@ def nightly_suite() -> dict[str, Tally]:
     }
 
 
-# by name alone: they take half an hour each
+# what daily work touches most, of the package and of the add-on
+QUICK = {
+    "python": ["interpolation", "total_curvature", "near_on_pads", "threads", "settings", "check"],
+    "addon": ["operator", "register", "ui", "documents", "guards"],
+    "build_tools": ["layering"],
+}
+
+
+def quick_suite() -> dict[str, Tally]:
+    """What a change needs daily: form, the core, and a few files of each other suite."""
+    tallies = {"style": style_suite(), "native": native_suite("release", *NO_FAULTS)}
+    for suite, files in QUICK.items():
+        if suite != "addon" or has_bpy():
+            tallies[suite] = pytest_suite(suite, *ON_ALL_CORES, only=files)
+    return tallies
+
+
+# by name alone: quick is a part of the others, the rest take half an hour each
 LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
+    "quick": quick_suite,
     "windows": windows_suite,
     "arm": arm_suite,
     "nightly": nightly_suite,
@@ -181,7 +199,7 @@ def run_all(names: list[str]) -> int:
     unknown = {name.partition(":")[0] for name in names} - set(known)
     if unknown:
         raise DevError(f"no suite {', '.join(sorted(unknown))}; there are {', '.join(known)}.")
-    rows, total = [], Tally()
+    rows, total, begun = [], Tally(), time()
     for name in names or SUITES:
         say(f"suite {name}")
         start = monotonic()
@@ -194,5 +212,6 @@ def run_all(names: list[str]) -> int:
             table_line(name, replace(whole, note="") if parts else whole, monotonic() - start)
         )
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]
-    print("\n" + "\n".join(rows) + f"\n\n{total.passed} passed, {total.failed} failed", flush=True)
+    print("\n".join(["", *slowest(begun), "", *rows]))
+    print(f"\n{total.passed} passed, {total.failed} failed", flush=True)
     return 1 if total.failed else 0

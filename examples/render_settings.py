@@ -84,7 +84,7 @@ FIGURES = {
     "pads": Figure(
         meshes.pebble,
         View(2.7, look="zebra", height=0.65, stripes=8),
-        _values("pad_size", 0, 0.5, 1, label="Pad Size {}"),
+        _values("pad_size", 0, 0.5, 1, label="Hold Softly {}"),
         SMOOTH | {"levels": 5},
     ),
     "tension": Figure(

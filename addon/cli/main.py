@@ -118,6 +118,7 @@ def _fair_file(
                 job.arguments["weld"] = arguments.weld
             if arguments.threads is not None:
                 job.arguments["threads"] = arguments.threads
+            job.pieces = arguments.pieces
             job.compute(**{} if arguments.quiet else {"progress": progress})
             progress.next_run()
     finally:

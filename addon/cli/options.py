@@ -30,6 +30,7 @@ _GROUPS = {
         "levels",
         "energy",
         "interpolation",
+        "limit",
         "tolerance",
         "relative_tolerance",
         "tolerance_group",
@@ -94,9 +95,13 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
             settings["use_" + name] = True
     for name in _NEAR:
         if name in given:
-            if given.get("interpolation") == "EXACT":
+            if given.get("interpolation") in ("EXACT", "LIMIT") or "limit" in given:
                 raise ValueError(f"{option(name)} needs --interpolation approximate")
             settings["interpolation"] = "APPROXIMATE"
+    if "limit" in given:
+        if given.get("interpolation") in ("EXACT", "APPROXIMATE"):
+            raise ValueError("--limit needs --interpolation limit")
+        settings["interpolation"] = "LIMIT"
     if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":
         raise ValueError("--weld needs --repair mend")
     units = [unit for name, unit in _TOLERANCE_UNITS.items() if name in given]
@@ -104,6 +109,8 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
         raise ValueError(f"give one of {' and '.join(map(option, _TOLERANCE_UNITS))}")
     if units:
         settings["tolerance_unit"] = units[0]
+    if settings["interpolation"] == "AUTO":  # no file has modifiers
+        settings["interpolation"] = "EXACT"
     return SimpleNamespace(**settings)
 
 
@@ -256,6 +263,13 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--threads", type=_threads, metavar="N", help="0: all cores [as in the preferences]"
     )
     made.add_argument(
+        "--pieces",
+        type=_pieces,
+        metavar="N",
+        help="fair each mesh in so many pieces, one after another, in the memory of one; needs the Python package "
+        "pymetis [whole]",
+    )
+    made.add_argument(
         "--json",
         metavar="FILE|-",
         help="write a report to a file; -: to standard output, which then has nothing else",
@@ -286,6 +300,12 @@ def _distance(text: str) -> float:
     if not 0 <= value < inf:
         raise argparse.ArgumentTypeError(f"{text!r} is not a distance, 0 or more")
     return value
+
+
+def _pieces(text: str) -> int:
+    if not text.isdecimal() or not 0 < int(text) < 2**31:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, 1 or more")
+    return int(text)
 
 
 def _threads(text: str) -> int:

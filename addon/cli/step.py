@@ -60,6 +60,8 @@ def wanted_of(
             if getattr(arguments, name) is not None:
                 raise ValueError(f"--{name.replace('_', '-')} needs an output that ends in .step")
         return None
+    if arguments.pieces is not None:
+        raise ValueError("--pieces is for meshes: spline patches are fitted to the whole surface")
     return SimpleNamespace(
         fit_tolerance=arguments.fit_tolerance or _TOLERANCE,
         fit_angle=radians(arguments.fit_angle or _ANGLE),

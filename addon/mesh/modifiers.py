@@ -24,9 +24,12 @@ _BOUND = {
 _USELESS = {"MULTIRES": "its sculpted detail belongs to the faces of the control mesh"}
 
 
-def copy_modifiers(context: Context, source: Object, target: Object) -> list[str]:
+def copy_modifiers(
+    context: Context, source: Object, target: Object, subdivided: bool = False
+) -> list[str]:
     """Replaces the modifiers of the object `target` with those of `source`, with their settings,
-    targets and drivers.
+    targets and drivers. `subdivided`: the surface passes where Subdivision Surface would, and gets
+    none.
 
     Both objects have to be in the view layer, in Object Mode. Returns what could not be copied, a
     sentence each.
@@ -39,6 +42,8 @@ def copy_modifiers(context: Context, source: Object, target: Object) -> list[str
     ):
         bpy.ops.object.make_links_data(type="MODIFIERS")
     notes = _missing(source, target) + _drop_useless(target) + _unbind(context, target)
+    if subdivided:
+        notes += _drop_subdivision(target)
     copy_drivers(source, target, "modifiers[")
     inspection = inspection_modifier(target)
     if inspection is not None:  # how the source is looked at
@@ -89,6 +94,16 @@ def _drop_useless(target: Object) -> list[str]:
     notes = []
     for modifier in [m for m in target.modifiers if m.type in _USELESS]:
         notes.append(f"The modifier '{modifier.name}' is not copied: {_USELESS[modifier.type]}.")
+        target.modifiers.remove(modifier)
+    return notes
+
+
+def _drop_subdivision(target: Object) -> list[str]:
+    notes = []
+    for modifier in [m for m in target.modifiers if m.type == "SUBSURF"]:
+        notes.append(
+            f"The modifier '{modifier.name}' is not copied: the surface passes where it would already."
+        )
         target.modifiers.remove(modifier)
     return notes
 

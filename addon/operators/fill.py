@@ -19,7 +19,7 @@ from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import Reference, new_object
 from ..mesh.own import carried_names
 from ..queue import running
-from ..settings import copy_settings, wants_modifiers
+from ..settings import copy_settings, is_limit, wants_modifiers
 from .modal import ModalRun
 
 BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
@@ -74,7 +74,7 @@ class StandIn:
             memory.remember(target, source, job.settings, {})
             memory.keep(target, "carried", carried_names(job.data, job.keys))
             if wants_modifiers(job.settings):
-                self.notes += copy_modifiers(context, source, target)
+                self.notes += copy_modifiers(context, source, target, is_limit(job.settings))
         return target
 
     def warnings(self) -> list[str]:

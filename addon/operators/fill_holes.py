@@ -29,7 +29,7 @@ class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
         default="CURVATURE",
     )
     energy: EnumProperty(
-        name="Energy",
+        name="Fairness",
         description="The quantity to minimize: Total Curvature gives half a sphere back",
         items=ENERGIES,
         default="TOTAL_CURVATURE",
@@ -97,7 +97,7 @@ def _doubts(done: list[Filling]) -> list[str]:
     said = []
     if plates:
         said.append(
-            f"{_holes(plates)} filled by the thin plate: the steps of the energy did not settle"
+            f"{_holes(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
         )
     if folded:
         said.append(

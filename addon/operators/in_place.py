@@ -59,9 +59,35 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
         "and only those between them are new",
         default=False,
     )
+    vertices: EnumProperty(
+        name="Vertices",
+        description="What the vertices inside of the selection are",
+        items=(
+            (
+                "FREE",
+                "Free",
+                "They go to where the surface is fairest, wherever they were: for bumps and holes",
+            ),
+            (
+                "MEASURED",
+                "Measured",
+                "They are data with noise. The surface passes near them, and they go to it along its normals: for scans. "
+                "Edges marked sharp stay",
+            ),
+        ),
+    )
+    noise: FloatProperty(
+        name="Noise",
+        description="How far measured vertices are moved, root mean square, in scene units: as far as they are off. 0: found out from the vertices",
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+    )
     energy: EnumProperty(
-        name="Energy",
-        description="The quantity to minimize: how bending is measured",
+        name="Fairness",
+        description="What is to be as small as possible: bending, curvature, or its change along the surface",
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )
@@ -87,17 +113,30 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
         layout.use_property_split = True
         layout.prop(self, "levels")
         layout.prop(self, "joint")
-        if self.levels:
+        layout.prop(self, "vertices")
+        measured = self.vertices == "MEASURED"
+        if measured:
+            layout.prop(self, "noise")
+        elif self.levels:
             layout.prop(self, "release")
-        if self.release or not self.levels:
+        if measured or self.release or not self.levels:
             layout.prop(self, "factor")
+        if measured and not self.levels:
+            return
         layout.prop(self, "energy")
         if self.energy != "MINIMUM_VARIATION":
             layout.prop(self, "tension")
 
     def make_jobs(self, context: Context) -> list[Any]:
         wish = in_place.Wish(
-            self.levels, self.joint, self.energy, self.tension, self.release, self.factor
+            self.levels,
+            self.joint,
+            self.energy,
+            self.tension,
+            self.release,
+            self.factor,
+            self.vertices == "MEASURED",
+            self.noise,
         )
         settings = context.scene.discrete_fairing
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
@@ -114,6 +153,8 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
                 return {"CANCELLED"}
         for job in jobs:
             job.apply()
+            for sentence in job.notes:
+                self.report({"INFO"}, sentence)
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
         return {"FINISHED"}

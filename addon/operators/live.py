@@ -11,7 +11,7 @@ from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import new_object
 from ..poll import ExplainedPoll
-from ..settings import wants_modifiers
+from ..settings import for_source, is_limit, wants_modifiers
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
@@ -62,7 +62,8 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         """A faired object of the active mesh, with the panel's settings; its first surface is a
         live one.
         """
-        source, settings = cast(Object, context.active_object), context.scene.discrete_fairing
+        source = cast(Object, context.active_object)
+        settings = for_source(context.scene.discrete_fairing, source)
         mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
         for material in source.data.materials:
             mesh.materials.append(material)
@@ -70,7 +71,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         memory.remember(target, source, settings, {})
         if wants_modifiers(settings):
             if context.mode == "OBJECT":
-                copy_modifiers(context, source, target)
+                copy_modifiers(context, source, target, is_limit(settings))
             else:
                 self.report({"INFO"}, "Modifiers are copied in Object Mode only")
         return target

@@ -6,7 +6,6 @@ A preset is a script that sets the active operator's properties, as Blender's re
 panel runs and keeps the same scripts with the settings that it shows in the operator's place.
 """
 
-from pathlib import Path
 from typing import Any, cast
 
 import bpy
@@ -14,10 +13,11 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import StringProperty
 
 from ..blender import Answer, Context, registration
+from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
-from ..ui.main import PRESET_FOLDER, settings_at_hand
+from ..ui.main import settings_at_hand
 
-_FOLDER = str(Path(__file__).resolve().parent.parent)  # the one that holds presets/
+_FOLDER = str(FOLDER.parent)  # the one that holds presets/
 # belongs to the work at hand, not to the kind of thing that is made
 NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
 

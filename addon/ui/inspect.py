@@ -11,12 +11,13 @@ from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..inspection.stripes import STRIPES
 from ..memory import recall
-from .layout import Folded
+from .layout import Sidebar
 from .notice import draw_notice
 
 
-class VIEW3D_PT_fairing_inspect(Folded, bpy.types.Panel):
+class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
     bl_label = "Inspect"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout = self.layout

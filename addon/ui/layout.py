@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where panels stand, and how settings are laid out: sidebar, redo panel and memory alike."""
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ..choices import ENERGY_MEANINGS
-from ..settings import Settings, is_evaluated, is_near
+from ..settings import Settings, is_evaluated, is_limit, is_near
 
 
 class Sidebar:
@@ -21,63 +22,84 @@ class Sidebar:
 
 
 class Folded(Sidebar):
-    """Mix-in of the panels below the first one."""
+    """Mix-in of the panels below Inspect."""
 
-    bl_parent_id = "VIEW3D_PT_fairing"
+    bl_parent_id = "VIEW3D_PT_fairing_inspect"
     bl_options = {"DEFAULT_CLOSED"}
 
 
-def draw_shape(
-    layout: bpy.types.UILayout,
-    settings: Settings,
-    triangle_text: str = "",
-    tolerance_text: str = "",
-    missing_groups: dict[str, str] | None = None,
-    edges_text: str = "",
-    normals_text: str = "",
-) -> None:
-    """The few that everyone needs. What is known of the source stands below what it is about,
-    since beside it a narrow sidebar cuts it: `triangle_text`, the length `tolerance_text` that a
-    relative tolerance comes to, which groups are not there, `edges_text`, the border edges that
-    are other than the setting says, and `normals_text`, of fixed ones.
+@dataclass(frozen=True)
+class Known:
+    """What is known of the source, in a few words each; empty: nothing. It stands below what it is
+    about, since beside it a narrow sidebar cuts it.
     """
+
+    triangles: str = ""
+    tolerance: str = ""  # the length that a relative one comes to
+    held: str = ""  # how many vertices are as far off as they may be
+    missing_groups: dict[str, str] = field(default_factory=dict)
+    edges: str = ""  # border edges that are other than the setting says
+    normals: str = ""  # fixed ones
+    vertices: str = ""  # what Automatic comes to
+    follows: bool = False  # whether that is Limit
+
+
+_NOTHING = Known()
+
+
+def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
+    """What everyone needs: how fine, and how near to the source."""
     layout.prop(settings, "levels")
-    if triangle_text:
-        _remark(layout, triangle_text)
+    if known.triangles:
+        _remark(layout, known.triangles)
+    if known.vertices:
+        _remark(layout, known.vertices)
+    if is_limit(settings) or known.follows:
+        layout.prop(settings, "limit", slider=True)
+    elif is_near(settings):
+        _draw_tolerance(layout, settings, known)
+
+
+def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
+    """What makes the surface, beside that."""
     layout.prop(settings, "energy")
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     layout.prop(settings, "interpolation")
     if is_near(settings):
-        _draw_tolerance(layout, settings, tolerance_text, missing_groups or {})
+        _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)
     row = layout.row()
     row.active = settings.energy != "MINIMUM_VARIATION"
     row.prop(settings, "tension")
     if not row.active:
-        _reason(layout, "Not with this energy")
+        _reason(layout, "Not with this fairness")
     layout.prop(settings, "boundary")
-    if edges_text:
-        _remark(layout, edges_text)
+    if known.edges:
+        _remark(layout, known.edges)
     layout.prop(settings, "symmetry_plane")
-    if normals_text:
-        _remark(layout, normals_text)
+    if known.normals:
+        _remark(layout, known.normals)
 
 
-def _draw_tolerance(
-    layout: bpy.types.UILayout, settings: Settings, length: str, missing_groups: dict[str, str]
-) -> None:
+def _draw_tolerance(layout: bpy.types.UILayout, settings: Settings, known: Known) -> None:
     relative = settings.tolerance_unit == "RELATIVE"
-    layout.prop(settings, "tolerance_unit")
     layout.prop(
         settings,
         "relative_tolerance" if relative else "tolerance",
-        text="Tolerance",
+        text="Hold within",
         slider=relative,
     )
-    if relative and length:
-        _remark(layout, length)
+    if relative and known.tolerance:
+        _remark(layout, known.tolerance)
+    if known.held:
+        _remark(layout, known.held)
+
+
+def _draw_held_by(layout: bpy.types.UILayout, settings: Settings, known: Known) -> None:
+    """What the tolerance is said in, and what it is at each vertex."""
+    layout.prop(settings, "tolerance_unit")
     for name in ("tolerance_group", "pull_group"):
-        missing = missing_groups.get(name, "")
+        missing = known.missing_groups.get(name, "")
         row = layout.row()
         row.alert = bool(missing)
         row.prop(settings, name, icon="GROUP_VERTEX")
@@ -147,7 +169,13 @@ def draw_settings(
     """All of them, the rare ones folded; `identifier` tells Blender which of them are open."""
     layout.use_property_split = True
     layout.use_property_decorate = False
-    draw_shape(layout, settings, triangle_text)
+    draw_job(layout, settings, Known(triangle_text))
+    draw_shape(layout, settings)
+    draw_folded(layout, settings, identifier)
+
+
+def draw_folded(layout: bpy.types.UILayout, settings: Settings, identifier: str) -> None:
+    """The rare ones."""
     for label, draw in FOLDED:
         header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
         header.label(text=label)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Fairing": the few controls first, the rest folded away."""
 
-from collections.abc import Callable
 from typing import Any, cast
 
 import bpy
@@ -18,23 +17,22 @@ from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
+from ..purposes import PRESET_FOLDER, is_shipped
 from ..queue import Queue, running, status_text
-from ..settings import Settings, halves, is_evaluated, is_near
-from .layout import (
-    Folded,
-    Sidebar,
-    draw_advanced,
-    draw_creases,
-    draw_result,
-    draw_shape,
-    draw_source,
+from ..settings import (
+    Settings,
+    for_source,
+    halves,
+    is_evaluated,
+    is_limit,
+    is_near,
+    subdivision,
 )
+from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import draw_pictures
 
-# where Blender looks for the presets of the operator, which are those of the panel
-PRESET_FOLDER = "operator/object.fairing_surface"
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
 
@@ -45,8 +43,13 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
     preset_add_operator = "object.fairing_preset_add"
 
     def draw(self, context: Context) -> None:
-        draw_pictures(cast(bpy.types.UILayout, self.layout), PRESET_FOLDER)
+        draw_pictures(cast(bpy.types.UILayout, self.layout))
         super().draw(context)
+
+    def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
+        """The user's own: those that come with the extension are there as pictures."""
+        own = [path for path in searchpaths if not is_shipped(path)]
+        return bpy.types.Menu.path_menu(cast(Any, self), own, *args, **names)
 
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
@@ -70,17 +73,19 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         settings = settings_at_hand(context)
         sources = _sources(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
-        draw_shape(
-            layout,
-            settings,
+        known = Known(
             _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
+            "" if memory is None else _held_text(memory),
             missing_groups(settings, sources),
             boundary_marks.summary(
                 o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
             ),
             normals_text(settings, sources),
+            vertices_text(settings, sources),
+            follows(settings, sources),
         )
+        draw_job(layout, settings, known)
         if triangles >= size.LARGE:
             draw_notice(
                 layout,
@@ -95,7 +100,9 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+            _draw_button(
+                layout, "object.fairing_surface", "SURFACE_DATA", text, "VIEW3D_MT_fairing_for"
+            )
             if not sources:
                 layout.label(text="Select a mesh object first", icon="INFO")
             if context.mode == "EDIT_MESH" and settings.use_selection:
@@ -104,6 +111,11 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         draw_live(layout, context)
         if memory is not None:
             _draw_cad(layout)
+        header, more = layout.panel("fairing.more", default_closed=True)
+        header.label(text="More")
+        if more is not None:
+            draw_shape(more, settings, known)
+            draw_folded(more, settings, "fairing")
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:
@@ -181,6 +193,14 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     )
 
 
+def _held_text(memory: FAIRING_PG_surface) -> str:
+    """`37 of 63 vertices at the limit`; empty where none may move."""
+    if not is_near(memory):
+        return ""
+    held = (recall(cast(Object, memory.id_data), "report") or {}).get("at_tolerance")
+    return f"{held[0]:,} of {held[1]:,} vertices at the limit" if held and held[1] else ""
+
+
 def normals_text(settings: Settings, sources: list[Object]) -> str:
     """`Normals: 3 fixed`; empty where none is."""
     small = (o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING)
@@ -188,6 +208,28 @@ def normals_text(settings: Settings, sources: list[Object]) -> str:
     if not count:
         return ""
     return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Thin Plate only")
+
+
+def follows(settings: Settings, sources: list[Object]) -> bool:
+    """Whether some surface will pass through limit positions."""
+    return any(is_limit(for_source(settings, source)) for source in sources)
+
+
+def vertices_text(settings: Settings, sources: list[Object]) -> str:
+    """What Automatic comes to; empty where it is not chosen. Limit is left out, and said so, where
+    the modifier is in the mesh already.
+    """
+    if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
+        return ""
+    limit = [is_limit(for_source(settings, source)) for source in sources]
+    subdivided = any(subdivision(source) for source in sources)
+    if is_evaluated(settings) and subdivided and not any(limit):
+        return "Through: subdivided already"
+    if settings.interpolation == "LIMIT":
+        return ""
+    if all(limit):
+        return "Limit: has Subdivision Surface"
+    return "Limit where Subdivision Surface is" if any(limit) else "Through every vertex"
 
 
 def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:
@@ -203,33 +245,6 @@ def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:
         if lacking:
             found[setting] = f"Not in {lacking[0]}"
     return found
-
-
-class _FoldedSettings(Folded):
-    draw_body: Callable[[bpy.types.UILayout, Settings], None]
-
-    def draw(self, context: Context) -> None:
-        self.draw_body(_split(self.layout), settings_at_hand(context))
-
-
-class VIEW3D_PT_fairing_source(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Source"
-    draw_body = staticmethod(draw_source)
-
-
-class VIEW3D_PT_fairing_creases(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Creases"
-    draw_body = staticmethod(draw_creases)
-
-
-class VIEW3D_PT_fairing_result(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Result"
-    draw_body = staticmethod(draw_result)
-
-
-class VIEW3D_PT_fairing_advanced(_FoldedSettings, bpy.types.Panel):
-    bl_label = "Advanced"
-    draw_body = staticmethod(draw_advanced)
 
 
 def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
@@ -256,11 +271,15 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
         draw_notice(layout, mended, icon="INFO")
 
 
-def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
-    """The one large button."""
-    row = layout.row()
+def _draw_button(
+    layout: bpy.types.UILayout, operator: str, icon: Any, text: str, menu: str = ""
+) -> None:
+    """The one large button, and a menu of what else it may do."""
+    row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
+    if menu:
+        row.menu(menu, text="For")
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:
@@ -278,10 +297,6 @@ def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
 CLASSES = (
     VIEW3D_PT_fairing_presets,
     VIEW3D_PT_fairing,
-    VIEW3D_PT_fairing_source,
-    VIEW3D_PT_fairing_creases,
-    VIEW3D_PT_fairing_result,
-    VIEW3D_PT_fairing_advanced,
 )
 
 register, unregister = registration(*CLASSES)

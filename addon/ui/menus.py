@@ -8,6 +8,21 @@ import bpy
 from ..blender import Context
 from ..choices import EDGE_BOUNDARIES
 from ..inspection.settings import MODES
+from ..purposes import PURPOSES
+from . import pictures
+
+
+class VIEW3D_MT_fairing_for(bpy.types.Menu):
+    bl_label = "Fair for"
+
+    def draw(self, _context: Context) -> None:
+        layout: Any = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        for purpose, label, *_ in PURPOSES:
+            button = layout.operator(
+                "object.fairing_for", text=label, icon_value=pictures.icon(purpose)
+            )
+            button.purpose = purpose
 
 
 class VIEW3D_MT_fairing(bpy.types.Menu):
@@ -17,6 +32,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout: Any = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
+        layout.menu(VIEW3D_MT_fairing_for.__name__)
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         layout.operator("object.fairing_fill")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
@@ -64,6 +80,7 @@ def _draw_one(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
     menu.layout.operator("object.fairing_surface", icon="SURFACE_DATA")
+    menu.layout.menu(VIEW3D_MT_fairing_for.__name__)
 
 
 def _draw_all(menu: Any, context: Context) -> None:
@@ -111,6 +128,7 @@ _ENTRIES = {
 
 
 def register() -> None:
+    bpy.utils.register_class(VIEW3D_MT_fairing_for)
     bpy.utils.register_class(VIEW3D_MT_fairing)
     bpy.utils.register_class(VIEW3D_MT_fairing_boundary)
     bpy.utils.register_class(VIEW3D_MT_fairing_normals)
@@ -124,3 +142,4 @@ def unregister() -> None:
     bpy.utils.unregister_class(VIEW3D_MT_fairing_normals)
     bpy.utils.unregister_class(VIEW3D_MT_fairing_boundary)
     bpy.utils.unregister_class(VIEW3D_MT_fairing)
+    bpy.utils.unregister_class(VIEW3D_MT_fairing_for)

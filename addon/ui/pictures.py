@@ -1,40 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures to choose a shipped preset by."""
+"""Pictures of what surfaces are for."""
 
-from pathlib import Path
 from typing import Any
 
 import bpy
 import bpy.utils.previews
 
-PRESETS = Path(__file__).resolve().parent.parent / "presets"
-# file: what stands under its picture
-SHOWN = {
-    "Organic": "Organic",
-    "Hull": "Hull",
-    "Mechanical_with_Creases": "Mechanical",
-    "Scan": "Scan",
-}
-_SCALE = 4.5  # of a picture, in heights of a line
+from ..purposes import FOLDER, PURPOSES, preset_file, stem
+
+# of a picture, in heights of a line
+_SCALE = 4.5
 
 _loaded: Any = None
 
 
-def draw_pictures(layout: bpy.types.UILayout, folder: str) -> None:
-    """Two in a row; `folder`: where the presets lie, below the one for all presets."""
+def icon(purpose: str) -> int:
+    """The number of a purpose's picture, for Blender's layouts."""
+    return _loaded[stem(purpose)].icon_id
+
+
+def draw_pictures(layout: bpy.types.UILayout) -> None:
+    """Those with settings, two in a row."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True)
-    for stem, label in SHOWN.items():
+    for purpose, label, *_ in PURPOSES:
+        path = preset_file(purpose)
+        if path is None:
+            continue
         column = grid.column(align=True)
-        column.template_icon(icon_value=_loaded[stem].icon_id, scale=_SCALE)
+        column.template_icon(icon_value=icon(purpose), scale=_SCALE)
         button: Any = column.operator("object.fairing_preset_apply", text=label)
-        button.filepath = str(PRESETS / folder / f"{stem}.py")
+        button.filepath = str(path)
 
 
 def register() -> None:
     global _loaded
     _loaded = bpy.utils.previews.new()
-    for stem in SHOWN:
-        _loaded.load(stem, str(PRESETS / "pictures" / f"{stem}.png"), "IMAGE")
+    for purpose, *_ in PURPOSES:
+        name = stem(purpose)
+        _loaded.load(name, str(FOLDER / "pictures" / f"{name}.png"), "IMAGE")
 
 
 def unregister() -> None:

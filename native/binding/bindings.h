@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include "fairing/whole.h"
+
 namespace fairing {
 
 // Adds the class Options, with one attribute a setting, and the enums of those that are choices.
@@ -17,6 +19,11 @@ void bind_fill(pybind11::module_& m);
 
 // Adds strain(), which the package wraps.
 void bind_strain(pybind11::module_& m);
+
+// Adds outline(), which the package's pieces() cuts up.
+void bind_outline(pybind11::module_& m);
+// What a piece takes from its whole: a dict of the package's, or None.
+OfWhole whole_from(const pybind11::object& given);
 
 // Adds fit_splines(), which the package's fit_patches() calls, and what it wants of a Monitor.
 void bind_splines(pybind11::module_& m);

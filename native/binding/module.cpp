@@ -77,10 +77,12 @@ void bind_monitor(py::module_& m) {
 
 py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                      const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
-                     FairOptions options, Monitor& monitor, const py::object& progress) {
+                     FairOptions options, Monitor& monitor, const py::object& progress,
+                     const py::object& whole) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   const std::vector<double> positions = copy_of(shapes);
   options.shapes = positions;
+  options.whole = whole_from(whole);
   FairResult result;
   Runner().run([&] { result = fair(mesh.view(), options, monitor); }, monitor, nullptr, progress);
   py::dict d;
@@ -139,7 +141,7 @@ PYBIND11_MODULE(_native, m) {
   bind_options(m);
   m.def("fair", &fair_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("shapes").noconvert(), py::arg("options"),
-        py::arg("monitor"), py::arg("progress"),
+        py::arg("monitor"), py::arg("progress"), py::arg("whole") = py::none(),
         "discrete_fairing.fair on plain arrays: vertices (n, 3) and shapes (k, n, 3) float64,\n"
         "corners and offsets int64. Returns what Result takes.");
   m.def("check", &check_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
@@ -154,6 +156,7 @@ PYBIND11_MODULE(_native, m) {
         "A message about other elements of that kind.");
   bind_solver(m);
   bind_strain(m);
+  bind_outline(m);
   bind_splines(m);
   bind_fill(m);
   bind_end();

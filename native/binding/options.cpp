@@ -31,7 +31,8 @@ void bind_choices(py::module_& m) {
       .value("tangent", ChartKind::tangent);
   py::enum_<Interpolation>(m, "Interpolation")
       .value("exact", Interpolation::exact)
-      .value("approximate", Interpolation::approximate);
+      .value("approximate", Interpolation::approximate)
+      .value("limit", Interpolation::limit);
   py::enum_<Energy>(m, "Energy")
       .value("thin_plate", Energy::thin_plate)
       .value("total_curvature", Energy::total_curvature)
@@ -88,6 +89,9 @@ void bind_options(py::module_& m) {
   setting("interpolation", &O::interpolation);
   setting("tolerance", &O::tolerance);
   setting("weights", &O::weights);
+  setting("limit", &O::limit);
+  setting("edge_sharpness", &O::sharpness, &Sharpness::edges);
+  setting("vertex_sharpness", &O::sharpness, &Sharpness::vertices);
   setting("epsilon", &O::paper, &PaperOptions::epsilon);
   setting("pad_size", &O::pad_size);
   setting("normals", &O::normals);

@@ -177,12 +177,16 @@ py::dict to_python(const Report& r) {
   d["constraint_gap"] = r.constraint_gap;
   d["pads"] = to_python(r.pads);
   d["normals"] = to_python(r.normals);
-  d["sheets"] = to_python(r.sheets);
   d["threads"] = r.threads;
-  d["warnings"] = to_python(r.warnings);
-  d["repairs"] = to_python(r.repairs);
-  d["flipped_faces"] = r.flipped_faces;
+  add_mesh_report(d, r);
   return d;
+}
+
+void add_mesh_report(py::dict& to, const Report& r) {
+  to["sheets"] = to_python(r.sheets);
+  to["warnings"] = to_python(r.warnings);
+  to["repairs"] = to_python(r.repairs);
+  to["flipped_faces"] = r.flipped_faces;
 }
 
 py::dict to_python(const RunSize& size) {

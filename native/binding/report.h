@@ -15,6 +15,8 @@ namespace fairing {
 
 // Needs Python's lock; the arrays move without a copy.
 pybind11::dict to_python(const Report& report);
+// Adds what a report says of the mesh alone: "sheets", "warnings", "repairs", "flipped_faces".
+void add_mesh_report(pybind11::dict& to, const Report& report);
 pybind11::dict to_python(const RunSize& size);
 pybind11::list to_python(const Defects& defects);
 

@@ -2,7 +2,10 @@
 #include "fairing/control_positions.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "mesh/validate/check.h"
@@ -44,15 +47,44 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   return result;
 }
 
-ControlPositions in_both_systems(std::vector<Vec3> world, FeatureCurves curves,
-                                 const Frame& frame) {
+ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> world,
+                                 FeatureCurves curves, const Frame& frame) {
   ControlPositions control;
+  control.cage.assign(world.begin(), world.begin() + mesh.input_vertices);
   for (const Vec3& p : world) control.working.push_back(frame.to_working(p));
   control.world = std::move(world);
   control.world_curves = std::move(curves);
   control.working_curves = control.world_curves;
   for (Vec3& p : control.working_curves.points) p = frame.to_working(p);
   return control;
+}
+
+using Pair = std::array<std::int64_t, 2>;
+
+// Handed points take the place of those that a piece of the chain would have.
+void take_handed(const ControlMesh& mesh, const HandedCurves& handed, FeatureCurves& curves) {
+  const auto inner = std::size_t(curves.points_per_edge);
+  if (handed.points.size() != 3 * inner * handed.edges.size())
+    throw FairingError(ErrorCode::bad_shape, "Curves of the whole have points of another level.");
+  std::vector<std::pair<Pair, std::size_t>> place;
+  for (std::size_t k = 0; k < handed.edges.size(); ++k) {
+    const auto [a, b] = handed.edges[k];
+    place.push_back({{std::min(a, b), std::max(a, b)}, k});
+  }
+  std::sort(place.begin(), place.end());
+  for (Index e = 0; e < mesh.first_copied_edge() && !place.empty(); ++e) {
+    if (curves.run[std::size_t(e)] < 0) continue;
+    const Index from = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[0]),
+                to = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[1]);
+    const Pair pair{std::min(from, to), std::max(from, to)};
+    const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
+    if (at == place.end() || at->first != pair) continue;
+    const double* points = handed.points.data() + 3 * inner * at->second;
+    Vec3* own = curves.points.data() + std::size_t(curves.run[std::size_t(e)]) * inner;
+    const bool along = handed.edges[at->second][0] == from;
+    for (std::size_t k = 0; k < inner; ++k)
+      own[along ? k : inner - 1 - k] = Eigen::Map<const Vec3>(points + 3 * k);
+  }
 }
 
 }  // namespace
@@ -74,22 +106,30 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
 }
 
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent) {
+                                   const Frame& frame, int subdivisions, double exponent,
+                                   const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
-  return in_both_systems(std::move(world), std::move(curves), frame);
+  take_handed(mesh, handed, curves);
+  return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
-ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
-                                    std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent) {
+std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                std::span<const double> coordinates) {
   std::vector<Vec3> world;
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
     world.emplace_back(coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]);
   for (const Index v : mesh.copied_vertex) world.push_back(world[std::size_t(v)]);
   for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c)
     world.push_back(centre_of_shape(mesh, basis_world, c, world));
+  return world;
+}
+
+ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                    std::span<const double> coordinates, const Frame& frame,
+                                    int subdivisions, double exponent) {
+  std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
-  return in_both_systems(std::move(world), std::move(curves), frame);
+  return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
 void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "curves/feature_curves.h"
+#include "fairing/whole.h"
 #include "mesh/polygon_mesh.h"
 
 namespace fairing {
@@ -30,15 +31,22 @@ struct Frame {
 Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world);
 
 struct ControlPositions {
-  // One a control vertex: the input's, copies of them, centres of split polygons.
+  // Where the surface is held. One a control vertex: the input's, copies of them, centres of split
+  // polygons.
   std::vector<Vec3> world, working;
+  // The caller's own, one an input vertex, in world coordinates: others than `world` where the
+  // surface passes through limit positions.
+  std::vector<Vec3> cage;
   FeatureCurves world_curves, working_curves;
 };
 
 // Of `world` itself: the parameters of curves are those of these positions. `subdivisions`: 2^L
-// for the finest level L. `exponent`: of the control metric (stencil/metric.h).
+// for the finest level L. `exponent`: of the control metric (stencil/metric.h). Curves that are
+// `handed` down are as the whole has them. Throws FairingError(bad_shape) where their points are not
+// as many as that takes.
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent);
+                                   const Frame& frame, int subdivisions, double exponent,
+                                   const HandedCurves& handed);
 
 // Of other positions of the input's vertices: `coordinates`, in world coordinates, 3 a vertex. A
 // linear map of them: the parameters of curves and the centres' weights in their polygons are
@@ -46,6 +54,11 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
                                     int subdivisions, double exponent);
+
+// `coordinates`, 3 numbers an input vertex, as positions of all control vertices: copies and centres
+// follow, the latter by their weights in `basis_world`.
+std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
+                                std::span<const double> coordinates);
 
 // Throws FairingError: bad_shape when the coordinates do not come to whole shapes of the mesh;
 // non_finite, naming the shape and the vertices.

@@ -197,7 +197,7 @@ auto FairSolver::guarded(Call&& call) {
 // The basis' own positions give the basis itself: its centres of split polygons and its curves, to
 // the last bit.
 void FairSolver::set_control(std::span<const double> coordinates) {
-  const std::vector<Vec3>& basis = problem_->basis.world;
+  const std::vector<Vec3>& basis = problem_->basis.cage;
   bool is_basis = true;
   for (std::size_t i = 0; i < coordinates.size() && is_basis; ++i)
     is_basis = coordinates[i] == basis[i / 3][Eigen::Index(i % 3)];

@@ -115,6 +115,7 @@ Mending::Mending(const PolygonMesh& input, const FairOptions& options)
 
 void Mending::map_options(const PolygonMesh& input) {
   map_edges(input);
+  map_sharpness(input);
   map_region(input);
   map_vertex_values(input);
   for (std::int64_t& v : options_.features.corner_vertices)
@@ -135,6 +136,22 @@ void Mending::map_edges(const PolygonMesh& input) {
   if (named.empty()) return;
   const NamedEdges edges(input, mended_);
   for (std::vector<Pair>* of_kind : named) edges.map(*of_kind);
+}
+
+void Mending::map_sharpness(const PolygonMesh& input) {
+  auto& [edges, values] = options_.sharpness.edges;
+  if (edges.empty()) return;
+  const NamedEdges named(input, mended_);
+  std::vector<Pair> all;
+  std::vector<double> all_values;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    std::vector<Pair> now{edges[k]};
+    named.map(now);
+    all.insert(all.end(), now.begin(), now.end());
+    all_values.resize(all.size(), values[k]);
+  }
+  edges = std::move(all);
+  values = std::move(all_values);
 }
 
 void Mending::map_region(const PolygonMesh& input) {
@@ -167,6 +184,7 @@ void Mending::map_vertex_values(const PolygonMesh& input) {
   };
   gather(options_.tolerance, [](double a, double b) { return std::min(a, b); });
   gather(options_.weights, [](double a, double b) { return std::max(a, b); });
+  gather(options_.sharpness.vertices, [](double a, double b) { return std::max(a, b); });
 }
 
 void Mending::restore_points(double* world) const {

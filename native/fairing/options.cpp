@@ -89,7 +89,7 @@ double FairOptions::step_tolerance_wanted() const {
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {
-  if (interpolation == Interpolation::exact) return 0;
+  if (interpolation != Interpolation::approximate) return 0;
   if (tolerance.size() > 1) return tolerance[v];
   return tolerance[0] > 0 ? tolerance[0] : weights.empty() ? 0 : INFINITY;
 }
@@ -133,6 +133,8 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (!(o.weld <= 1e300)) refuse("weld must be a length, 0 or more.");
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
+  in_range("limit", o.limit, 0, 1);
+  check_sharpness(mesh.vertex_count(), o.sharpness);
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");
@@ -150,7 +152,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   check_paper(o);
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)
-    refuse("weights are for interpolation=\"approximate\"; exact interpolation has none.");
+    refuse("weights are for interpolation=\"approximate\"; other interpolations have none.");
   check_per_vertex(mesh, "weights", o.weights);
 }
 

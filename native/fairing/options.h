@@ -8,15 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "fairing/whole.h"
 #include "mesh/control_mesh.h"
+#include "mesh/limit_positions.h"
 #include "mesh/polygon_mesh.h"
 #include "paper/options.h"
 #include "stencil/chart.h"
 
 namespace fairing {
 
-// Whether control vertices stay, or move within a tolerance or against weights.
-enum class Interpolation { exact, approximate };
+// Whether control vertices stay, move within a tolerance or against weights, or go to where
+// Catmull-Clark subdivision would take them (mesh/limit_positions.h) and stay there.
+enum class Interpolation { exact, approximate, limit };
 
 // The quantity to minimise.
 enum class Energy {
@@ -63,6 +66,10 @@ struct FairOptions {
   std::vector<double> tolerance{0.0};
   // Approximate: one a vertex, or empty. 0 frees a vertex that has no tolerance, infinity fixes it.
   std::vector<double> weights;
+  // Limit: how far control vertices go, from 0, the cage, to 1, their limits; and which edges and
+  // vertices are semi-sharp on the way.
+  double limit = 1;
+  Sharpness sharpness;
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
   // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
@@ -80,6 +87,9 @@ struct FairOptions {
   // A membrane stretched over the mesh, against swelling and overshoots: none at 0, as taut as is of
   // use at 1 (membrane_strength()).
   double tension = 0;
+
+  // Where the mesh is a piece: what it takes from the whole (fairing/outline.h). No setting.
+  OfWhole whole{};
 
   // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.
   std::span<const double> shapes{};

@@ -121,12 +121,11 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
   refine_outside_linearly(grid, given, world);
 }
 
-double largest_deviation(const std::vector<Vec3>& given, Index input_vertices,
-                         const double* world) {
+double largest_deviation(const std::vector<Vec3>& cage, const double* world) {
   double largest = 0;
-  for (std::size_t v = 0; v < std::size_t(input_vertices); ++v)
+  for (std::size_t v = 0; v < cage.size(); ++v)
     largest = std::max(largest,
-                       (Vec3(world[3 * v], world[3 * v + 1], world[3 * v + 2]) - given[v]).norm());
+                       (Vec3(world[3 * v], world[3 * v + 1], world[3 * v + 2]) - cage[v]).norm());
   return largest;
 }
 

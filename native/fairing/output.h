@@ -38,6 +38,6 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
 
 // The farthest that one of the first `input_vertices` points of a surface is from where `given` has
 // it; both in world coordinates.
-double largest_deviation(const std::vector<Vec3>& given, Index input_vertices, const double* world);
+double largest_deviation(const std::vector<Vec3>& cage, const double* world);
 
 }  // namespace fairing

@@ -5,80 +5,87 @@
 #include <limits>
 #include <utility>
 
+#include "fairing/checked.h"
 #include "fairing/memory_plan.h"
 #include "fairing/unknowns.h"
 #include "fairing/warnings.h"
 #include "hold/hold_in_space.h"
-#include "mesh/sheets.h"
 #include "mesh/validate/check.h"
 
 namespace fairing {
 namespace {
 
-SheetReport sheets_of(const ControlMesh& mesh) {
-  SheetReport out;
-  const SheetNumbers sheets = number_sheets(mesh);
-  out.count = std::size_t(sheets.count);
-  std::vector<std::uint8_t> one_sided(std::size_t(mesh.vertex_count()), 0);
-  for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f)
-    one_sided[std::size_t(sheets.of_vertex[std::size_t(mesh.faces[std::size_t(f)].vertex[0])])] = 1;
-  out.one_sided = std::size_t(std::count(one_sided.begin(), one_sided.end(), 1));
-  std::vector<std::uint8_t> on_edge(std::size_t(mesh.input_vertices), 0);
-  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
-    if (!mesh.nonmanifold(e)) continue;
-    ++out.nonmanifold_edges;
-    for (const Index v : mesh.edges[std::size_t(e)].vertex)
-      on_edge[std::size_t(mesh.original_vertex(v))] = 1;
-  }
-  for (Index v = 0; v < mesh.input_vertices; ++v)
-    out.nonmanifold_vertices += mesh.fans_meet(v) && !on_edge[std::size_t(v)];
-  return out;
-}
-
-void require_two_sides(const std::vector<Warning>& warnings) {
-  for (const Warning& warning : warnings)
-    if (warning.code == name(ErrorCode::non_orientable))
-      throw FairingError(ErrorCode::non_orientable,
-                         listing(face_s, warning.elements, {"belongs", "belong"}) +
-                             " to a surface with only one side, like a Möbius strip. Only the thin "
-                             "plate takes it: for the other energies a surface needs normals that "
-                             "agree all over. Use energy=\"thin_plate\", or cut it open.",
-                         warning.elements);
+bool goes_through_limits(const FairOptions& options) {
+  return options.interpolation == Interpolation::limit;
 }
 
 // Of a run, as far as it can be counted, `held` and what mending took included.
-RunSize size_of(const FairingProblem& problem, std::size_t coordinates, std::int64_t held) {
+RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::int64_t held) {
   const FairOptions& options = problem.options;
-  RunSize size =
-      predict_size(problem.mesh, problem.unknowns, options.levels, options.shape_count(coordinates),
-                   options.energy, options.tension > 0, options.paper.method == Method::back_leg);
-  for (const std::int64_t more :
-       {held, std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed))})
+  RunSize size = predict_size(problem.mesh, problem.unknowns, options.levels,
+                              options.shape_count(input.coordinates.size()), options.energy,
+                              options.tension > 0, options.paper.method == Method::back_leg);
+  const auto add = [&](std::int64_t more) {
     size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  };
+  add(held);
+  add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
+  if (goes_through_limits(options)) add(std::int64_t(LimitPositions::bytes(input)));
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
 }
 
-// `world`: one position a control vertex. From here on the mesh itself is in working coordinates.
-void make_about(std::vector<Vec3> world, Stopwatch& watch, FairingProblem& problem) {
+// One a control vertex. Where they fall together the charts would have no shape.
+std::vector<Vec3> limits_of_input(const FairingProblem& problem, const PolygonMesh& input) {
+  const std::vector<double> moved = problem.limits.of(input.coordinates);
+  try {
+    check({moved, input.corners, input.offsets}, {problem.options.repair == Repair::mend});
+  } catch (const FairingError& error) {
+    throw FairingError(error.code,
+                       std::string("At the limit positions of the vertices: ") + error.what() +
+                           " Or use a lower limit, or interpolation=\"exact\".",
+                       error.elements, error.kind);
+  }
+  return all_positions(problem.mesh, problem.mesh.positions, moved);
+}
+
+// The whole's, where this is a piece of it.
+MeshUnits units_in_working(const FairingProblem& problem) {
+  const OfWhole& whole = problem.options.whole;
+  return whole.given ? in_lengths_of(whole.units, problem.frame.scale, problem.exponent)
+                     : measure_units(problem.mesh, problem.exponent);
+}
+
+// Stencils measure it in the mean edge of their own mesh.
+double strength_of_membrane(const FairingProblem& problem) {
+  const double strength = membrane_strength(problem.options.tension);
+  if (!problem.options.whole.given || !(strength > 0)) return strength;
+  const double ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
+  return strength * ratio * ratio;
+}
+
+// `world`: one position a control vertex; `cage`: the caller's. From here on the mesh itself is in
+// working coordinates.
+void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch,
+                FairingProblem& problem) {
   const FairOptions& options = problem.options;
   ControlMesh& mesh = problem.mesh;
   watch.enter(Phase::curves, 0);
   problem.frame = working_frame(mesh, world);
   problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, 1 << options.levels,
-                                    problem.exponent);
+                                    problem.exponent, options.whole.curves);
+  problem.basis.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
   mesh.positions = problem.basis.working;
   require_near(mesh, problem.normals.fixed);
-  const std::unique_ptr<ChartMaker> charts = problem.charts();
-  problem.stencils = make_stencils(mesh, *charts, options.paper, *problem.workers,
-                                   membrane_strength(options.tension));
+  problem.units = units_in_working(problem);
+  problem.stencils = make_stencils(mesh, *problem.charts(), options.paper, *problem.workers,
+                                   strength_of_membrane(problem));
   if (options.energy != Energy::thin_plate)
     problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
-  problem.weight_unit = weight_unit(mesh, charts->flat());
   problem.start_weights =
-      problem.hold_of<HoldInSpace>(problem.basis, problem.weight_unit).weights();
+      problem.hold_of<HoldInSpace>(problem.basis, problem.units.weight).weights();
   require_anchored(mesh, problem.unknowns, problem.start_weights);
 }
 
@@ -87,10 +94,7 @@ void make_about(std::vector<Vec3> world, Stopwatch& watch, FairingProblem& probl
 void check_input(const PolygonMesh& input, const FairOptions& options, Stopwatch& watch,
                  Report& report) {
   watch.enter(Phase::check, 0);
-  CheckResult checked = check(input, {options.repair == Repair::mend});
-  if (options.energy != Energy::thin_plate) require_two_sides(checked.warnings);
-  report.warnings = std::move(checked.warnings);
-  report.flipped_faces = std::move(checked.flipped_faces);
+  check_mesh(input, options, report);
 }
 
 std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
@@ -116,11 +120,19 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   report.sheets = sheets_of(problem->mesh);
   problem->unknowns = choose_unknowns(problem->mesh, options);
   problem->normals = choose_normals(problem->mesh, options);
-  const RunSize size = size_of(*problem, input.coordinates.size(), held);
+  const RunSize size = size_of(*problem, input, held);
   require_fit(size, options);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);
-  make_about(problem->mesh.positions, watch, *problem);
+  const auto& given = problem->mesh.positions;
+  std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
+  std::vector<Vec3> world = given;
+  if (goes_through_limits(options)) {
+    problem->limits = LimitPositions(input, problem->mesh, options.features.corner_vertices,
+                                     options.sharpness, options.limit);
+    world = limits_of_input(*problem, input);
+  }
+  make_about(std::move(world), std::move(cage), watch, *problem);
   return problem;
 }
 
@@ -129,12 +141,21 @@ std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double>
                                                          Stopwatch& watch) {
   auto problem = std::make_unique<FairingProblem>(FairingProblem{
       like.options, like.workers, like.mesh, like.exponent, like.unknowns, like.normals});
-  make_about(like.control_positions(coordinates).world, watch, *problem);
+  problem->limits = like.limits;
+  ControlPositions next = like.control_positions(coordinates);
+  make_about(std::move(next.world), std::move(next.cage), watch, *problem);
   return problem;
 }
 
 ControlPositions FairingProblem::control_positions(std::span<const double> coordinates) const {
-  return positions_of_shape(mesh, basis.world, coordinates, frame, 1 << options.levels, exponent);
+  const auto positions = [&](std::span<const double> held) {
+    return positions_of_shape(mesh, basis.world, held, frame, 1 << options.levels, exponent);
+  };
+  if (!goes_through_limits(options)) return positions(coordinates);
+  ControlPositions control = positions(limits.of(coordinates));
+  for (std::size_t v = 0; v < control.cage.size(); ++v)
+    control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+  return control;
 }
 
 std::vector<double> FairingProblem::working_tolerances() const {

@@ -24,13 +24,14 @@ struct FairingProblem {
   double exponent;   // of the metric
   Unknowns unknowns;
   ChosenNormals normals;
+  LimitPositions limits{};  // where the surface passes through them
 
   // Of the positions that charts and stencils are made about.
   Frame frame{};
   ControlPositions basis{};
+  MeshUnits units{};
   Stencils stencils{};
   std::vector<Mirror> mirrors{};
-  double weight_unit = 0;         // of the caller's weights, in the plate's energy
   VertexWeights start_weights{};  // of control vertices
 
   std::unique_ptr<ChartMaker> charts() const { return make_charts(mesh, exponent, options.paper); }
@@ -46,7 +47,8 @@ struct FairingProblem {
   // it.
   template <class Hold>
   Hold hold_of(const ControlPositions& control, double unit) const {
-    if (options.interpolation == Interpolation::exact) return Hold(mesh, control.working, unknowns);
+    if (options.interpolation != Interpolation::approximate)
+      return Hold(mesh, control.working, unknowns);
     return Hold(mesh, control.working, unknowns, weights_with_copies(), unit, working_tolerances());
   }
 

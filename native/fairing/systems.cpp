@@ -71,7 +71,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   GaussNewtonOptions options;
   if (problem_.options.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;
-  const double length = mean_edge(problem_.mesh, flatten(problem_.mesh, 1));
+  const double length = problem_.units.edge_in_space;
   options.tension = membrane_strength(problem_.options.tension) / (length * length);
   options.step_tolerance = problem_.options.step_tolerance_wanted();
   options.load_tolerance = std::clamp(5 * problem_.options.relative_residual, 1e-4, 2e-3);
@@ -96,7 +96,7 @@ PlateState FairingSystems::solve(const ControlPositions& control, bool measured,
     if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
   };
   const PaperOptions& paper = problem_.options.paper;
-  HoldInSpace hold = problem_.hold_of<HoldInSpace>(control, problem_.weight_unit);
+  HoldInSpace hold = problem_.hold_of<HoldInSpace>(control, problem_.units.weight);
   PlateState state;
   if (paper.method == Method::back_leg)
     solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, x, report.levels,
@@ -167,7 +167,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
   watch.enter(Phase::output, 0.95);
   to_world(control, finest(), problem_.frame, *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
-  report.largest_deviation = largest_deviation(control.world, problem_.mesh.input_vertices, world);
+  report.largest_deviation = largest_deviation(control.cage, world);
 }
 
 }  // namespace fairing

@@ -43,6 +43,10 @@ class Layout:
         self.log.append(name)
         return self.button
 
+    def menu(self, name, **_):
+        assert hasattr(bpy.types, name)
+        self.log.append(name)
+
     class button:
         """The operator properties that the panel fills in."""
 

@@ -303,3 +303,26 @@ def test_a_process_without_a_report_ends_well():
     write_obj("in.obj")
     assert process("in.obj", "out.ply")[0] == 0
     assert Path("out.ply").stat().st_size
+
+
+def test_in_pieces_the_surface_is_the_whole_one():
+    points = write_obj("in.obj")
+    assert run("in.obj", "whole.obj", "--levels", 2) == 0
+    code, (entry,) = entries("in.obj", "out.obj", "--levels", 2, "--pieces", 3)
+    assert code == 0
+    assert entry["objects"][0]["report"]["pieces"]["count"] == 3
+    whole, joined = (imported(name) for name in ("whole.obj", "out.obj"))
+    assert joined[1] == whole[1] and contains(joined[0], points, 1e-6)
+    assert np.abs(joined[0] - whole[0]).max() < 1e-5
+
+
+def test_pieces_are_for_meshes(capsys):
+    write_obj("in.obj")
+    for words, message in (
+        (("out.step", "--pieces", 2), "--pieces is for meshes"),
+        (("out.obj", "--pieces", 0), "not a whole number"),
+    ):
+        assert run("in.obj", *words) == 2
+        assert message in capsys.readouterr().err
+    assert run("in.obj", "out.obj", "--pieces", 2, "--symmetry-plane", "x") == 1
+    assert "symmetry_plane excludes pieces" in capsys.readouterr().err

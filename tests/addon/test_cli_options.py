@@ -36,6 +36,8 @@ def test_every_other_setting_can_be_said():
 def test_defaults_are_those_of_blender(blender):
     defaults = blender.context.scene.discrete_fairing
     for name, value in vars(settings()).items():
+        if name == "interpolation":
+            value = {"EXACT": "AUTO"}[value]  # no file has modifiers
         assert value == pytest.approx(getattr(defaults, name)), name
 
 
@@ -69,6 +71,16 @@ def test_tolerances_of_nobody():
     given = settings("--interpolation", "approximate")
     assert (given.tolerance_unit, given.relative_tolerance) == ("RELATIVE", 0.02)
     assert settings().interpolation == "EXACT"
+
+
+def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
+    given = settings("--limit", "0.5")
+    assert (given.interpolation, given.limit) == ("LIMIT", 0.5)
+    assert settings("--interpolation", "limit").limit == 1.0
+    with pytest.raises(ValueError, match="--limit needs --interpolation limit"):
+        settings("--interpolation", "exact", "--limit", "0.5")
+    with pytest.raises(ValueError, match="--tolerance needs --interpolation approximate"):
+        settings("--limit", "0.5", "--tolerance", "0.1")
 
 
 def test_one_tolerance_is_enough():

@@ -18,9 +18,8 @@ MAY_USE_FILES = {
     "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
     "addon/cli/materials.py",  # `os`, to see whether a name is taken
     "addon/cli/whole.py",  # reads an output, to see whether it is complete
-    "addon/ui/pictures.py",  # the names of the pictures of the shipped presets
+    "addon/purposes.py",  # the names of the shipped presets and their pictures
     "addon/queue.py",  # `os`, for the priority of threads
-    "addon/operators/presets.py",  # the folder of the shipped presets
     "native/binding/discrete_fairing/whole_files.py",  # writes a file beside its place first
     "native/binding/discrete_fairing/step.py",  # opens the one that it is given there
 }
@@ -31,7 +30,9 @@ PURE_FILES = (
     "choices.py",
     "core.py",
     "errors.py",
+    "measured.py",
     "poll.py",
+    "purposes.py",
     "queue.py",
     "size.py",
     "cad/words.py",
@@ -48,12 +49,12 @@ PURE_FILES = (
 # The rooms from the lowest to the highest: each imports from those before it, never from those
 # behind.
 ROOMS = (
-    {"blender", "choices", "core", "poll", "redraw", "size"},
+    {"blender", "choices", "core", "poll", "purposes", "redraw", "size"},
     {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
     {"records"},
     {"memory"},
     {"mesh"},
-    {"check", "freshness", "inspection"},
+    {"check", "freshness", "inspection", "measured"},
     {"in_place", "holes", "job"},
     {"live"},
     {"cad"},

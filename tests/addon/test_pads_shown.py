@@ -94,10 +94,10 @@ def test_smooth_meshes_have_no_attribute(capfd):
 @pytest.mark.parametrize(
     "narrower, gone, text",
     [
-        (12, 3, "Pads are narrower at 12 vertices and gone at 3, where the mesh is crumpled."),
-        (1, 1, "Pads are narrower at 1 vertex and gone at 1, where the mesh is crumpled."),
-        (1200, 0, "Pads are narrower at 1,200 vertices, where the mesh is crumpled."),
-        (0, 1, "Pads are gone at 1 vertex, where the mesh is crumpled."),
+        (12, 3, "Held less softly at 12 vertices, and not softly at 3, where faces turn sharply."),
+        (1, 1, "Held less softly at 1 vertex, and not softly at 1, where faces turn sharply."),
+        (1200, 0, "Held less softly at 1,200 vertices, where faces turn sharply."),
+        (0, 1, "Not held softly at 1 vertex, where faces turn sharply."),
         (0, 0, ""),
     ],
 )

@@ -12,12 +12,13 @@ from scenes import CUBE, add, fair
 
 import addon
 from addon.operators.presets import NOT_KEPT
+from addon.purposes import PRESET_FOLDER, PURPOSES
+from addon.purposes import stem as stem_of
 from addon.settings import NAMES, FairingSettings
 from addon.ui import pictures
-from addon.ui.main import PRESET_FOLDER
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
-SHIPPED = ("Default", "Organic", "Hull", "Mechanical_with_Creases", "Scan")
+SHIPPED = ("Default", "Character", "Hull", "Mechanical", "Panel", "Points")
 
 
 def values(name):
@@ -97,24 +98,26 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     add("Box", *CUBE)
     target = fair(levels=1)
     levels = bpy.context.scene.discrete_fairing.levels
-    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Scan.py"))
+    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Points.py"))
     assert target.discrete_fairing.interpolation == "APPROXIMATE"
-    assert bpy.context.scene.discrete_fairing.interpolation == "EXACT"
+    assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
     assert bpy.context.scene.discrete_fairing.levels == levels
 
 
 def test_each_picture_has_its_preset():
     folder = Path(pictures.__file__).resolve().parents[1] / "presets" / "pictures"
-    assert {path.stem for path in folder.glob("*.png")} == set(pictures.SHOWN) <= set(SHIPPED)
-    for stem in pictures.SHOWN:
+    stems = {stem_of(purpose) for purpose, *_ in PURPOSES}
+    assert {path.stem for path in folder.glob("*.png")} == stems
+    assert stems - {"Scan_Patch"} == set(SHIPPED) - {"Default"}
+    for stem in stems:
         assert tuple(pictures._loaded[stem].image_size) == (112, 112)
-    assert sum(path.stat().st_size for path in folder.glob("*.png")) < 40_000
+    assert sum(path.stat().st_size for path in folder.glob("*.png")) < 60_000
     layout = Layout()
-    pictures.draw_pictures(layout, PRESET_FOLDER)
-    assert layout.log.count("object.fairing_preset_apply") == len(pictures.SHOWN)
+    pictures.draw_pictures(layout)
+    assert layout.log.count("object.fairing_preset_apply") == len(stems) - 1
     assert Path(Layout.button.filepath).is_file()
 
 
 def test_menus_show_them_in_proper_case():
     shown = [bpy.path.display_name(path.name, title_case=False) for path in FOLDER.glob("*.py")]
-    assert set(shown) == {"Default", "Organic", "Hull", "Mechanical with Creases", "Scan"}
+    assert set(shown) == set(SHIPPED)

@@ -10,9 +10,9 @@ CLASSES = (
     "OBJECT_OT_fairing_preset_add",
     "VIEW3D_PT_fairing",
     "OBJECT_OT_fairing_show_source",
-    "VIEW3D_PT_fairing_source",
-    "VIEW3D_PT_fairing_creases",
-    "VIEW3D_PT_fairing_advanced",
+    "VIEW3D_PT_fairing_inspect",
+    "VIEW3D_PT_fairing_check",
+    "VIEW3D_MT_fairing_for",
 )
 
 

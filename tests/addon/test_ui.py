@@ -27,6 +27,8 @@ def test_every_setting_is_shown_somewhere():
     log = []
     for settings.tolerance_unit in ("RELATIVE", "SCENE"):
         log += [entry for cls in panels for entry in draw(cls)]
+    settings.interpolation = "LIMIT"
+    log += [entry for cls in panels for entry in draw(cls)]
     assert set(NAMES) <= set(log)
 
 
@@ -79,10 +81,12 @@ def test_triangle_count_stands_under_the_levels():
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-def test_energy_stands_near_the_top_with_what_it_means(energy):
+def test_fairness_is_the_first_of_more_with_what_it_means(energy):
     add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = energy
-    assert draw(main.VIEW3D_PT_fairing)[2:4] == ["energy", ENERGY_MEANINGS[energy]]
+    shown = draw(main.VIEW3D_PT_fairing)
+    more = shown[shown.index("More") + 1 :]
+    assert more[:2] == ["energy", ENERGY_MEANINGS[energy]]
 
 
 def test_what_an_energy_costs_is_said_once():
@@ -133,7 +137,7 @@ def test_menus_have_every_operator():
     """Blender's search finds what stands in a menu."""
     add("Box", *CUBE)
     log = draw(menus.VIEW3D_MT_fairing) + draw(menus.VIEW3D_MT_fairing_boundary)
-    log += draw(menus.VIEW3D_MT_fairing_normals)
+    log += draw(menus.VIEW3D_MT_fairing_normals) + draw(menus.VIEW3D_MT_fairing_for)
     own = {f"object.{name}" for name in dir(bpy.ops.object) if name.startswith("fairing_")}
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
     others = {
@@ -201,6 +205,7 @@ def test_copy_settings():
 def test_layout_draws_operator_properties_too():
     log = Layout()
     properties = bpy.context.window_manager.operator_properties_last("object.fairing_surface")
+    settings_layout.draw_job(log, properties)
     settings_layout.draw_shape(log, properties)
     settings_layout.draw_creases(log, properties)
     settings_layout.draw_advanced(log, properties)
@@ -217,7 +222,7 @@ def test_what_is_grey_says_why():
     add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
     said = draw(main.VIEW3D_PT_fairing)
-    assert "It helps the start only" in said and "Not with this energy" in said
+    assert "It helps the start only" in said and "Not with this fairness" in said
 
 
 @pytest.mark.parametrize("reason", [SOURCE_CHANGED, SETTINGS_CHANGED])

@@ -154,7 +154,7 @@ BAD = [
     {"colours": "red"},
     {"colours": ["1", "0", "0"]},
     {"colours": [(0, 0, 0), (0, 0)]},
-    {"colours": object()},
+    {"colours": ...},
     {"colours": (float("nan"), 0, 0)},
 ]
 
@@ -174,7 +174,7 @@ def test_what_is_no_patches_is_refused(patches, old):
     assert old.read_text() == "old" and only(old)
 
 
-@pytest.mark.parametrize("path", [None, 3, "", "a\0b", b"a\0", "\ud800", object()], ids=repr)
+@pytest.mark.parametrize("path", [None, 3, "", "a\0b", b"a\0", "\ud800", ...], ids=repr)
 def test_what_names_no_file_is_refused(cube, path):
     with pytest.raises(df.FairingError, match="it must be the name of a file") as caught:
         df.write_step(path, cube)

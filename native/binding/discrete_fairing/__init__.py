@@ -14,6 +14,7 @@ from .fairing import fair
 from .filling import Filled, FilledHole, fill_holes, find_holes
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
+from .piecewise import Part, Piece, join, largest_jump, pieces
 from .result import Result
 from .solver import Solver
 from .step import write_step
@@ -26,6 +27,8 @@ __all__ = [
     "FilledHole",
     "MemoryWarning",
     "Monitor",
+    "Part",
+    "Piece",
     "Result",
     "Solver",
     "SplinePatches",
@@ -36,6 +39,9 @@ __all__ = [
     "fill_holes",
     "find_holes",
     "fit_patches",
+    "join",
+    "largest_jump",
+    "pieces",
     "predicted_size",
     "spline_knots",
     "strain",

@@ -28,6 +28,9 @@ def fair(
     interpolation: str = "exact",
     tolerance: float | ArrayLike = 0.0,
     weights: ArrayLike | None = None,
+    limit: float = 1.0,
+    edge_sharpness: tuple[ArrayLike, ArrayLike] | None = None,
+    vertex_sharpness: ArrayLike | None = None,
     epsilon: float = 0.0,
     pad_size: float = 1.0,
     normals: ArrayLike | None = None,
@@ -85,9 +88,22 @@ def fair(
         The paper's linear blend of charts: 0 uniform, 1 the chart itself.
     chart : "exponential" or "tangent"
         Exponential map of the control metric, or projection to its tangent planes.
-    interpolation : "exact" or "approximate"
+    interpolation : "exact", "approximate" or "limit"
         Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
-        against `weights`. Vertices on curves always stay.
+        against `weights`. Vertices on curves always stay. Limit: the surface passes exactly through
+        the vertices' limit positions, where Catmull-Clark subdivision would take them, and charts
+        are made of these: for cages drawn to look right under subdivision. The first n rows of
+        `vertices` are then the limit positions. Creases, borders and corners have their own rules
+        [DeRose, Kass, Truong 1998]; vertices at corners and on straight borders, and those not
+        inside a region, stay.
+    limit : float from 0 to 1
+        Limit: how far the vertices go, from the cage, 0, to their limit positions, 1.
+    edge_sharpness : (edges, sharpness), (k, 2) int and (k,) float or one number, subdivision steps
+        Limit: vertex pairs of semi-sharp edges, and for how many subdivision steps each is sharp; 10
+        and more is for ever. It counts for a crease too, which otherwise is sharp for ever. Blender's
+        crease c has the sharpness 10 c**2.
+    vertex_sharpness : (n,) float, subdivision steps
+        Limit: the same of vertices; 0: none.
     tolerance : float or (n,) float, mesh units
         Approximate: the farthest that any control vertex moves, or each of them; the energy is as
         low as that allows. One number 0 means none. In an array, 0 interpolates a vertex, and

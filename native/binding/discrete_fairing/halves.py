@@ -16,6 +16,7 @@ import numpy as np
 from . import _native
 from ._native import FairingError
 from .errors import fairing_error
+from .options import edges_with_sharpness
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
@@ -135,7 +136,7 @@ class Half:
     def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
         """Those that name vertices, edges or faces, for the double."""
         given = dict(settings)
-        for name in ("tolerance", "weights"):
+        for name in ("tolerance", "weights", "vertex_sharpness"):
             values = given.get(name)
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
                 values = np.asarray(values)
@@ -145,6 +146,12 @@ class Half:
         for name, kind in _IDS.items():
             if given.get(name) is not None:
                 given[name] = self._with_images(name, kind, given[name])
+        if given.get("edge_sharpness") is not None:
+            pairs, sharpness = edges_with_sharpness("edge_sharpness", given["edge_sharpness"])
+            given["edge_sharpness"] = (
+                self._with_images("edge_sharpness", "vertex", pairs),
+                np.tile(sharpness, 2),
+            )
         if given.get("boundary_edges") is not None:
             given["boundary_edges"] = {
                 mode: self._with_images("boundary_edges", "vertex", pairs)

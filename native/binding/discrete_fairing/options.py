@@ -88,9 +88,26 @@ def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
     array = numbers(weights, name, "iuf").astype(float)
     if array.ndim != 1 or not array.size:
         raise fairing_error(
-            "BAD_SHAPE", f"weights has shape {array.shape}; it must be (n,), one for each vertex."
+            "BAD_SHAPE", f"{name} has shape {array.shape}; it must be (n,), one for each vertex."
         )
     return array
+
+
+def edges_with_sharpness(
+    name: str, given: tuple[ArrayLike, ArrayLike]
+) -> tuple[np.ndarray, np.ndarray]:
+    """(k, 2) int64 and (k,) float64; one number serves for all edges."""
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise fairing_error("BAD_OPTION", f"{name} is {given!r}; it must be (edges, sharpness).")
+    pairs = vertex_pairs(name, given[0])
+    values = numbers(given[1], name, "iuf").astype(float)
+    if values.shape not in ((), (len(pairs),)):
+        raise fairing_error(
+            "BAD_SHAPE",
+            f"{name} has {len(pairs)} edges and sharpness of shape {values.shape}; "
+            "it must be one number, or one for each edge.",
+        )
+    return pairs, np.broadcast_to(values, len(pairs)).copy()
 
 
 def normal_rows(name: str, normals: ArrayLike) -> np.ndarray:
@@ -179,6 +196,9 @@ SETTINGS = {
     "interpolation": choice(_native.Interpolation),
     "tolerance": lengths,
     "weights": weight_array,
+    "limit": real,
+    "edge_sharpness": edges_with_sharpness,
+    "vertex_sharpness": weight_array,
     "epsilon": real,
     "pad_size": real,
     "normals": normal_rows,
@@ -206,6 +226,8 @@ SETTINGS = {
 }
 OPTIONAL = (
     "weights",
+    "edge_sharpness",
+    "vertex_sharpness",
     "normals",
     "crease_edges",
     "crease_angle",

@@ -6,7 +6,8 @@ op = bpy.context.active_operator
 
 op.levels = 3
 op.energy = "THIN_PLATE"
-op.interpolation = "EXACT"
+op.interpolation = "AUTO"
+op.limit = 1.0
 op.tolerance = 0.01
 op.relative_tolerance = 0.02
 op.tolerance_unit = "RELATIVE"

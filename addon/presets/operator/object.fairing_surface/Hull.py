@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Boats, wings, panels: calm reflections through every vertex; marked edges are chines, borders keep their corners.
+# Boats: through every offset, curvature changes as little as possible; marked edges are chines,
+# borders keep their corners. The tolerance lets offsets be off.
 import bpy
 
 op = bpy.context.active_operator
 
 op.levels = 3
-op.energy = "THIN_PLATE"
-op.interpolation = "EXACT"
-op.tolerance = 0.01
+op.energy = "MINIMUM_VARIATION"
+op.interpolation = "APPROXIMATE"
+op.limit = 1.0
+op.tolerance = 0.0
 op.relative_tolerance = 0.02
-op.tolerance_unit = "RELATIVE"
+op.tolerance_unit = "SCENE"
 op.pad_size = 1.0
 op.tension = 0.0
 op.boundary = "CURVE"

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Measured and noisy meshes: the surface may miss each vertex by a tenth of an edge, and loses the noise.
+# Characters, animals, soft things: through the points where Subdivision Surface passes, fairer in
+# between; sharp only where an edge is creased. A lower spacing than else keeps slivers from folding.
 import bpy
 
 op = bpy.context.active_operator
 
 op.levels = 3
 op.energy = "THIN_PLATE"
-op.interpolation = "APPROXIMATE"
+op.interpolation = "LIMIT"
+op.limit = 1.0
 op.tolerance = 0.01
-op.relative_tolerance = 0.1
+op.relative_tolerance = 0.02
 op.tolerance_unit = "RELATIVE"
 op.pad_size = 1.0
 op.tension = 0.0
@@ -23,7 +25,7 @@ op.use_crease_angle = False
 op.crease_angle = 0.698132
 op.use_corner_angle = False
 op.corner_angle = 1.047198
-op.metric_exponent = 0.5
+op.metric_exponent = 0.35
 op.repair = "MEND"
 op.weld = 0.0
 op.use_shape_keys = True

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Machine parts: folds from 30 degrees on are sharp, and sharp curves keep corners from 45 degrees on.
+# Machine parts: folds from 30 degrees on are sharp, and sharp curves keep corners from 45 degrees
+# on. The tolerance lets vertices be off.
 import bpy
 
 op = bpy.context.active_operator
 
 op.levels = 3
 op.energy = "TOTAL_CURVATURE"
-op.interpolation = "EXACT"
-op.tolerance = 0.01
+op.interpolation = "APPROXIMATE"
+op.limit = 1.0
+op.tolerance = 0.0
 op.relative_tolerance = 0.02
-op.tolerance_unit = "RELATIVE"
+op.tolerance_unit = "SCENE"
 op.pad_size = 1.0
 op.tension = 0.0
 op.boundary = "CURVE"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Characters, animals, soft things: near the vertices, smooth everywhere, sharp only where an edge is creased.
+# Measured points: the surface may miss each vertex by a tenth of an edge, and loses the noise.
 import bpy
 
 op = bpy.context.active_operator
@@ -7,8 +7,9 @@ op = bpy.context.active_operator
 op.levels = 3
 op.energy = "THIN_PLATE"
 op.interpolation = "APPROXIMATE"
+op.limit = 1.0
 op.tolerance = 0.01
-op.relative_tolerance = 0.02
+op.relative_tolerance = 0.1
 op.tolerance_unit = "RELATIVE"
 op.pad_size = 1.0
 op.tension = 0.0

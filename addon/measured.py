@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A measured patch: its vertices are data, not obstacles. The surface passes near them, drawn by a
+weight that the noise decides, and they go to it along its normals.
+
+A smoothing spline [Reinsch 1967] on the mesh itself, its amount by generalized cross-validation
+[Craven, Wahba 1979; Golub, Heath, Wahba 1979]. Plain arrays, no Blender.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import core
+from .transfer.cut_out import grown
+
+# Weights that are tried, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between
+# neighbours the error of a noisy sphere differs by a fifth at its least.
+_WEIGHTS = 10.0 ** np.arange(1.0, -4.1, -0.5)
+# for the normals along which noise is measured: between the extremes of what noise asks for
+_FIRST = 10.0**-0.5
+# faces on which the amount is found; more would find the same one
+SAMPLE = 8_000
+
+
+def sample(arrays: core.ControlArrays, chosen: np.ndarray) -> np.ndarray:
+    """(m,) bool: of the faces that are `chosen`, (m,) bool, so many that touch each other that the
+    amount is found on them.
+    """
+    found = np.zeros(len(chosen), bool)
+    found[np.flatnonzero(chosen)[:1]] = True
+    while found.sum() < SAMPLE:
+        more = grown(arrays, found, 1) & chosen
+        if (more == found).all():
+            # a part with all its neighbours: another one
+            rest = np.flatnonzero(chosen & ~found)[:1]
+            if not len(rest):
+                break
+            more[rest] = True
+        found = more
+    return found
+
+
+@dataclass(frozen=True)
+class Amount:
+    weight: float
+    noise: float  # rms along the normals, a length
+
+
+def amount(
+    arguments: Mapping[str, Any], free: np.ndarray, noise: float = 0.0, **watchers: Any
+) -> Amount:
+    """How strongly the vertices that are `free`, (n,) bool, are to draw the surface. `arguments`:
+    those of discrete_fairing.fair; all other vertices stay.
+
+    `noise`: how far the free ones are off, rms, a length; 0: found out.
+    """
+    trial = _Trial(_Fit(arguments, free, watchers), free)
+    weight = trial.for_noise(noise) if noise > 0 else trial.by_validation()
+    return Amount(weight, trial.noise(weight))
+
+
+def smoothed(arguments: Mapping[str, Any], free: np.ndarray, weight: float, **watchers: Any) -> Any:
+    """The Result at level 0, its vertices, where they are `free`, moved along the normals to the
+    surface that is drawn by `weight`. Those on creases stay.
+    """
+    fit = _Fit(arguments, free, watchers)
+    result = fit.run(weight)
+    off = _along(result.vertices - fit.points, fit.normals(result.vertices))
+    result.vertices = np.where(free[:, None], fit.points + off, fit.points)
+    return result
+
+
+class _Fit:
+    def __init__(
+        self, arguments: Mapping[str, Any], free: np.ndarray, watchers: Mapping[str, Any]
+    ) -> None:
+        given = dict(arguments) | {"levels": 0, "interpolation": "approximate", "pad_size": 0.0}
+        given |= {"energy": "thin_plate", "tension": 0.0, "tolerance": 0.0}
+        for name in ("region", "joint", "shapes", "normals", "weights"):
+            given.pop(name, None)
+        self._arguments, self._free, self._watchers = given, free, watchers
+        self.points = np.asarray(given["vertices"], float)
+        self._triangles = _fans(*given["faces"])
+
+    def run(self, weight: float, **more: Any) -> Any:
+        weights = np.where(self._free, weight, np.inf)
+        return core.module().fair(**self._arguments, **more, **self._watchers, weights=weights)
+
+    def normals(self, points: np.ndarray) -> np.ndarray:
+        a, b, c = points[self._triangles].swapaxes(0, 1)
+        of_faces = np.cross(b - a, c - a)
+        total = np.zeros_like(points)
+        for corner in self._triangles.T:
+            for axis in range(3):
+                total[:, axis] += np.bincount(corner, of_faces[:, axis], len(points))
+        return total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+
+
+class _Trial:
+    """What a weight leaves of the noise."""
+
+    def __init__(self, fit: _Fit, free: np.ndarray):
+        first = fit.run(_FIRST).vertices
+        self._fit, self._normals = fit, fit.normals(first)
+        self._free = free & (first != fit.points).any(axis=1)  # those on creases stay
+        signs = np.random.default_rng(0).choice([-1.0, 1.0], len(free)) * self._free
+        # a probe of any size: the fit is linear
+        size = 1e-3 * float(np.ptp(fit.points, axis=0).max(initial=0.0)) or 1.0
+        self._probe = size * signs[:, None] * self._normals
+        self._known: dict[float, tuple[float, float]] = {}
+
+    def _measured(self, weight: float) -> tuple[float, float]:
+        """The mean square that the fit is off along the normals, and the share of the data that it
+        uses up: the trace of its influence, by one random probe [Hutchinson 1990].
+        """
+        if weight not in self._known:
+            found = self._fit.run(weight, shapes=(self._fit.points + self._probe)[None])
+            surface, probed = found.vertices, found.shapes[0]
+            off = np.einsum("ij,ij->i", surface - self._fit.points, self._normals)[self._free]
+            answer = np.einsum("ij,ij->", probed - surface, self._probe)
+            whole = float((self._probe**2).sum())
+            self._known[weight] = (
+                (float((off**2).mean()), float(answer) / whole) if whole else (0.0, 0.0)
+            )
+        return self._known[weight]
+
+    def _off(self, weight: float) -> float:
+        return float(np.sqrt(self._measured(weight)[0]))
+
+    def noise(self, weight: float) -> float:
+        square, share = self._measured(weight)
+        return float(np.sqrt(square / max(1.0 - share, 1e-9)))
+
+    def by_validation(self) -> float:
+        scores: list[float] = []
+        for weight in _WEIGHTS.tolist():
+            square, share = self._measured(weight)
+            scores.append(square / (1.0 - share) ** 2)
+            if len(scores) > 2 and scores[-1] > scores[-2] > min(scores):
+                break
+        return float(_WEIGHTS[int(np.argmin(scores))])
+
+    def for_noise(self, noise: float) -> float:
+        """The strongest weight that takes so much off [Morozov 1966]."""
+        tried = [*(10.0 ** np.arange(3.0, 1.0, -0.5)).tolist(), *_WEIGHTS.tolist()]
+        low = next((w for w in tried if self._off(w) >= noise), tried[-1])
+        high = low * 10.0**0.5
+        for _ in range(4):
+            middle = float(np.sqrt(low * high))
+            low, high = (middle, high) if self._off(middle) >= noise else (low, middle)
+        return low
+
+
+def _along(way: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    return np.einsum("ij,ij->i", way, normals)[:, None] * normals
+
+
+def _fans(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(t, 3): each face cut from its first corner."""
+    sizes = np.diff(offsets)
+    first = np.repeat(offsets[:-1], np.maximum(sizes - 2, 0))
+    step = np.arange(len(first)) - np.repeat(
+        np.cumsum(np.maximum(sizes - 2, 0)) - np.maximum(sizes - 2, 0), np.maximum(sizes - 2, 0)
+    )
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

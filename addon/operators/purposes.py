@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair for …: the settings of a purpose, and the run, in one click."""
+
+from typing import Any
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..blender import Answer, Context, registration
+from ..poll import ExplainedPoll
+from ..purposes import PURPOSES, preset_file
+from ..ui.main import remembered, settings_at_hand
+from .fair import poll_reason
+
+
+class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
+    """Fair the selected meshes with the settings of a purpose, which the panel shows afterwards"""
+
+    bl_idname = "object.fairing_for"
+    bl_label = "Fair for"
+    bl_options = {"INTERNAL"}  # the operators that it runs have their own undo
+
+    purpose: EnumProperty(name="Purpose", items=PURPOSES)
+
+    @classmethod
+    def description(cls, _context: Context, properties: Any) -> str:
+        return next(text for key, _, text, _ in PURPOSES if key == properties.purpose)
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        active = context.active_object
+        mesh = active is not None and active.type == "MESH"
+        return poll_reason(context) or ("" if mesh else "Select a mesh object first")
+
+    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        return self._run(context, "INVOKE_DEFAULT")
+
+    def execute(self, context: Context) -> Answer:
+        return self._run(context, "EXEC_DEFAULT")
+
+    def _run(self, context: Context, how: str) -> Answer:
+        operators: Any = bpy.ops.object
+        path = preset_file(self.purpose)
+        if path is None:
+            if context.mode == "OBJECT":  # a whole scan
+                operators.mode_set(mode="EDIT")
+                bpy.ops.mesh.reveal(select=False)
+                bpy.ops.mesh.select_all(action="SELECT")
+            return operators.fairing_in_place(how, vertices="MEASURED", levels=0)
+        operators.fairing_preset_apply(filepath=str(path))
+        if remembered(context) is not None:
+            return operators.fairing_recompute(how)
+        settings: Any = settings_at_hand(context)
+        if how == "INVOKE_DEFAULT":
+            return operators.fairing_surface(how)
+        return operators.fairing_surface(
+            how, **{name: getattr(settings, name) for name in settings.__annotations__}
+        )
+
+
+register, unregister = registration(OBJECT_OT_fairing_for)

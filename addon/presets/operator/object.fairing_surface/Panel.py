@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Bonnets, doors, wings: calm reflections through every vertex; borders keep corners and ends.
+# The tolerance lets vertices be off.
+import bpy
+
+op = bpy.context.active_operator
+
+op.levels = 3
+op.energy = "MINIMUM_VARIATION"
+op.interpolation = "APPROXIMATE"
+op.limit = 1.0
+op.tolerance = 0.0
+op.relative_tolerance = 0.02
+op.tolerance_unit = "SCENE"
+op.pad_size = 1.0
+op.tension = 0.0
+op.boundary = "CORNERS"
+op.mesh_source = "ORIGINAL"
+op.joint = "TANGENT"
+op.keep_symmetry = True
+op.use_crease_attribute = True
+op.crease_threshold = 0.5
+op.use_sharp_edges = True
+op.use_crease_angle = False
+op.crease_angle = 0.698132
+op.use_corner_angle = False
+op.corner_angle = 0.785398
+op.metric_exponent = 0.5
+op.repair = "MEND"
+op.weld = 0.0
+op.use_shape_keys = True
+op.copy_modifiers = False
+op.hide_source = True
+op.shade_smooth = True

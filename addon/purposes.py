@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
+
+Which energy, borders and tolerance a purpose has is decided by benchmarks (benchmarks/jobs.py,
+benchmarks/limits.py), and told in docs/comparison.md.
+"""
+
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent / "presets"
+# where Blender looks for the presets of the operator, which are those of the panel
+PRESET_FOLDER = "operator/object.fairing_surface"
+
+# identifier, name, description, number in files
+PURPOSES = (
+    (
+        "HULL",
+        "Hull",
+        "Boats: through the offsets, or within a tolerance of them; marked edges are chines. Minimum Variation",
+        0,
+    ),
+    (
+        "PANEL",
+        "Panel",
+        "Bonnets, doors, wings: the calmest reflections through every vertex; corners stay. Minimum Variation",
+        1,
+    ),
+    (
+        "MECHANICAL",
+        "Mechanical",
+        "Machine parts: round between sharp edges, from folds of 30° on. Total Curvature",
+        2,
+    ),
+    (
+        "CHARACTER",
+        "Character",
+        "Characters, animals: where Subdivision Surface passes, and fairer in between. Thin Plate",
+        3,
+    ),
+    (
+        "SCAN_PATCH",
+        "Scan Patch",
+        "Measured faces of a mesh, in place: takes their noise off and adds no faces. In Edit Mode the selected faces, "
+        "else all",
+        4,
+    ),
+    (
+        "POINTS",
+        "Points (measured)",
+        "A surface near points that were measured, within a tenth of an edge. Thin Plate",
+        5,
+    ),
+)
+
+
+def preset_file(purpose: str) -> Path | None:
+    """The script with the settings of a purpose; None for the one that is no new surface."""
+    path = FOLDER / PRESET_FOLDER / f"{stem(purpose)}.py"
+    return path if path.is_file() else None
+
+
+def stem(purpose: str) -> str:
+    """`Scan_Patch` for SCAN_PATCH: of its script and its picture."""
+    return purpose.title()
+
+
+def is_shipped(folder: str) -> bool:
+    """Whether the presets in a folder come with the extension."""
+    return Path(folder).is_relative_to(FOLDER)

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""pieces(): a control mesh, cut into pieces that are faired alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..arrays import face_arrays, vertex_array
+from ..errors import fairing_error
+from ..options import whole
+from .outline import Outline
+from .partition import neighbours, partition
+from .piece import Piece
+from .settings import PieceSettings, checked
+
+# How a piece's surface ends where it was cut off: along straight edges. Measured (docs/pieces.md): the
+# difference to the whole is the same as with curves there and with free edges, within a third; but
+# free edges take two to four times as long, and total curvature goes astray along them.
+CUT_BOUNDARY = "linear"
+
+
+def pieces(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    levels: int = 3,
+    *,
+    count: int,
+    rings: int = 8,
+    **settings: Any,
+) -> list[Piece]:
+    """Cut a control mesh into pieces whose surfaces together are the whole's.
+
+    Each piece knows its own faces and some rings around them, and can be pickled, saved and faired
+    anywhere. What concerns the whole is decided here, once: what is mended, which way faces run,
+    what is a crease, and where all curves lie. The whole's surface is never computed.
+
+    Parameters
+    ----------
+    vertices, faces, levels
+        As fair() takes them.
+    count : int
+        How many pieces; there are fewer where the mesh has fewer faces. More than one needs the
+        package pymetis (the extra "cluster").
+    rings : int
+        Of control faces around each piece that are faired with it. With every ring the difference
+        to the whole's surface becomes about 2.6 times smaller.
+    **settings
+        Those of fair(), but for shapes, symmetry_plane and measure, which exclude pieces, and for
+        threads, memory_limit, progress and monitor, which Piece.fair() takes.
+
+    Returns
+    -------
+    list of Piece
+        The same on every call. join() takes their parts in any order.
+
+    Raises
+    ------
+    FairingError
+        As fair() does, for the whole; BAD_OPTION for settings that exclude pieces.
+    """
+    wanted, around = whole("count", count), whole("rings", rings)
+    if wanted < 1:
+        raise fairing_error("BAD_OPTION", f"count is {wanted}; it must be 1 or more.")
+    given, options = checked(settings, levels)
+    outline = Outline(vertex_array(vertices), *face_arrays(faces), options)
+    weights = np.bincount(outline.polygon, outline.quad + 1.0, outline.polygon_count)
+    labels = partition(
+        neighbours(outline.side_edge, outline.polygon),
+        weights.astype(np.int64),
+        min(wanted, outline.polygon_count),
+    )
+    return Cutter(outline, labels, around, PieceSettings(given, outline)).all()
+
+
+class Cutter:
+    """Cuts one mesh; `labels` are the pieces of its faces."""
+
+    def __init__(self, outline: Outline, labels: np.ndarray, rings: int, settings: PieceSettings):
+        self.outline, self.labels, self.rings, self.settings = outline, labels, rings, settings
+        self.count = int(labels.max()) + 1
+        self.vertex_owner = outline.vertex_owner(labels)
+        self.edge_owner = outline.edge_owner(labels)
+        sizes = np.diff(outline.offsets)
+        owner = np.repeat(np.arange(outline.polygon_count), sizes)
+        order = np.argsort(outline.corners, kind="stable")
+        self.faces_at = owner[order]  # vertex after vertex
+        self.at = np.searchsorted(outline.corners[order], np.arange(outline.input_vertices + 1))
+        self.control_at = np.searchsorted(outline.polygon, np.arange(outline.polygon_count + 1))
+        self.curve_of = np.full(len(outline.edge), -1, np.int64)
+        self.curve_of[outline.curve] = np.arange(len(outline.curve))
+        self.local = np.full(outline.input_vertices, -1, np.int64)  # scratch
+        self.reached = np.zeros(outline.polygon_count, bool)  # scratch
+
+    def all(self) -> list[Piece]:
+        return [self.piece(index) for index in range(self.count)]
+
+    def with_rings(self, polygons: np.ndarray) -> np.ndarray:
+        """These faces and those in the rings around them, ascending."""
+        outline, found, front = self.outline, [polygons], polygons
+        self.reached[polygons] = True
+        for _ in range(self.rings):
+            corners = outline.corners[ranges(outline.offsets[front], outline.offsets[front + 1])]
+            around = np.unique(corners)
+            near = np.unique(self.faces_at[ranges(self.at[around], self.at[around + 1])])
+            front = near[~self.reached[near]]
+            if not len(front):
+                break
+            self.reached[front] = True
+            found.append(front)
+        every = np.sort(np.concatenate(found))
+        self.reached[every] = False
+        return every
+
+    def piece(self, index: int) -> Piece:
+        outline = self.outline
+        polygon = self.with_rings(np.flatnonzero(self.labels == index))
+        starts, ends = outline.offsets[polygon], outline.offsets[polygon + 1]
+        corners = outline.corners[ranges(starts, ends)]
+        vertex_id = np.unique(corners)
+        self.local[vertex_id] = np.arange(len(vertex_id))
+        control = ranges(self.control_at[polygon], self.control_at[polygon + 1])
+        face, side_edge = outline.face[control], outline.side_edge[control]
+        mine = self.labels[outline.polygon[control]] == index
+        settings, curves = self.settings.of(vertex_id, polygon), self.edges_of(side_edge)
+        settings.update(curves.pop("settings"))
+        return Piece(
+            index=index,
+            vertices=outline.vertices[vertex_id],
+            corners=self.local[corners],
+            offsets=np.concatenate([[0], np.cumsum(ends - starts)]),
+            settings=settings,
+            of_whole={"units": list(outline.units), **curves},
+            vertex_id=vertex_id,
+            face=face,
+            side_edge=side_edge,
+            side_reversed=outline.side_reversed[control],
+            face_id=control,
+            quads_before=outline.quads_before[control],
+            polygon=outline.polygon[control],
+            owned=mine,
+            corner_owned=mine[:, None] & (face >= 0) & (self.vertex_owner[face] == index),
+            side_owned=mine[:, None] & (side_edge >= 0) & (self.edge_owner[side_edge] == index),
+            surface=self.surface(index),
+        )
+
+    def edges_of(self, side_edge: np.ndarray) -> dict[str, Any]:
+        """Creases, boundaries and the cut of a piece, and the curves that are handed down to it."""
+        outline = self.outline
+        edges, uses = np.unique(side_edge[side_edge >= 0], return_counts=True)
+        kind = outline.edge_kind[edges]
+        is_curve, is_boundary = kind & _native.curve_edge != 0, kind & _native.boundary_edge != 0
+        is_cut = (uses == 1) & (outline.edge_uses[edges] > 1)
+        handed = edges[self.curve_of[edges] >= 0]
+        inside = (1 << outline.numbering.levels) - 1
+        points = outline.curve_points.reshape(len(outline.curve), inside, 3)[self.curve_of[handed]]
+        free = edges[is_boundary & ~is_curve]
+        by_mode = {"free": [self.pairs(free)], "curve": [], "linear": []}
+        by_mode[CUT_BOUNDARY].append(self.pairs(edges[is_cut]))
+        return {
+            "edges": self.pairs(handed),
+            "points": points.reshape(-1, 3),
+            "settings": {
+                "crease_edges": self.pairs(edges[is_curve & ~is_boundary]),
+                "boundary_edges": {
+                    mode: np.concatenate(rows) for mode, rows in by_mode.items() if rows
+                },
+            },
+        }
+
+    def pairs(self, edges: np.ndarray) -> np.ndarray:
+        """(k, 2): the piece's own ids of edges' ends."""
+        return self.local[self.outline.edge[edges]].reshape(-1, 2)
+
+    def surface(self, index: int) -> dict[str, Any]:
+        """What all parts of a surface agree on; the first tells what belongs to no piece."""
+        outline, numbering = self.outline, self.outline.numbering
+        same: dict[str, Any] = {
+            "fingerprint": outline.fingerprint,
+            "count": self.count,
+            "rings": self.rings,
+            "input_vertices": outline.input_vertices,
+            "levels": numbering.levels,
+            "vertices": numbering.vertices,
+            "edges": numbering.edges,
+            "triangles": numbering.triangles,
+            "quads": numbering.quads,
+            "size": float(np.ptp(outline.vertices[outline.corners], axis=0).max()),
+        }
+        if index == 0:
+            alone = np.flatnonzero(self.vertex_owner < 0)
+            same |= {
+                "report": outline.report,
+                "crease_edges": outline.crease_edges(),
+                "alone": alone,
+                "alone_points": outline.vertices[alone],
+            }
+            if outline.mended:
+                same["mended"] = outline.mended
+        return same
+
+
+def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """start, start + 1, ..., end - 1 of every pair, one after the other."""
+    sizes = ends - starts
+    before = np.cumsum(sizes) - sizes
+    return np.arange(int(sizes.sum())) + np.repeat(starts - before, sizes)

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""join(): the whole surface from its parts; largest_jump(): how well neighbours agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from os import PathLike
+from typing import Any
+
+import numpy as np
+
+from ..errors import fairing_error
+from ..result import Result
+from .part import Part
+
+Parts = Iterable[Part | str | PathLike]
+
+
+def join(parts: Parts) -> Result:
+    """The whole surface, as fair() returns it, for those who have room for it.
+
+    `parts`: of all pieces, in any order; or the names of files that Part.save() has written. Points
+    on a seam are their owner's, to the last bit. report["pieces"] says how well neighbours agree.
+    Raises FairingError BAD_OPTION for parts that do not belong together or are missing, TOO_LARGE
+    for more than 2**31 points.
+    """
+    whole: Whole | None = None
+    for part in loaded(parts):
+        whole = whole or Whole(part)
+        whole.take(part)
+    if whole is None:
+        raise fairing_error("BAD_OPTION", "There are no parts to join.")
+    return whole.result()
+
+
+def largest_jump(parts: Parts) -> dict[str, Any]:
+    """How far apart two neighbours have a point that both have, without joining them.
+
+    An estimate of how far the surface is from one that was faired as a whole. `parts` are gone
+    through twice, as a list of parts or of names of files; only seams are kept in memory. Returns
+    "largest" (mesh units), "median", "points" (how many are shared), "part" (where the largest is)
+    and "share" (the largest of the mesh's size).
+    """
+    listed = list(parts)
+    seams = [(part.index, part.seam_ids(), part.seam_points()) for part in loaded(listed)]
+    wanted = np.unique(np.concatenate([ids for _, ids, _ in seams])) if seams else np.empty(0, int)
+    owned = np.full((len(wanted), 3), np.nan)
+    size = 1.0
+    for part in loaded(listed):
+        size = part.surface["size"]
+        if not len(wanted):
+            continue
+        ids, points = part.ids, part.vertices
+        place = np.minimum(np.searchsorted(wanted, ids), len(wanted) - 1)
+        here = wanted[place] == ids
+        owned[place[here]] = points[here]
+    return jumps(seams, lambda ids: owned[np.searchsorted(wanted, ids)], size)
+
+
+def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: float) -> dict:
+    """Of seams (part, ids, points), with owner(ids) -> points."""
+    gaps = [np.linalg.norm(points - owner(ids), axis=1) for _, ids, points in seams]
+    largest = [float(gap.max(initial=0.0)) for gap in gaps]
+    every = np.concatenate(gaps) if gaps else np.empty(0)
+    at = int(np.argmax(largest)) if largest else 0
+    return {
+        "largest": largest[at] if largest else 0.0,
+        "median": float(np.median(every)) if len(every) else 0.0,
+        "points": len(every),
+        "part": seams[at][0] if seams else 0,
+        "share": (largest[at] if largest else 0.0) / size,
+    }
+
+
+def loaded(parts: Parts) -> Iterable[Part]:
+    """Each part in memory, one after the other."""
+    for part in parts:
+        yield part if isinstance(part, Part) else Part.load(part)  # type: ignore[arg-type]
+
+
+class Whole:
+    """A surface that grows by a part at a time."""
+
+    def __init__(self, first: Part):
+        numbering = first.numbering
+        if numbering.size >= 2**31:
+            raise fairing_error(
+                "TOO_LARGE",
+                f"The surface has {numbering.size} points, and a mesh in memory holds less than "
+                "2**31. Keep it in parts.",
+            )
+        self.surface, self.numbering = first.surface, numbering
+        cells = 1 << (2 * numbering.levels)
+        self.vertices = np.empty((numbering.size, 3))
+        self.faces = [
+            np.empty((count, cells, size), np.int32)
+            for count, size in ((numbering.triangles, 3), (numbering.quads, 4))
+        ]
+        self.polygon = [
+            np.empty(count, np.int32) for count in (numbering.triangles, numbering.quads)
+        ]
+        self.has_pads = False
+        self.widths = np.zeros(first.surface["input_vertices"])
+        self.first: dict[str, Any] = {}
+        self.seams: list[tuple[int, np.ndarray, np.ndarray]] = []
+        self.reports: dict[int, dict[str, Any]] = {}
+
+    def take(self, part: Part) -> None:
+        if part.surface["fingerprint"] != self.surface["fingerprint"] or (
+            part.surface["count"] != self.surface["count"]
+        ):
+            raise fairing_error("BAD_OPTION", "The parts are of different surfaces.")
+        if part.index in self.reports:
+            raise fairing_error("BAD_OPTION", f"Part {part.index} is there twice.")
+        part.write_into(self.vertices)
+        cells = 1 << (2 * self.numbering.levels)
+        for kind, faces in enumerate(part.faces):
+            which = part.is_quad == bool(kind)
+            quads = part.quads_before[which]
+            rank = quads if kind else part.face_id[which] - quads
+            self.faces[kind][rank] = faces.reshape(-1, cells, 3 + kind)
+            self.polygon[kind][rank] = part.polygon[which]
+        own = part.vertex_id < len(self.widths)
+        if len(part.report["pad_widths"]):
+            self.widths[part.vertex_id[own]] = part.report["pad_widths"]
+            self.has_pads = True
+        self.seams.append((part.index, part.seam_ids(), part.seam_points()))
+        self.reports[part.index] = part.report
+        if part.index == 0:
+            self.first = part.surface
+
+    def result(self) -> Result:
+        missing = sorted(set(range(self.surface["count"])) - set(self.reports))
+        if missing:
+            raise fairing_error(
+                "BAD_OPTION",
+                f"Parts are missing: {', '.join(map(str, missing[:20]))}. Fair these pieces too.",
+            )
+        self.vertices[self.first["alone"]] = self.first["alone_points"]
+        cells = 1 << (2 * self.numbering.levels)
+        arrays: dict[str, Any] = {
+            "vertices": self.vertices,
+            "triangles": self.faces[0].reshape(-1, 3),
+            "quads": self.faces[1].reshape(-1, 4),
+            "triangle_polygon": np.repeat(self.polygon[0], cells),
+            "quad_polygon": np.repeat(self.polygon[1], cells),
+            "crease_edges": self.first["crease_edges"],
+            "shapes": [],
+            "mended": self.first.get("mended"),
+        }
+        if arrays["mended"]:
+            self._restore(arrays)
+        arrays["report"] = self._report()
+        return Result(arrays)
+
+    def _restore(self, arrays: dict[str, Any]) -> None:
+        """Back from the mended mesh, as native/fairing/mending.cpp does."""
+        origin, count = arrays["mended"]["vertex_origin"], self.surface["input_vertices"]
+        self.vertices[:count] = self.vertices[origin]
+        self.widths = self.widths[origin]
+        for kind in ("triangle", "quad"):
+            mended = arrays[f"{kind}_polygon"]
+            arrays[f"{kind}_mended"] = mended
+            arrays[f"{kind}_polygon"] = arrays["mended"]["face_origin"][mended]
+
+    def _report(self) -> dict[str, Any]:
+        reports = [self.reports[index] for index in sorted(self.reports)]
+        levels = max((len(report["iterations"]) for report in reports), default=0)
+
+        def most(name: str) -> Any:
+            return max(report[name] for report in reports)
+
+        def by_level(name: str) -> list[Any]:
+            return [
+                max(report[name][level] for report in reports if level < len(report[name]))
+                for level in range(levels)
+            ]
+
+        phases = dict.fromkeys(phase for report in reports for phase in report["seconds"])
+        pads = [report["pads"] for report in reports if "pads" in report]
+        return {
+            "iterations": by_level("iterations"),
+            "residuals": by_level("residuals"),
+            "converged": all(report["converged"] for report in reports),
+            "warm": False,
+            "shapes": [],
+            "seconds": {
+                phase: sum(report["seconds"].get(phase, 0.0) for report in reports)
+                for phase in phases
+            },
+            "predicted_bytes": most("predicted_bytes"),
+            "peak_bytes": most("peak_bytes"),
+            "largest_deviation": most("largest_deviation"),
+            "constraint_rounds": most("constraint_rounds"),
+            "constraint_gap": most("constraint_gap"),
+            "pads": {
+                "narrower": sum(pad["narrower"] for pad in pads),
+                "gone": sum(pad["gone"] for pad in pads),
+                "widths": self.widths.tolist() if self.has_pads else [],
+            },
+            "normals": {
+                "fixed": sum(report["normals"]["fixed"] for report in reports),
+                "largest_angle": max(report["normals"]["largest_angle"] for report in reports),
+            },
+            "threads": most("threads"),
+            **self.first["report"],
+            "warnings": self.first["report"]["warnings"]
+            + [warning for report in reports for warning in report["warnings"]],
+            "pieces": {
+                "count": self.surface["count"],
+                "rings": self.surface["rings"],
+                "jump": jumps(self.seams, lambda ids: self.vertices[ids], self.surface["size"]),
+                "parts": [
+                    {key: value for key, value in report.items() if key != "pad_widths"}
+                    for report in reports
+                ],
+            },
+        }

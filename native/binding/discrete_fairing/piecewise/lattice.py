@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Points of a refined surface by arithmetic, as native/grid/grid_level.h numbers them.
+
+[control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+
+class Lattice:
+    """The closed lattice of a control face whose edges are split into n: points (i, j), row by row.
+
+    A triangle holds i + j <= n, a quad i, j <= n; i runs along side 0, j along the last side
+    reversed.
+    """
+
+    def __init__(self, n: int, quad: bool):
+        self.n, self.quad = n, quad
+        self.size = 4 if quad else 3
+        self.interior_count = (n - 1) ** 2 if quad else (n - 1) * (n - 2) // 2
+        rows = [n if quad else n - j for j in range(n + 1)]
+        self.i = np.concatenate([np.arange(last + 1) for last in rows])
+        self.j = np.repeat(np.arange(n + 1), [last + 1 for last in rows])
+
+    def at(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        """Where points (i, j) are among the closed lattice's."""
+        return j * (self.n + 1) + i - (0 if self.quad else (j * j - j) // 2)
+
+    @cached_property
+    def corners(self) -> np.ndarray:
+        n = self.n
+        places = [(0, 0), (n, 0), (n, n), (0, n)] if self.quad else [(0, 0), (n, 0), (0, n)]
+        return np.array([self.at(*place) for place in places])
+
+    @cached_property
+    def sides(self) -> np.ndarray:
+        """(sides, n - 1): the points inside each side, from its own corner on."""
+        n, k = self.n, np.arange(1, self.n)
+        if self.quad:
+            places = [(k, 0 * k), (n + 0 * k, k), (n - k, n + 0 * k), (0 * k, n - k)]
+        else:
+            places = [(k, 0 * k), (n - k, k), (0 * k, n - k)]
+        return np.array([self.at(i, j) for i, j in places])
+
+    @cached_property
+    def interior(self) -> np.ndarray:
+        last = self.n - self.j * (not self.quad)
+        inside = (self.i > 0) & (self.j > 0) & (self.i < last) & (self.j < self.n)
+        return np.flatnonzero(inside)
+
+    @cached_property
+    def mirrored(self) -> np.ndarray:
+        """(interior,): interior points of the face turned over, its first corner kept: (j, i)."""
+        rank = np.empty(len(self.i), np.int64)
+        rank[self.interior] = np.arange(self.interior_count)
+        return rank[self.at(self.j[self.interior], self.i[self.interior])]
+
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """(cells, 3 or 4): the small faces, in the order of the result."""
+        n, at = self.n, self.at
+        out = []
+        for j in range(n):
+            if self.quad:
+                i = np.arange(n)
+                out.append(np.stack([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], 1))
+                continue
+            row = np.empty((2 * (n - j) - 1, 3), np.int64)
+            i = np.arange(n - j)
+            row[::2] = np.stack([at(i, j), at(i + 1, j), at(i, j + 1)], 1)
+            i = i[:-1]
+            row[1::2] = np.stack([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], 1)
+            out.append(row)
+        return np.concatenate(out)
+
+    def weights(self) -> np.ndarray:
+        """(closed, corners): what is linear on the face, by its corners."""
+        n, i, j = self.n, self.i, self.j
+        if self.quad:
+            return np.stack([(n - i) * (n - j), i * (n - j), i * j, (n - i) * j], 1) / n**2
+        return np.stack([n - i - j, i, j], 1) / n
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """How many control elements a surface has, and so where its points are."""
+
+    levels: int
+    vertices: int
+    edges: int
+    triangles: int
+    quads: int
+
+    @property
+    def n(self) -> int:
+        return 1 << self.levels
+
+    def lattice(self, quad: bool) -> Lattice:
+        return Lattice(self.n, quad)
+
+    @property
+    def first_edge_point(self) -> int:
+        return self.vertices
+
+    @property
+    def first_face_point(self) -> int:
+        return self.vertices + self.edges * (self.n - 1)
+
+    @property
+    def size(self) -> int:
+        inside = [self.lattice(quad).interior_count for quad in (False, True)]
+        return self.first_face_point + self.triangles * inside[0] + self.quads * inside[1]
+
+    def edge_bases(self, edges: np.ndarray) -> np.ndarray:
+        return self.first_edge_point + edges.astype(np.int64) * (self.n - 1)
+
+    def face_bases(self, faces: np.ndarray, quads_before: np.ndarray) -> np.ndarray:
+        """`quads_before`: how many of the faces before each are quads."""
+        inside = [self.lattice(quad).interior_count for quad in (False, True)]
+        before = quads_before.astype(np.int64)
+        return self.first_face_point + (faces - before) * inside[0] + before * inside[1]
+
+
+def closed_ids(
+    numbering: Numbering,
+    corner: np.ndarray,
+    edge: np.ndarray,
+    reversed_side: np.ndarray,
+    base: np.ndarray,
+    lattice: Lattice,
+) -> np.ndarray:
+    """(f, closed) int64: all points of these faces of one kind.
+
+    corner, edge, reversed_side: (f, 3 or 4), of their sides; base: (f,), of their interiors.
+    """
+    n = numbering.n
+    ids = np.empty((len(corner), len(lattice.i)), np.int64)
+    ids[:, lattice.corners] = corner
+    along = np.arange(n - 1)
+    for s in range(lattice.size):
+        k = np.where(reversed_side[:, s, None].astype(bool), n - 2 - along, along)
+        ids[:, lattice.sides[s]] = numbering.edge_bases(edge[:, s])[:, None] + k
+    ids[:, lattice.interior] = base[:, None] + np.arange(lattice.interior_count)
+    return ids

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is decided once for a whole mesh (native/fairing/outline.h), with who owns what."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from .. import _native
+from .lattice import Numbering
+
+
+class Outline:
+    """The control mesh with its faces split and turned, its edges numbered and its curves refined.
+
+    Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 behind a triangle's
+    three; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices.
+    """
+
+    def __init__(
+        self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, options: _native.Options
+    ):
+        found: dict[str, Any] = _native.outline(
+            points, corners, offsets, options, _native.Monitor()
+        )
+        self.input_vertices = len(points)
+        self.vertices: np.ndarray = found["vertices"]
+        self.corners: np.ndarray = found["corners"]
+        self.offsets: np.ndarray = found["offsets"]
+        self.mended: dict[str, Any] | None = found["mended"]
+        self.options: _native.Options = found["options"]
+        self.face: np.ndarray = found["face"]
+        self.polygon: np.ndarray = found["polygon"]
+        self.side_edge: np.ndarray = found["side_edge"]
+        self.side_reversed: np.ndarray = found["side_reversed"]
+        self.edge: np.ndarray = found["edge"]
+        self.edge_kind: np.ndarray = found["edge_kind"]
+        self.curve: np.ndarray = found["curve"]
+        self.curve_points: np.ndarray = found["curve_points"]
+        self.units: tuple[float, float, float, float] = found["units"]
+        self.report: dict[str, Any] = found["report"]
+        self.centres: np.ndarray = found["centres"]
+        self.quad = self.face[:, 3] >= 0
+        self.quads_before = np.cumsum(self.quad) - self.quad
+        quads = int(self.quad.sum())
+        self.numbering = Numbering(
+            int(options.levels),
+            len(points) + len(self.centres),
+            len(self.edge),
+            len(self.face) - quads,
+            quads,
+        )
+
+    @property
+    def polygon_count(self) -> int:
+        return len(self.offsets) - 1
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Of the mesh and how it is refined: parts of one surface have it in common."""
+        digest = hashlib.sha256(repr(self.numbering).encode())
+        for array in (self.vertices, self.corners, self.offsets):
+            digest.update(np.ascontiguousarray(array).data)
+        return digest.hexdigest()[:16]
+
+    def is_(self, bit: int) -> np.ndarray:
+        """(E,) bool: the edges that are of this kind, a bit of _native's."""
+        return (self.edge_kind & bit) != 0
+
+    def crease_edges(self) -> np.ndarray:
+        """(k, 2) int32: as Result has them."""
+        inside = self.is_(_native.curve_edge) & ~self.is_(_native.boundary_edge)
+        return self.edge[inside].astype(np.int32)
+
+    @cached_property
+    def edge_uses(self) -> np.ndarray:
+        """(E,): in how many faces each edge is."""
+        return np.bincount(self.side_edge[self.side_edge >= 0], minlength=len(self.edge))
+
+    def vertex_owner(self, labels: np.ndarray) -> np.ndarray:
+        """(V,): the lowest piece around each vertex, with `labels` of the polygons; -1 without faces."""
+        return _lowest(self.face, labels[self.polygon], self.numbering.vertices)
+
+    def edge_owner(self, labels: np.ndarray) -> np.ndarray:
+        """(E,): the lowest piece beside each edge."""
+        return _lowest(self.side_edge, labels[self.polygon], len(self.edge))
+
+
+def _lowest(elements: np.ndarray, label: np.ndarray, count: int) -> np.ndarray:
+    face, side = np.nonzero(elements >= 0)
+    none = np.iinfo(np.int32).max
+    out = np.full(count, none, np.int32)
+    np.minimum.at(out, elements[face, side], label[face].astype(np.int32))
+    return np.where(out == none, -1, out)

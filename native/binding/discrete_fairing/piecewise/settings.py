@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of a whole mesh, and those of a piece: elements by their numbers in the piece."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .. import _native
+from ..errors import fairing_error
+from ..options import SETTINGS, native_options, whole
+from .outline import Outline
+
+# fair()'s arguments that pieces exclude, and what to do instead.
+EXCLUDED = {
+    "shapes": "Cut each shape on its own, as vertices of a mesh of its own.",
+    "symmetry_plane": "Mirror the mesh first, or fair the half as it is.",
+    "measure": "No piece has an energy of its own. Measure the surface when it is whole.",
+}
+OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # piece.fair() takes them
+# Decided for the whole, and handed down as elements.
+DECIDED = (
+    "crease_edges",
+    "crease_angle",
+    "corner_angle",
+    "boundary",
+    "boundary_edges",
+    "repair",
+    "weld",
+)
+PER_VERTEX = ("tolerance", "weights", "normals")
+
+
+def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
+    """All settings of the whole as the caller has written them, and the core's.
+
+    Raises FairingError BAD_OPTION for what excludes pieces, TypeError for what is no setting.
+    """
+    settings = {name: value for name, value in given.items() if value is not None}
+    for name in [name for name in settings if name in EXCLUDED]:
+        if name == "measure" and not settings[name]:
+            del settings[name]
+            continue
+        raise fairing_error("BAD_OPTION", f"{name} excludes pieces. {EXCLUDED[name]}")
+    for name in OF_RUN:
+        if name in given:
+            raise fairing_error(
+                "BAD_OPTION", f"{name} is no setting of pieces(); give it to fair() of each piece."
+            )
+    settings["levels"] = whole("levels", levels)
+    return settings, native_options(**settings)
+
+
+class PieceSettings:
+    """Cuts settings out with a piece; everything of the whole is prepared once."""
+
+    def __init__(self, settings: dict[str, Any], outline: Outline):
+        self.common = {
+            name: _plain(value)
+            for name, value in settings.items()
+            if name in SETTINGS and name not in (*DECIDED, *PER_VERTEX, "region", "corner_vertices")
+        }
+        # One-sided sheets are cut into pieces with two sides, whose faces may not agree yet.
+        self.common["repair"] = "mend" if outline.report["sheets"]["one_sided"] else "refuse"
+        options, count = outline.options, outline.input_vertices
+        self.per_vertex: dict[str, np.ndarray] = {}
+        tolerance = np.asarray(options.tolerance, float)
+        if len(tolerance) == 1:
+            self.common["tolerance"] = float(tolerance[0])
+        else:
+            self.per_vertex["tolerance"] = tolerance
+        if len(options.weights):
+            self.per_vertex["weights"] = np.asarray(options.weights, float)
+        if len(options.normals):
+            self.per_vertex["normals"] = np.asarray(options.normals, float).reshape(-1, 3)
+        self.corner = np.zeros(count, bool)
+        self.corner[np.asarray(options.corner_vertices, np.int64)] = True
+        self.region = None
+        if settings.get("region") is not None:
+            self.region = np.zeros(outline.polygon_count, bool)
+            self.region[np.asarray(options.region, np.int64)] = True
+
+    def of(self, vertex_id: np.ndarray, polygon: np.ndarray) -> dict[str, Any]:
+        """Of the piece with these vertices and faces of the whole, but for its edges."""
+        settings = dict(self.common)
+        for name, values in self.per_vertex.items():
+            settings[name] = values[vertex_id]
+        settings["corner_vertices"] = np.flatnonzero(self.corner[vertex_id])
+        if self.region is not None:
+            settings["region"] = np.flatnonzero(self.region[polygon])
+        return settings
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/outline.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "curves/feature_curves.h"
+#include "fairing/checked.h"
+#include "fairing/fair.h"
+#include "fairing/mending.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+OwnedPolygonMesh turned(const PolygonMesh& mesh, std::span<const std::int64_t> flipped) {
+  OwnedPolygonMesh out{{mesh.coordinates.begin(), mesh.coordinates.end()},
+                       {mesh.corners.begin(), mesh.corners.end()},
+                       {mesh.offsets.begin(), mesh.offsets.end()}};
+  for (const std::int64_t f : flipped)  // the first corner stays the first
+    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
+                 out.corners.begin() + out.offsets[std::size_t(f) + 1]);
+  return out;
+}
+
+// A control vertex as the result numbers it, without copies.
+std::int32_t joined(const ControlMesh& mesh, Index v) {
+  const Index original = mesh.original_vertex(v);
+  return original < mesh.input_vertices ? original : original - Index(mesh.copied_vertex.size());
+}
+
+void take_faces(const ControlMesh& mesh, Outline& out) {
+  for (Index f = 0; f < mesh.first_copied_face(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    const Face& face = mesh.faces[std::size_t(f)];
+    out.polygon.push_back(std::int32_t(face.polygon));
+    for (std::size_t s = 0; s < 4; ++s) {
+      const bool is_side = s < std::size_t(face.size);
+      const Side side = is_side ? mesh.sides[std::size_t(face.first_side) + s] : Side{};
+      out.face.push_back(is_side ? joined(mesh, face.vertex[s]) : -1);
+      out.side_edge.push_back(is_side ? mesh.original_edge(side.edge) : -1);
+      out.side_reversed.push_back(is_side && side.reversed);
+    }
+  }
+}
+
+void take_edges(const ControlMesh& mesh, Outline& out) {
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
+    stop_if_cancelled(std::size_t(e));
+    const Edge& edge = mesh.edges[std::size_t(e)];
+    for (const Index v : edge.vertex) out.edge.push_back(joined(mesh, v));
+    const bool boundary = edge.boundary() && !mesh.nonmanifold(e);
+    out.edge_kind.push_back(std::uint8_t((mesh.feature_edge[std::size_t(e)] ? curve_edge : 0) |
+                                         (boundary ? boundary_edge : 0) |
+                                         (mesh.inside_polygon(e) ? split_edge : 0)));
+  }
+}
+
+void take_curves(const ControlMesh& mesh, int subdivisions, double exponent, Outline& out) {
+  const FeatureCurves curves = refine_feature_edges(mesh, subdivisions, exponent);
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
+    if (curves.run[std::size_t(e)] < 0) continue;
+    out.curve.push_back(e);
+    for (const Vec3& p : curves.of(e))
+      out.curve_points.insert(out.curve_points.end(), p.data(), p.data() + 3);
+  }
+}
+
+Outline outline_of(const Mending& mending) {
+  Outline out;
+  out.options = mending.options();
+  const FairOptions& options = out.options;
+  check_options(mending.mesh(), options);
+  check_mesh(mending.mesh(), options, out.report);
+  const ControlMesh mesh =
+      make_control_mesh(mending.mesh(), options.features, out.report.flipped_faces);
+  out.report.sheets = sheets_of(mesh);
+  out.mesh = turned(mending.mesh(), out.report.flipped_faces);
+  if (mending.mended()) out.mended = *mending.mended();
+  for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
+    const Vec3& centre = mesh.positions[std::size_t(c)];
+    out.centres.insert(out.centres.end(), centre.data(), centre.data() + 3);
+  }
+  take_faces(mesh, out);
+  take_edges(mesh, out);
+  const double exponent = options.paper.metric_exponent(options.metric_exponent);
+  take_curves(mesh, 1 << options.levels, exponent, out);
+  out.units = measure_units(mesh, exponent);
+  mending.restore(out.report);
+  return out;
+}
+
+}  // namespace
+
+Outline outline_of(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  try {
+    const Mending mending(input, options);
+    return mending.in_input_ids([&] { return outline_of(mending); });
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
+}  // namespace fairing

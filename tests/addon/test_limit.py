@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Through the limit positions: they are those of Blender's own Subdivision Surface modifier."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import CUBE, activate, add, add_suzanne, fair, positions
+
+from addon.mesh.shape_keys import read_shape_keys
+
+
+def subdivided(source, level=6, quality=10, **settings):
+    """(n, 3): where the modifier puts the vertices of `source`."""
+    modifier = source.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels, modifier.quality = level, quality
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = positions(source.evaluated_get(depsgraph).to_mesh())[: len(source.data.vertices)]
+    source.modifiers.remove(modifier)
+    return found
+
+
+def crease(source, name, domain, values):
+    source.data.attributes.new(name, "FLOAT", domain).data.foreach_set("value", np.float32(values))
+
+
+def limits(source, **settings):
+    activate(source)
+    settings = {"levels": 0, "interpolation": "LIMIT", "boundary": "CURVE"} | settings
+    result = fair(**settings)
+    found = positions(result.data)[: len(source.data.vertices)]
+    source.hide_set(False)
+    return found
+
+
+def shaken(source, amount=0.1):
+    moved = positions(source.data) + amount * np.random.default_rng(1).standard_normal(
+        (len(source.data.vertices), 3)
+    )
+    source.data.vertices.foreach_set("co", moved.astype(np.float32).ravel())
+    source.data.update()
+    return source
+
+
+def soccer_ball():
+    """Pentagons and triangles: the corners of an icosahedron cut off halfway."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.bevel(affect="VERTICES", offset_type="PERCENT", offset_pct=50)
+    bpy.ops.mesh.remove_doubles(threshold=1e-3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return bpy.context.object
+
+
+def sheet():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=4)
+    return bpy.context.object
+
+
+MODELS = {
+    "cube": lambda: add("Cube", *CUBE),
+    "suzanne": add_suzanne,
+    "ball": soccer_ball,
+    "sheet": lambda: shaken(sheet()),
+}
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_limits_are_those_of_the_modifier(model):
+    source = MODELS[model]()
+    assert np.abs(limits(source) - subdivided(source)).max() < 1e-4
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_semi_sharp_edges_and_vertices_too(model):
+    source = MODELS[model]()
+    random = np.random.default_rng(3)
+    edges, vertices = len(source.data.edges), len(source.data.vertices)
+    chosen = random.random(edges) < 0.3
+    crease(source, "crease_edge", "EDGE", np.where(chosen, random.uniform(0.1, 0.62, edges), 0))
+    chosen = random.random(vertices) < 0.1
+    crease(source, "crease_vert", "POINT", np.where(chosen, random.uniform(0.1, 0.62, vertices), 0))
+    smooth = limits(source, use_crease_attribute=False)
+    found = limits(source, crease_threshold=1.0)
+    assert np.abs(found - smooth).max() > 0.01
+    assert np.abs(found - subdivided(source)).max() < 1e-4
+    # what is sharp enough to be a crease of the surface is as sharp as it was on the way there
+    assert np.abs(limits(source, crease_threshold=0.3) - subdivided(source)).max() < 1e-4
+
+
+def test_full_creases():
+    source = add_suzanne()
+    values = np.random.default_rng(4).random(len(source.data.edges)) < 0.2
+    crease(source, "crease_edge", "EDGE", values)
+    assert np.abs(limits(source) - subdivided(source)).max() < 1e-4
+
+
+def with_modifier(source, **settings):
+    modifier = source.modifiers.new("Subdivision", "SUBSURF")
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    return source
+
+
+def test_automatic_is_limit_where_the_modifier_is():
+    source = with_modifier(add_suzanne())
+    result = fair(levels=1)
+    assert result.discrete_fairing.interpolation == "LIMIT"
+    count = len(source.data.vertices)
+    expected = limits(with_modifier(source, show_viewport=False))
+    np.testing.assert_allclose(positions(result.data)[:count], expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("given", [{"show_viewport": False}, {"subdivision_type": "SIMPLE"}, None])
+def test_automatic_is_through_where_it_is_not(given):
+    source = add_suzanne()
+    if given is not None:
+        with_modifier(source, **given)
+    result = fair(levels=1)
+    assert result.discrete_fairing.interpolation == "EXACT"
+    count = len(source.data.vertices)
+    np.testing.assert_array_equal(positions(result.data)[:count], positions(source.data))
+
+
+def test_the_modifier_is_not_applied_twice():
+    source = with_modifier(add_suzanne())
+    source.modifiers.new("Other", "TRIANGULATE")
+    result = fair(levels=1, copy_modifiers=True)
+    assert [m.type for m in result.modifiers] == ["TRIANGULATE"]
+    activate(source)
+    source.hide_set(False)
+    through = fair(levels=1, copy_modifiers=True, interpolation="EXACT")
+    assert [m.type for m in through.modifiers] == ["SUBSURF", "TRIANGULATE"]
+
+
+@pytest.mark.parametrize("interpolation", ["AUTO", "LIMIT"])
+def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interpolation):
+    source = with_modifier(add_suzanne())
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    given = positions(source.evaluated_get(depsgraph).to_mesh())
+    result = fair(levels=1, mesh_source="EVALUATED", interpolation=interpolation)
+    np.testing.assert_allclose(positions(result.data)[: len(given)], given, atol=1e-6)
+
+
+def test_follow_goes_from_the_cage_to_the_limit():
+    source = add_suzanne()
+    cage, limit = positions(source.data), limits(source)
+    np.testing.assert_allclose(limits(source, limit=0.5), 0.5 * (cage + limit), atol=1e-6)
+    np.testing.assert_array_equal(limits(source, limit=0.0), cage)
+
+
+def test_shape_keys_go_to_their_own_limits():
+    source = add_suzanne()
+    source.shape_key_add(name="Basis")
+    key = source.shape_key_add(name="Wide")
+    for point in key.data:
+        point.co.x *= 1.5
+    expected = limits(source, use_shape_keys=False)
+    activate(source)
+    result = fair(levels=1, interpolation="LIMIT")
+    keys = read_shape_keys(result, len(result.data.vertices))
+    count = len(expected)
+    np.testing.assert_allclose(keys.positions[0][:count], expected, atol=1e-6)
+    np.testing.assert_allclose(keys.positions[1][:count], expected * (1.5, 1, 1), atol=1e-6)
+
+
+def test_it_is_exactly_symmetric():
+    add_suzanne()
+    result = positions(fair(levels=2, interpolation="LIMIT").data)
+    mirrored = {tuple(p) for p in (result * np.float32([-1, 1, 1]) + 0.0).tolist()}
+    assert mirrored == {tuple(p) for p in (result + 0.0).tolist()}
+
+
+def test_a_live_surface_follows_through_its_limits():
+    source = with_modifier(add_suzanne())
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    surface = next(o for o in bpy.data.objects if o.discrete_fairing.source == source)
+    assert surface.discrete_fairing.interpolation == "LIMIT"
+    for vertex in source.data.vertices:
+        vertex.co.z *= 1.25
+    source.data.update()
+    bpy.context.view_layer.update()
+    count = len(source.data.vertices)
+    found = positions(surface.data)[:count]
+    bpy.ops.object.fairing_live()
+    expected = limits(source)
+    np.testing.assert_allclose(found, expected, atol=1e-5)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A measured patch in place: its vertices are data, the noise comes off, and what is around stays."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import positions
+
+NOISE = 0.004  # rms
+
+
+def select(scan, chosen):
+    """Of its faces, in Edit Mode."""
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    scan.data.polygons.foreach_set("select", chosen)
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def move(scan, points):
+    scan.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    scan.data.update()
+
+
+def corners(scan):
+    return np.array([face.vertices[:] for face in scan.data.polygons])
+
+
+def inner(faces, chosen, count):
+    """(n,) bool: vertices all of whose faces are chosen."""
+    return np.bincount(faces[chosen].ravel(), minlength=count) == np.bincount(
+        faces.ravel(), minlength=count
+    )
+
+
+def sphere(along):
+    """A unit sphere of 20,480 faces with noise inside a patch of 2,188; `along` normals or any way."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
+    scan = bpy.context.object
+    points = positions(scan.data).astype(float)
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    faces = corners(scan)
+    middle = points[faces].mean(axis=1)
+    chosen = np.zeros(len(faces), bool)
+    chosen[np.argsort(-middle[:, 2] + 0.01 * middle[:, 0])[:2188]] = True
+    inside = inner(faces, chosen, len(points))
+    random = np.random.default_rng(2)
+    if along == "normals":
+        noise = points * random.standard_normal((len(points), 1)) * NOISE
+    else:
+        noise = random.standard_normal(points.shape) * NOISE / np.sqrt(3)
+    move(scan, points + noise * inside[:, None])
+    select(scan, chosen)
+    return scan, inside
+
+
+def fair_measured(scan, **settings):
+    before = positions(scan.data)
+    assert bpy.ops.object.fairing_in_place(vertices="MEASURED", **settings) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return before, positions(scan.data)
+
+
+def off(points):
+    return np.sqrt(((np.linalg.norm(points, axis=1) - 1) ** 2).mean())
+
+
+@pytest.mark.parametrize("along, most", [("normals", 0.0005), ("space", 0.0004)])
+@pytest.mark.parametrize("joint", ["TANGENT", "CURVATURE"])
+def test_a_noisy_patch_of_a_sphere_comes_back(along, most, joint):
+    scan, inside = sphere(along)
+    before, after = fair_measured(scan, joint=joint)
+    assert off(after[inside]) < most < 0.2 * NOISE
+    np.testing.assert_allclose(after[~inside], before[~inside], atol=1e-7)
+
+
+def test_a_noise_that_is_given_is_what_comes_off():
+    scan, inside = sphere("normals")
+    before, after = fair_measured(scan, noise=0.001)
+    taken = np.sqrt(((after - before)[inside] ** 2).sum(axis=1).mean())
+    assert taken == pytest.approx(0.001, rel=0.2)
+
+
+def test_vertices_move_along_the_normals():
+    scan, inside = sphere("normals")
+    before, after = fair_measured(scan)
+    way, out = (after - before)[inside], after[inside]
+    along = np.einsum("ij,ij->i", way, out / np.linalg.norm(out, axis=1)[:, None])
+    aside = np.linalg.norm(way, axis=1) ** 2 - along**2
+    assert np.sqrt(np.maximum(aside, 0).mean()) < 0.05 * np.sqrt((along**2).mean())
+
+
+def ridge(sharp):
+    """A roof with noise off its ridge; the faces inside are selected."""
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=40, y_subdivisions=40)
+    scan = bpy.context.object
+    points = positions(scan.data).astype(float)
+    points[:, 2] = -0.6 * np.abs(points[:, 0])
+    true = points.copy()
+    on = np.abs(points[:, 0]) < 1e-6
+    assert on.any()
+    points[~on, 2] += 0.004 * np.random.default_rng(3).standard_normal((~on).sum())
+    move(scan, points)
+    ends = np.array([edge.vertices[:] for edge in scan.data.edges])
+    if sharp:
+        scan.data.attributes.new("sharp_edge", "BOOLEAN", "EDGE").data.foreach_set(
+            "value", on[ends].all(axis=1)
+        )
+    middle = true[corners(scan)].mean(axis=1)
+    select(scan, (np.abs(middle[:, :2]) < 0.8).all(axis=1))
+    near = (np.abs(points[:, 1]) < 0.7) & (np.abs(points[:, 0]) < 0.07)
+    return scan, true, near
+
+
+def test_an_edge_marked_sharp_stays_one():
+    heights = {}
+    for sharp in (True, False):
+        scan, true, near = ridge(sharp)
+        _, after = fair_measured(scan)
+        heights[sharp] = np.abs(after - true)[near, 2].max()
+        bpy.data.objects.remove(scan)
+    assert heights[True] < 0.006 < heights[False]
+
+
+def test_refined_too():
+    scan, _ = sphere("normals")
+    count, faces = len(scan.data.vertices), len(scan.data.polygons)
+    assert bpy.ops.object.fairing_in_place(vertices="MEASURED", levels=1) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(scan.data.polygons) > faces + 3 * 2188
+    points = positions(scan.data)
+    assert off(points) < 0.0005 and len(points) > count

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair for …: one click from a selection to the surface that its purpose asks for."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from scenes import CUBE, activate, add, add_suzanne, positions
+
+from addon.purposes import PURPOSES, preset_file
+from addon.ui.main import VIEW3D_PT_fairing
+
+SURFACES = [purpose for purpose, *_ in PURPOSES if preset_file(purpose)]
+
+
+@pytest.mark.parametrize("purpose", SURFACES)
+def test_each_makes_its_surface(purpose):
+    source = add_suzanne() if purpose == "CHARACTER" else add("Box", *CUBE)
+    assert bpy.ops.object.fairing_for(purpose=purpose) == {"FINISHED"}
+    surface = bpy.context.active_object
+    made = surface.discrete_fairing
+    assert made.source == source
+    energies = {"MECHANICAL": "TOTAL_CURVATURE", "CHARACTER": "THIN_PLATE", "POINTS": "THIN_PLATE"}
+    assert made.energy == energies.get(purpose, "MINIMUM_VARIATION")
+    assert (made.interpolation == "LIMIT") == (purpose == "CHARACTER")
+
+
+@pytest.mark.parametrize("purpose", ["HULL", "PANEL", "MECHANICAL"])
+def test_without_a_tolerance_vertices_are_held(purpose):
+    source = add("Box", *CUBE)
+    bpy.ops.object.fairing_for(purpose=purpose)
+    surface = bpy.context.active_object
+    np.testing.assert_array_equal(positions(surface.data)[:8], positions(source.data))
+
+
+def test_a_surface_that_is_there_gets_the_settings_and_is_made_again():
+    add("Box", *CUBE)
+    bpy.ops.object.fairing_surface(levels=1)
+    surface, before = bpy.context.active_object, len(bpy.data.objects)
+    assert bpy.ops.object.fairing_for(purpose="POINTS") == {"FINISHED"}
+    assert len(bpy.data.objects) == before
+    assert surface.discrete_fairing.interpolation == "APPROXIMATE"
+    assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
+
+
+def noisy_sphere(noise=0.004):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    scan = bpy.context.object
+    points = positions(scan.data).astype(float)
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    points *= 1 + noise * np.random.default_rng(2).standard_normal((len(points), 1))
+    scan.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    scan.data.update()
+    return scan
+
+
+def off(scan):
+    return np.sqrt(((np.linalg.norm(positions(scan.data), axis=1) - 1) ** 2).mean())
+
+
+def test_a_whole_scan_loses_its_noise_in_place():
+    scan = noisy_sphere()
+    faces = len(scan.data.polygons)
+    before = off(scan)
+    assert bpy.ops.object.fairing_for(purpose="SCAN_PATCH") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(scan.data.polygons) == faces
+    assert off(scan) < 0.25 * before
+
+
+def test_the_panel_shows_one_slider_by_what_holds():
+    source = add("Box", *CUBE)
+    settings = bpy.context.scene.discrete_fairing
+    bpy.ops.object.fairing_for(purpose="CHARACTER")
+    source.hide_set(False)
+    activate(source)
+    shown = draw(VIEW3D_PT_fairing)
+    assert "limit" in shown and "VIEW3D_MT_fairing_for" in shown
+    settings.interpolation = "EXACT"
+    assert "limit" not in draw(VIEW3D_PT_fairing)
+
+
+def test_how_many_vertices_are_at_the_limit_is_said():
+    add_suzanne()
+    bpy.ops.object.fairing_surface(levels=1, interpolation="APPROXIMATE", relative_tolerance=0.05)
+    assert any(str(line).endswith("vertices at the limit") for line in draw(VIEW3D_PT_fairing))
+
+
+def test_nothing_selected_is_said():
+    with pytest.raises(RuntimeError, match="Select a mesh object first"):
+        bpy.ops.object.fairing_for(purpose="HULL")

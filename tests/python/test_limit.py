@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Through the limit positions: where they are, and that the surface passes exactly through them."""
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from catmull_clark import subdivide
+from control_meshes import cube, grid, octahedron
+
+RANDOM = np.random.default_rng(7)
+CUBE = cube()
+# quads, triangles and a pentagon, with a border: a house without its floor
+HOUSE = (
+    np.array(
+        [[0, 0, 0], [2, 0, 0], [2, 3, 0], [0, 3, 0], [0, 0, 2], [2, 0, 2], [2, 3, 2], [0, 3, 2], [1, 0, 3], [1, 3, 3]],
+        float,
+    ),
+    [[0, 1, 5, 8, 4], [2, 3, 7, 9, 6], [1, 2, 6, 5], [3, 0, 4, 7], [5, 6, 9, 8], [4, 8, 9], [4, 9, 7]],
+)  # fmt: skip
+
+
+def limits(vertices, faces, sharp_edges=(), sharp_vertices=(), **more):
+    sharp, corners = dict(sharp_edges), dict(sharp_vertices)
+    given = dict(more)
+    if sharp:
+        given["edge_sharpness"] = (list(sharp), list(sharp.values()))
+    if corners:
+        given["vertex_sharpness"] = [corners.get(v, 0.0) for v in range(len(vertices))]
+    found = df.fair(vertices, faces, 0, interpolation="limit", **given)
+    return found.vertices[: len(vertices)]
+
+
+@pytest.mark.parametrize(
+    "sharp",
+    [{}, {(4, 5): 1.0}, {(4, 5): 2.6, (5, 6): 2.6}, {(4, 5): 0.3, (5, 6): 1.7, (5, 8): 3.2}, {(4, 8): np.inf, (8, 9): 0.5}],
+)  # fmt: skip
+@pytest.mark.parametrize("corners", [{}, {5: 1.4, 6: 3.0}])
+def test_a_limit_is_that_of_the_subdivided_mesh(sharp, corners):
+    vertices, faces = HOUSE
+    sharp = {edge: min(s, 1e9) for edge, s in sharp.items()}
+    state = (vertices, faces, sharp, corners)
+    here = limits(*state)
+    for _ in range(2):
+        state = subdivide(*state)
+        # borders have a rule of their own, and are not given
+        own = {e: s for e, s in state[2].items() if np.isfinite(s)}
+        np.testing.assert_allclose(limits(*state[:2], own, state[3])[:10], here, rtol=0, atol=1e-12)
+
+
+def test_subdivision_converges_to_the_limits():
+    state, off = HOUSE, []
+    here = limits(*HOUSE)
+    for _ in range(5):
+        state = subdivide(*state)
+        off.append(np.abs(state[0][:10] - here).max())
+    assert off[-1] < 2e-3 and all(b < 0.6 * a for a, b in zip(off, off[1:]))
+
+
+def test_a_cube_by_hand():
+    vertices, faces = CUBE
+    # 9 v + 4 (three neighbours) + (three across a face), over 24
+    row = 9 * vertices[0]
+    at = np.abs(vertices - vertices[0]).sum(axis=1) / np.abs(vertices - vertices[0]).max()
+    row = row + 4 * vertices[at == 1].sum(axis=0) + vertices[at == 2].sum(axis=0)
+    np.testing.assert_allclose(limits(vertices, faces)[0], row / 24, atol=1e-15)
+
+
+def test_always_sharp_edges_are_creases_and_two_of_them_a_curve():
+    vertices, faces = HOUSE
+    pairs = [[4, 8], [8, 5]]
+    creased = limits(vertices, faces, crease_edges=pairs)
+    np.testing.assert_allclose(
+        creased[8], (vertices[4] + 4 * vertices[8] + vertices[5]) / 6, atol=1e-15
+    )
+    np.testing.assert_array_equal(creased, limits(vertices, faces, {(4, 8): 10, (5, 8): 99.0}))
+    soft = limits(vertices, faces, {(4, 8): 0.5, (5, 8): 0.5}, crease_edges=pairs)
+    assert np.abs(soft[8] - creased[8]).max() > 0.01  # the sharpness that is given counts
+
+
+def test_corners_and_straight_borders_stay_to_the_last_bit():
+    vertices, faces = grid(4, 3)
+    vertices = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)
+    corner = limits(vertices, faces, corner_vertices=[0, 6])
+    np.testing.assert_array_equal(corner[[0, 6]], vertices[[0, 6]])
+    assert np.abs(corner[1] - vertices[1]).max() > 0.001
+    counts = np.bincount(np.ravel(faces), minlength=len(vertices))
+    border = counts < 4
+    straight = limits(vertices, faces, boundary="linear")
+    np.testing.assert_array_equal(straight[border], vertices[border])
+    assert np.abs(straight[~border] - vertices[~border]).max() > 0.001
+
+
+def test_the_surface_passes_exactly_through_them():
+    vertices, faces = HOUSE
+    here = limits(vertices, faces)
+    for energy in ("thin_plate", "total_curvature"):
+        fine = df.fair(vertices, faces, 2, energy, interpolation="limit")
+        np.testing.assert_array_equal(fine.vertices[:10], here)
+        moved = np.linalg.norm(here - vertices, axis=1).max()
+        assert fine.report["largest_deviation"] == pytest.approx(moved, rel=1e-12)
+
+
+def test_it_is_the_surface_through_a_mesh_of_the_limits():
+    vertices, faces = octahedron()
+    here = limits(vertices, faces)
+    np.testing.assert_array_equal(
+        df.fair(vertices, faces, 3, interpolation="limit").vertices,
+        df.fair(here, faces, 3).vertices,
+    )
+
+
+def test_a_share_of_the_way_and_none():
+    vertices, faces = HOUSE
+    all_of_it = limits(vertices, faces)
+    np.testing.assert_allclose(
+        limits(vertices, faces, limit=0.25), 0.75 * vertices + 0.25 * all_of_it, atol=1e-15
+    )
+    none = df.fair(vertices, faces, 2, interpolation="limit", limit=0.0)
+    np.testing.assert_allclose(
+        none.vertices, df.fair(vertices, faces, 2).vertices, rtol=0, atol=1e-14
+    )
+
+
+def test_shapes_mix_linearly():
+    vertices, faces = HOUSE
+    other = vertices + 0.2 * RANDOM.standard_normal(vertices.shape)
+    result = df.fair(
+        vertices,
+        faces,
+        2,
+        interpolation="limit",
+        shapes=[other, 0.5 * (vertices + other)],
+        relative_residual=1e-11,
+    )
+    mean = 0.5 * (result.vertices + result.shapes[0])
+    np.testing.assert_allclose(result.shapes[1], mean, atol=1e-9)
+    np.testing.assert_allclose(result.shapes[0][:10], limits(other, faces), atol=1e-15)
+
+
+def test_a_solver_follows():
+    vertices, faces = HOUSE
+    # on needles: loads on pads are found to a tolerance of their own
+    given = {"interpolation": "limit", "relative_residual": 1e-11, "pad_size": 0.0}
+    solver = df.Solver(vertices, faces, 2, **given)
+    np.testing.assert_array_equal(
+        solver.solve(vertices).vertices, df.fair(vertices, faces, 2, **given).vertices
+    )
+    other = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)
+    moved = solver.solve(other)
+    np.testing.assert_allclose(moved.vertices[:10], limits(other, faces), atol=1e-15)
+    shape = df.fair(vertices, faces, 2, shapes=[other], **given).shapes[0]
+    np.testing.assert_allclose(moved.vertices, shape, atol=1e-9)
+    deviation = np.linalg.norm(moved.vertices[:10] - other, axis=1).max()
+    assert moved.report["largest_deviation"] == pytest.approx(deviation, rel=1e-12)
+
+
+def test_outside_a_region_and_on_its_rim_nothing_moves():
+    vertices, faces = grid(7, 7)
+    vertices = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)
+    faces = np.asarray(faces)
+    chosen = np.flatnonzero(
+        (np.abs(vertices[faces].mean(axis=1)[:, :2] - vertices[:, :2].mean(axis=0)) < 2).all(axis=1)
+    )
+    result = df.fair(vertices, faces, 1, interpolation="limit", region=chosen)
+    inner = np.bincount(faces[chosen].ravel(), minlength=len(vertices)) == 4
+    assert 0 < inner.sum() < len(vertices)
+    np.testing.assert_array_equal(result.vertices[: len(vertices)][~inner], vertices[~inner])
+    np.testing.assert_array_equal(
+        result.vertices[: len(vertices)][inner], limits(vertices, faces)[inner]
+    )
+
+
+def test_half_a_mesh_is_the_half_of_the_whole():
+    whole, faces = grid(6, 4)
+    whole = np.asarray(whole) - np.asarray(whole).mean(axis=0)
+    whole[:, 2] = 0.3 * np.cos(whole[:, 0]) + 0.1 * whole[:, 1] ** 2
+    faces = np.asarray(faces)
+    right = faces[(whole[faces][:, :, 0] > -1e-9).all(axis=1)]
+    used = np.unique(right)
+    row = np.zeros(len(whole), int)
+    row[used] = np.arange(len(used))
+    half = df.fair(whole[used], row[right], 1, interpolation="limit", symmetry_plane="x")
+    full = df.fair(whole, faces, 1, interpolation="limit")
+    np.testing.assert_allclose(half.vertices[: len(used)], full.vertices[used], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "given, words",
+    [
+        ({"limit": 1.5}, "limit is 1.5"),
+        ({"weights": np.ones(10)}, "weights"),
+        ({"edge_sharpness": ([[4, 5]], [-1.0])}, "edge_sharpness must be zero or positive"),
+        ({"edge_sharpness": ([[4, 99]], 1.0)}, "99"),
+        ({"edge_sharpness": ([[4, 5]], [1.0, 2.0])}, "edge_sharpness"),
+        ({"edge_sharpness": 3}, "edge_sharpness"),
+        ({"vertex_sharpness": [1.0, 2.0]}, "vertex_sharpness"),
+    ],
+)
+def test_what_is_refused(given, words):
+    with pytest.raises(df.FairingError, match=words):
+        df.fair(*HOUSE, 1, interpolation="limit", **given)
+
+
+def test_sheets_that_meet_and_one_sided_ones():
+    vertices = np.array(
+        [
+            [0, 0, 0],
+            [0, 1, 0],
+            [1, 0, 0],
+            [1, 1, 0],
+            [-1, 0, 0.5],
+            [-1, 1, 0.5],
+            [0, 0, 1],
+            [0, 1, 1],
+        ],
+        float,
+    )
+    faces = [[0, 2, 3, 1], [4, 0, 1, 5], [0, 1, 7, 6]]
+    found = df.fair(vertices, faces, 2, interpolation="limit")
+    assert np.isfinite(found.vertices).all()
+    assert np.abs(found.vertices[2:8] - vertices[2:8]).max() > 0.01

@@ -1,0 +1,334 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces in pieces against those that are faired as a whole."""
+
+import pickle
+from functools import cache
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from piece_meshes import MESHES, ring, sheet, torus
+from shared_data import creases_of, read_obj, shared_files
+
+TIGHT = {"relative_residual": 1e-9}
+
+
+def bound(rings):
+    """Of the difference to the whole, as a share of its size (docs/pieces.md)."""
+    return 5e-3 * 2.6**-rings
+
+
+@cache
+def whole_of(name):
+    points, faces, settings = MESHES[name]
+    return df.fair(points, faces, 2, **TIGHT, **settings)
+
+
+def cut(points, faces, levels=2, count=3, rings=4, **settings):
+    return df.pieces(points, faces, levels, count=count, rings=rings, **{**TIGHT, **settings})
+
+
+def in_pieces(*mesh, **settings):
+    return df.join(piece.fair() for piece in cut(*mesh, **settings))
+
+
+def difference(joined, whole, points):
+    known = points[np.isfinite(points).all(axis=1)]
+    gap = np.linalg.norm(joined.vertices - whole.vertices, axis=1).max()
+    return gap / np.ptp(known, axis=0).max()
+
+
+def assert_same_topology(joined, whole):
+    for mine, theirs in zip(joined.faces, whole.faces):
+        assert np.array_equal(mine, theirs) and mine.dtype == theirs.dtype
+    for name in ("triangle_polygon", "quad_polygon", "crease_edges"):
+        assert np.array_equal(getattr(joined, name), getattr(whole, name)), name
+
+
+@pytest.mark.parametrize("name", MESHES)
+@pytest.mark.parametrize(("count", "rings"), [(3, 5), (10, 3), (40, 2)])
+def test_pieces_are_the_whole(name, count, rings):
+    points, faces, settings = MESHES[name]
+    whole = whole_of(name)
+    joined = in_pieces(points, faces, count=count, rings=rings, **settings)
+    assert_same_topology(joined, whole)
+    assert difference(joined, whole, points) < bound(rings)
+    jump = joined.report["pieces"]["jump"]
+    assert joined.report["pieces"]["count"] == count
+    assert 0 <= jump["share"] < 2 * bound(rings)  # of two that both may be off
+    # Seams are where pieces are worst, and neighbours' opinions tell how bad; but on the even strip
+    # pieces are images of each other, and err alike.
+    assert name == "one-sided" or difference(joined, whole, points) < 5 * jump["share"] + 1e-8
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_one_piece_is_the_whole_to_the_last_bit(name):
+    points, faces, settings = MESHES[name]
+    joined, whole = in_pieces(points, faces, count=1, **settings), whole_of(name)
+    assert_same_topology(joined, whole)
+    if name == "defects":  # without the vertices that no face has, sums run over other blocks
+        assert np.allclose(joined.vertices, whole.vertices, rtol=0, atol=1e-9)
+        return
+    assert np.array_equal(joined.vertices, whole.vertices)
+    assert joined.report["pads"]["widths"] == whole.report["pads"]["widths"]
+    for key in ("iterations", "residuals", "converged", "sheets", "repairs", "flipped_faces"):
+        assert joined.report[key] == whole.report[key], key
+    assert [w["code"] for w in joined.report["warnings"]] == [
+        w["code"] for w in whole.report["warnings"]
+    ]
+
+
+def test_twice_as_many_rings_square_the_difference():
+    mesh = torus(36, 16, noise=0.02)
+    whole = df.fair(*mesh, 2, **TIGHT)
+    gaps = [difference(in_pieces(*mesh, rings=r), whole, mesh[0]) for r in (1, 3, 5, 7)]
+    assert all(near < far / 3 for far, near in zip(gaps, gaps[1:])), gaps
+
+
+@pytest.mark.parametrize("name", ["open creases and corners", "border", "book", "folded"])
+def test_curves_are_the_whole_s_bit_for_bit(name):
+    points, faces, settings = MESHES[name]
+    whole, n = whole_of(name), 4
+    joined = in_pieces(points, faces, count=10, rings=1, **settings)
+    polygons = [tuple(face) for face in faces]
+    sides = {}
+    for face in polygons:
+        for a, b in zip(face, face[1:] + face[:1]):
+            sides.setdefault(frozenset((int(a), int(b))), len(sides))
+    uses = [frozenset((int(a), int(b))) for f in polygons for a, b in zip(f, f[1:] + f[:1])]
+    border = {edge for edge in sides if uses.count(edge) == 1}
+    curves = border | {frozenset(map(int, edge)) for edge in whole.crease_edges}
+    assert curves
+    edges = [sides[edge] for edge in curves]  # the core numbers edges as faces name them first
+    rows = len(points) + np.array(edges)[:, None] * (n - 1) + np.arange(n - 1)
+    assert np.array_equal(joined.vertices[rows], whole.vertices[rows])
+
+
+def test_every_point_has_one_owner():
+    points, faces, settings = MESHES["triangle book"]
+    parts = [piece.fair() for piece in cut(points, faces, count=7, rings=2, **settings)]
+    ids = np.concatenate([part.ids for part in parts])
+    assert np.array_equal(np.sort(ids), np.arange(len(whole_of("triangle book").vertices)))
+    joined = df.join(reversed(parts))
+    for part in parts:
+        assert np.array_equal(joined.vertices[part.ids], part.vertices)
+        shared = part.seam_ids()
+        assert not np.isin(shared, part.ids).any()
+    faces_of_parts = np.concatenate([part.faces[0] for part in parts])
+    assert len(np.unique(faces_of_parts, axis=0)) == len(joined.faces[0])
+
+
+def test_parts_fill_an_array_on_disk(tmp_path):
+    mesh = torus()
+    paths = []
+    for piece in cut(*mesh, count=4):
+        paths.append(tmp_path / f"part-{piece.index}.npz")
+        piece.fair().save(paths[-1])
+    size = df.Part.load(paths[0]).numbering.size
+    file = np.lib.format.open_memmap(tmp_path / "all.npy", "w+", np.float64, (size, 3))
+    for path in paths:
+        df.Part.load(path).write_into(file)
+    joined = df.join(paths)
+    assert np.array_equal(file, joined.vertices)
+    assert df.largest_jump(paths) == joined.report["pieces"]["jump"]
+
+
+def test_single_precision_halves_the_file(tmp_path):
+    part = cut(*torus(), levels=3)[1].fair()
+    part.save(tmp_path / "double.npz")
+    part.save(tmp_path / "single.npz", np.float32)
+    single = df.Part.load(tmp_path / "single.npz")
+    assert np.array_equal(single.vertices, part.vertices.astype(np.float32))
+    sizes = [(tmp_path / f"{name}.npz").stat().st_size for name in ("single", "double")]
+    assert sizes[0] < 0.65 * sizes[1]
+
+
+def test_a_piece_gives_the_same_bits_wherever_it_is_faired(tmp_path):
+    piece = cut(*MESHES["noisy triangles"][:2])[1]
+    piece.save(tmp_path / "piece.npz")
+    here = piece.fair(threads=1)
+    for other in (pickle.loads(pickle.dumps(piece)), df.Piece.load(tmp_path / "piece.npz")):
+        part = other.fair(threads=3)
+        assert np.array_equal(part.vertices, here.vertices)
+        assert np.array_equal(part.ids, here.ids)
+        assert np.array_equal(part.seam_points(), here.seam_points())
+
+
+def test_the_same_pieces_on_every_call():
+    first, again = (cut(*torus(noise=0.02), count=5) for _ in range(2))
+    assert [pickle.dumps(piece) for piece in first] == [pickle.dumps(piece) for piece in again]
+    owned = [int(piece.owned.sum()) for piece in first]
+    assert sum(owned) == 288 and max(owned) < 1.2 * min(owned)
+
+
+# --- settings ---
+
+N = len(torus()[0])
+NEAR = {"interpolation": "approximate"}
+
+
+@pytest.mark.parametrize(
+    ("settings", "rings", "most"),
+    [
+        ({"tension": 0.5}, 5, bound(5)),
+        ({"metric_exponent": 1.0, "chart": "tangent"}, 5, bound(5)),
+        ({"epsilon": 1e-3}, 5, bound(5)),
+        ({"method": "back_leg"}, 5, bound(5)),
+        ({"pad_size": 0.0}, 5, bound(5)),
+        ({"energy": "total_curvature", "relative_residual": 1e-7}, 5, bound(5)),
+        ({"energy": "minimum_variation", "relative_residual": 1e-7}, 5, 3 * bound(5)),
+        # Vertices that give way pass on more than such that stay.
+        ({**NEAR, "weights": np.linspace(1, 3, N)}, 6, 3e-4),
+        ({**NEAR, "tolerance": np.linspace(0.002, 0.004, N)}, 6, 3e-4),
+        ({"region": np.arange(60, 150)}, 5, bound(5)),
+        ({"region": np.arange(60, 150), "joint": "curvature"}, 5, bound(5)),
+    ],
+    ids=lambda value: "-".join(value) if isinstance(value, dict) else "",
+)
+def test_settings_are_cut_out_with_pieces(settings, rings, most):
+    mesh = torus()
+    whole = df.fair(*mesh, 2, **{**TIGHT, **settings})
+    joined = in_pieces(*mesh, rings=rings, **settings)
+    assert difference(joined, whole, mesh[0]) < most
+    assert joined.report["largest_deviation"] == pytest.approx(
+        whole.report["largest_deviation"], rel=0.05, abs=1e-12
+    )
+
+
+def test_normals_are_cut_out_with_pieces():
+    points, faces = sheet()
+    normals = np.full((len(points), 3), np.nan)
+    normals[17:-17:13] = [0.1, 0.0, 1.0]
+    whole = df.fair(points, faces, 2, **TIGHT, normals=normals)
+    joined = in_pieces(points, faces, rings=6, normals=normals)
+    assert difference(joined, whole, points) < 2 * bound(6)
+    assert not np.allclose(whole.vertices, df.fair(points, faces, 2).vertices, atol=1e-3)
+
+
+@pytest.mark.parametrize("name", ["tension", "weights"])
+def test_units_are_those_of_the_whole(name):
+    """Where columns are wide the mean edge is another than on the narrow side."""
+    points, faces = sheet(16, 20, stretched=True)
+    settings = {"tension": 0.8} if name == "tension" else {**NEAR, "weights": np.full(320, 2.0)}
+    whole = df.fair(points, faces, 2, **TIGHT, **settings)
+    pieces = cut(points, faces, rings=8, count=4, **settings)
+    gap = difference(df.join(piece.fair() for piece in pieces), whole, points)
+    for piece in pieces:
+        piece.of_whole["units"] = [3 * unit for unit in piece.of_whole["units"]]
+    wrong = difference(df.join(piece.fair() for piece in pieces), whole, points)
+    assert gap < 2e-4 and wrong > 10 * gap
+
+
+@pytest.mark.parametrize(
+    ("settings", "name"),
+    [
+        ({"shapes": [torus()[0]]}, "shapes"),
+        ({"symmetry_plane": "x"}, "symmetry_plane"),
+        ({"measure": True}, "measure"),
+        ({"threads": 2}, "threads"),
+        ({"memory_limit": 10**9}, "memory_limit"),
+        ({"progress": print}, "progress"),
+        ({"monitor": df.Monitor()}, "monitor"),
+    ],
+)
+def test_settings_that_exclude_pieces_are_named(settings, name):
+    with pytest.raises(df.FairingError, match=f"^{name} ") as caught:
+        cut(*torus(), **settings)
+    assert caught.value.code == "BAD_OPTION"
+
+
+def test_whatever_fair_refuses_is_refused_before_any_piece():
+    points, faces = torus()
+    with pytest.raises(df.FairingError) as caught:
+        cut(points, np.concatenate([faces, faces[5:6]]))
+    assert caught.value.code == "DUPLICATE_FACE" and sorted(caught.value.elements) == [5, 288]
+    with pytest.raises(df.FairingError, match="count is 0"):
+        cut(points, faces, count=0)
+    with pytest.raises(TypeError, match="no_such"):
+        cut(points, faces, no_such=1)
+    with pytest.raises(df.FairingError, match="no edge"):
+        cut(points, faces, crease_edges=[(0, 200)])
+
+
+def test_parts_that_do_not_belong_together_are_refused(tmp_path):
+    parts = [piece.fair() for piece in cut(*torus(), levels=1)]
+    other = cut(*torus(noise=0.01), levels=1)[2].fair()
+    for wrong, message in (
+        ([], "no parts"),
+        (parts[:2], "missing: 2"),
+        ([*parts, parts[1]], "Part 1 is there twice"),
+        ([*parts[:2], other], "different surfaces"),
+    ):
+        with pytest.raises(df.FairingError, match=message):
+            df.join(wrong)
+    (tmp_path / "part.npz").write_bytes(b"no archive")
+    with pytest.raises(df.FairingError, match="holds no Part"):
+        df.Part.load(tmp_path / "part.npz")
+    parts[0].save(tmp_path / "part.npz")
+    with pytest.raises(df.FairingError, match="holds no Piece"):
+        df.Piece.load(tmp_path / "part.npz")
+
+
+def test_level_zero_and_quads_beside_triangles():
+    points, faces = torus()
+    mixed = [list(map(int, face)) for face in faces[60:]]
+    mixed += [list(map(int, face)) for face in df.fair(points, faces[:60], 0).triangles]
+    for levels in (0, 1, 3):
+        whole = df.fair(points, mixed, levels, **TIGHT)
+        joined = in_pieces(points, mixed, levels=levels, rings=6)
+        assert_same_topology(joined, whole)
+        assert difference(joined, whole, points) < bound(6)
+
+
+# --- memory ---
+
+
+def test_a_worker_needs_the_memory_of_its_piece():
+    mesh = torus(64, 32)
+    whole = df.fair(*mesh, 3)
+    pieces = cut(*mesh, levels=3, count=8, rings=2, relative_residual=1e-4)
+    parts = [piece.fair() for piece in pieces]
+    share = max(len(piece.face) for piece in pieces) / len(mesh[1])
+    assert share < 0.3
+    peak = max(part.report["peak_bytes"] for part in parts)
+    assert peak < 1.2 * share * whole.report["peak_bytes"]
+    assert all(part.report["peak_bytes"] <= part.report["predicted_bytes"] for part in parts)
+
+
+# --- real meshes ---
+
+REAL = [p for p in shared_files("good/cages") if p.values[0] is None or "catmark" in p.id][:12]
+
+
+@pytest.mark.parametrize("path", REAL)
+def test_real_cages_in_pieces(path):
+    points, faces = read_obj(path)
+    creases, corners = creases_of(path)
+    settings = {"crease_edges": creases, "corner_vertices": corners}
+    try:
+        whole = df.fair(points, faces, 2, **TIGHT, **settings)
+    except df.FairingError as error:
+        with pytest.raises(df.FairingError) as caught:
+            cut(points, faces, **settings)
+        assert caught.value.code == error.code
+        return
+    joined = in_pieces(points, faces, rings=8, **settings)
+    assert_same_topology(joined, whole)
+    assert difference(joined, whole, points) < bound(8)
+
+
+def test_one_piece_needs_no_library(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pymetis", None)
+    assert len(cut(*torus(), count=1)) == 1
+    with pytest.raises(df.FairingError, match=r"discrete-fairing\[cluster\]"):
+        cut(*torus(), count=2)
+
+
+def test_a_crease_is_felt_by_its_own_piece_only():
+    """The crease's ring of vertices is on one side of the torus: the other side keeps its bits."""
+    plain = {p.index: p for p in cut(*torus(48, 8), count=6, rings=1)}
+    creased = {
+        p.index: p for p in cut(*torus(48, 8), count=6, rings=1, crease_edges=ring(48, 8)[:3])
+    }
+    same = [np.array_equal(plain[k].fair().vertices, creased[k].fair().vertices) for k in range(6)]
+    assert 2 <= sum(same) < 6
