@@ -132,3 +132,18 @@ def test_refined_too():
     assert len(scan.data.polygons) > faces + 3 * 2188
     points = positions(scan.data)
     assert off(points) < 0.0005 and len(points) > count
+
+
+def test_polygons_that_are_split_on_the_way():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=30, y_subdivisions=30)
+    scan = bpy.context.object
+    points = positions(scan.data).astype(float)
+    noise = 0.02 * np.random.default_rng(5).standard_normal(len(points))
+    noise[465] = 0.2  # its quads are too warped to stay whole
+    points[:, 2] += noise
+    move(scan, points)
+    select(scan, np.ones(len(scan.data.polygons), bool))
+    before, after = fair_measured(scan)
+    inside = (np.abs(before[:, :2]) < 0.99).all(axis=1)
+    assert np.sqrt((after[inside, 2] ** 2).mean()) < 0.5 * np.sqrt((before[inside, 2] ** 2).mean())
+    assert len(scan.data.polygons) == 900
