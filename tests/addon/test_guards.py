@@ -19,6 +19,7 @@ MAY_USE_FILES = {
     "addon/cli/materials.py",  # `os`, to see whether a name is taken
     "addon/cli/whole.py",  # reads an output, to see whether it is complete
     "addon/purposes.py",  # the names of the shipped presets and their pictures
+    "addon/ui/pictures.py",  # where they lie
     "addon/queue.py",  # `os`, for the priority of threads
     "native/binding/discrete_fairing/whole_files.py",  # writes a file beside its place first
     "native/binding/discrete_fairing/step.py",  # opens the one that it is given there
