@@ -132,8 +132,7 @@ TEST(Check, SheetsMayTouchAtVertices) {
 
 TEST(Check, Orientation) {
   expect_refused(flipped_cube_face(), ErrorCode::inconsistent_orientation, {2});
-  EXPECT_EQ(check(flipped_cube_face().view(), {.repair = true}).flipped_faces,
-            (Ids{2}));
+  EXPECT_EQ(check(flipped_cube_face().view(), {.repair = true}).flipped_faces, (Ids{2}));
 
   OwnedPolygonMesh mesh = two_tetrahedra();  // the fewest faces turn, in each component
   for (const std::size_t f : {0, 1, 3, 5})
