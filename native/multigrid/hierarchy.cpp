@@ -16,9 +16,6 @@ constexpr int most_with_old_factor = 20;
 // Unknowns up to which a level is factored whenever its K is another: iterations cost as much.
 constexpr std::size_t most_refactored = 4 * tiny_level;
 
-// Of the products' terms: what rounding may leave of the residual.
-constexpr double rounding = 2e-15;
-
 // On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
 constexpr double settled_margin = 1.03;
 
@@ -171,7 +168,8 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
   };
   refine();
   if (!out.converged && solver.lessen_trace()) refine();
-  if (!out.converged) out.converged = norm(workers_, size, r) <= rounding * solver.norm_of_terms(x);
+  if (!out.converged)
+    out.converged = norm(workers_, size, r) <= rounding_of_terms * solver.norm_of_terms(x);
 }
 
 // Stencils hardly change from level to level, and from some fineness on the spectrum's upper end

@@ -9,6 +9,10 @@
 
 namespace fairing {
 
+// Of the norm of a residual's terms: what is left of it below is rounding, some 20 units in the last
+// place.
+constexpr double rounding_of_terms = 2e-15;
+
 struct PcgLimits {
   // Of the residual, relative to `residual_scale`, and of the error in the energy norm, relative to
   // `energy_scale`: residuals of fourth order hide the smooth part of an error.

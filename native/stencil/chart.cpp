@@ -2,12 +2,11 @@
 #include "stencil/chart.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "stencil/angle.h"
 
 namespace fairing {
 namespace {
-
-constexpr double full_turn = 2 * std::numbers::pi;
 
 Vec2 polar(double radius, double angle) {
   return {radius * std::cos(angle), radius * std::sin(angle)};

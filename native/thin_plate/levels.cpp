@@ -12,10 +12,9 @@
 namespace fairing {
 namespace {
 
-// Of the norm of a residual's terms: what is left of it below is rounding, some 20 units in the
-// last place. And where the control polyhedron's own residual is less than so many times that, it
-// measures nothing: the polyhedron is the solution already.
-constexpr double rounding = 2e-15, least_over_noise = 1e8;
+// Where the control polyhedron's own residual is less than so many times its rounding, it measures
+// nothing: the polyhedron is the solution already.
+constexpr double least_over_noise = 1e8;
 
 // Edges in eight pieces below: from such levels on the largest eigenvalue hardly changes. (With four
 // it does: what the smoother then amplified took 14 iterations on a rough sphere in place of five.)
@@ -130,7 +129,7 @@ ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
-  const double noise = rounding * terms;
+  const double noise = rounding_of_terms * terms;
   return {std::max(norm(workers(), size, r), least_over_noise * noise), noise};
 }
 
