@@ -2,7 +2,7 @@
 """What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
 
 Which energy, borders and tolerance a purpose has is decided by benchmarks (benchmarks/jobs.py,
-benchmarks/limits.py), and told in docs/comparison.md.
+benchmarks/limits.py), and told in docs/explanation/comparison.md.
 """
 
 from pathlib import Path

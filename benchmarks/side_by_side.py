@@ -3,7 +3,7 @@
 all.
 
     python3 build_tools/dev.py bench side_by_side .venv/bin/python benchmarks/side_by_side.py
-    --markdown    also prints the tables of docs/comparison.md
+    --markdown    also prints the tables of docs/explanation/comparison.md
 
 A tool that is not installed, or does not take a mesh, leaves a line that says so.
 """
@@ -172,7 +172,7 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
 
 
 def markdown(result: dict[str, Any]) -> str:
-    """The same tables as docs/comparison.md has them; bold is the best printed figure of those that
+    """The same tables as docs/explanation/comparison.md has them; bold is the best printed figure of those that
     keep the vertices."""
     keeps = {rival.name for rival in rivals.ALL if rival.interpolates}
     text = []

@@ -17,10 +17,11 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 DOCUMENTS = [
     *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")),
-    *sorted(DOCS.glob("*.md")),
+    *sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "site"),
+    ROOT / "benchmarks" / "results" / "README.md",
 ]
 PICTURES = DOCS / "images" / "settings"
-PYTHON = ("scripting.md",)  # whose Python runs in Blender; the NumPy API's runs without it
+PYTHON = ("how-to/scripting.md",)  # whose Python runs in Blender; the NumPy API's runs without it
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -127,13 +128,13 @@ def test_nothing_of_one_machine(path):
 
 @pytest.mark.parametrize(("name", "label"), list(setting_names()))
 def test_every_setting_is_explained(name, label):
-    text = (DOCS / "settings.md").read_text("utf-8")
+    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
     assert f"`{name}`" in text, "its property"
     assert is_said(label, text), "its name in Blender"
 
 
 def test_every_choice_is_explained():
-    text = (DOCS / "settings.md").read_text("utf-8")
+    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
     for name, declared in FairingSettings.__annotations__.items():
         for key, label, *_ in declared.keywords.get("items", ()):
             assert is_said(label, text) and f"`{key}`" in text, f"{name}: {label}"
@@ -141,7 +142,7 @@ def test_every_choice_is_explained():
 
 @pytest.mark.parametrize("name", list(inspect.signature(discrete_fairing.fair).parameters))
 def test_every_argument_of_the_core_is_explained_once(name):
-    tables = (DOCS / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    tables = (DOCS / "reference" / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
     assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1
 
 
@@ -166,15 +167,15 @@ def test_examples_run(name, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     "text",
-    ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](settings.md#nowhere)", "[x](#nowhere)"],
+    ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](packaging.md#nowhere)", "[x](#nowhere)"],
 )
 def test_a_broken_link_is_seen(text):
-    assert broken_links(text, DOCS, DOCS / "guide.md")
+    assert broken_links(text, DOCS, DOCS / "architecture.md")
 
 
 def test_a_good_link_is_let_through():
-    text = "[a](settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
-    assert broken_links(text, DOCS, DOCS / "guide.md") == []
+    text = "[a](reference/settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
+    assert broken_links(text, DOCS, DOCS / "architecture.md") == []
 
 
 @pytest.mark.parametrize(
