@@ -150,6 +150,18 @@ def exact_table() -> str:
     return table(["known surface", "measure", "point forces", "pads of 1"], rows)
 
 
+def caps_table() -> str:
+    """Caps of a sphere on their boundary circle: how far surfaces are off, in shares of the radius."""
+    rows = []
+    for name, size, *errors in result("exact")["caps"]:
+        if size == 0.0:
+            continue  # point forces
+        mesh, energy = name.split(", ")
+        cells = [f"{100 * e:.2g} %" if e > 1e-4 else short(e) for e in errors]
+        rows.append([mesh, energy.replace("_", " "), *cells])
+    return table(["control mesh", "energy", "cap of 30°", "60°", "90°"], rows)
+
+
 def near_on_pads_table() -> str:
     """Total curvature with a tolerance of 2 % of an edge, on points and on pads."""
     found = result("pads")["near along normals"]
@@ -189,6 +201,7 @@ SHAPE: dict[str, Callable[[], str]] = {
     "pads.fender.table": fender_table,
     "pads.near.table": near_on_pads_table,
     "exact.table": exact_table,
+    "exact.caps.table": caps_table,
     "cube.plate": lambda: inscribed("cube", "1.0"),
     "cube.plate.points": lambda: inscribed("cube", "0.0"),
     "octahedron.plate": lambda: inscribed("octahedron", "1.0"),
