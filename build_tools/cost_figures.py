@@ -97,7 +97,9 @@ def peers_table() -> str:
             ratio = f" ({short(time / unit)})" if time and label in theirs else ""
             row.append(f"{short(time)}{ratio}" if time else "–")
         rows.append(row)
-    heads = [size.replace(",", " triangles,", 1).replace("faces", "control faces") for size in sizes]
+    heads = [
+        size.replace(",", " triangles,", 1).replace("faces", "control faces") for size in sizes
+    ]
     return table(["seconds", *heads], rows)
 
 

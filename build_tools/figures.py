@@ -19,7 +19,9 @@ from layout import ROOT
 from shape_figures import SHAPE
 
 FIGURES: dict[str, Callable[[], str]] = {**COST, **SHAPE}
-FIGURE = re.compile(r"(<!-- figure: (?P<name>[\w.]+) -->)(?P<text>.*?)(<!-- /figure -->)", re.DOTALL)
+FIGURE = re.compile(
+    r"(<!-- figure: (?P<name>[\w.]+) -->)(?P<text>.*?)(<!-- /figure -->)", re.DOTALL
+)
 
 
 def documents() -> Iterator[Path]:

@@ -21,7 +21,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 from render_row import View, draw_rows, render_tile  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "tutorials"
-HULL = View(7.6, turn=128, elevation=12, height=0.6)
+HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
 SCAN = View(2.5, turn=20, elevation=12, height=1.0)
 MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
 

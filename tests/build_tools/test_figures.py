@@ -42,7 +42,14 @@ def test_a_figure_that_nobody_works_out_is_refused():
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(0.0306, "0.031"), (1.41, "1.4"), (28.3, "28"), (1.78e-7, "1.8e-7"), (1260.0, "1,300"), (104, "100")],
+    [
+        (0.0306, "0.031"),
+        (1.41, "1.4"),
+        (28.3, "28"),
+        (1.78e-7, "1.8e-7"),
+        (1260.0, "1,300"),
+        (104, "100"),
+    ],
 )
 def test_numbers_are_short(value, text):
     assert short(value) == text
