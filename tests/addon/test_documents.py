@@ -121,6 +121,14 @@ def test_links_lead_somewhere(path):
     assert broken_links(path.read_text("utf-8"), path.parent, path) == []
 
 
+@pytest.mark.parametrize("folder", ["tutorials", "how-to", "reference", "explanation", "notes"])
+def test_every_page_is_listed(folder):
+    contents = (DOCS / ("notes/README.md" if folder == "notes" else "README.md")).read_text("utf-8")
+    pages = {path.name for path in (DOCS / folder).glob("*.md")} - {"README.md"}
+    prefix = "" if folder == "notes" else f"{folder}/"
+    assert {name for name in pages if f"({prefix}{name}" not in contents} == set()
+
+
 @pytest.mark.parametrize("path", DOCUMENTS, ids=named)
 def test_operators_exist(path):
     assert {pair for pair in operators(path.read_text("utf-8")) if not exists(*pair)} == set()
