@@ -28,6 +28,14 @@ def test_every_mark_is_closed():
         assert marks == (len(figures.FIGURE.findall(text)),) * 2, path.name
 
 
+def test_no_line_begins_with_a_number():
+    """A comment at the start of a line is HTML to its end: links in that line would be dead."""
+    for path in figures.documents():
+        text = path.read_text("utf-8")
+        numbers = [m for m in figures.FIGURE.finditer(text) if not m["text"].startswith("\n")]
+        assert [m["name"] for m in numbers if text[: m.start()].endswith("\n")] == [], path.name
+
+
 def test_a_wrong_figure_is_seen_and_mended():
     text = "It takes <!-- figure: peers.libigl -->40<!-- /figure --> times as long."
     assert figures.stale(text) == ["peers.libigl"]
