@@ -75,6 +75,25 @@ def beside_subdivision(name: str, ours: Sequence[tuple[str, str]]) -> str:
     return table(heads, rows)
 
 
+def smaller(name: str, ours: str) -> list[int]:
+    """How many of the four figures are below Subdivision Surface's, cage by cage."""
+    cages = [f for f in result(name).values() if isinstance(f["Subdivision Surface"], dict)]
+    return [sum(f[ours][k] < f["Subdivision Surface"][k] for k in FOUR) for f in cages]
+
+
+def all_four(name: str, ours: str) -> str:
+    """On how many of how many cages all four figures are smaller."""
+    counts = smaller(name, ours)
+    return f"{sum(c == len(FOUR) for c in counts)} of {len(counts)}"
+
+
+def best_of_jobs(job: str) -> str:
+    """Of how many models minimum variation is nearest to the true normals."""
+    models = result("jobs")[job].values()
+    nearest = [min(found, key=lambda tool: found[tool]["rms"]) for found in models]
+    return f"{nearest.count('minimum variation')} of {len(nearest)}"
+
+
 def jobs_table() -> str:
     """Known panels and hulls: angles to the true normals."""
     tools = ("Subdivision Surface", "thin plate", "total curvature", "minimum variation")
@@ -196,7 +215,13 @@ SHAPE: dict[str, Callable[[], str]] = {
             ("limit, total curvature", "total curvature"),
         ],
     ),
+    "subdivision.curvature": lambda: all_four("subdivision", "total curvature"),
+    "limits.plate": lambda: all_four("limits", "limit"),
+    "limits.plate.least": lambda: str(min(smaller("limits", "limit"))),
+    "limits.curvature": lambda: all_four("limits", "limit, total curvature"),
     "jobs.table": jobs_table,
+    "jobs.panels": lambda: best_of_jobs("panel"),
+    "jobs.hulls": lambda: best_of_jobs("hull"),
     "peaks.table": peaks_table,
     "pads.fender.table": fender_table,
     "pads.near.table": near_on_pads_table,
