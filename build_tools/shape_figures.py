@@ -77,14 +77,26 @@ def beside_subdivision(name: str, ours: Sequence[tuple[str, str]]) -> str:
 
 def smaller(name: str, ours: str) -> list[int]:
     """How many of the four figures are below Subdivision Surface's, cage by cage."""
-    cages = [f for f in result(name).values() if isinstance(f["Subdivision Surface"], dict)]
-    return [sum(f[ours][k] < f["Subdivision Surface"][k] for k in FOUR) for f in cages]
+    return [sum(f[ours][k] < f["Subdivision Surface"][k] for k in FOUR) for f in models(name)]
 
 
 def all_four(name: str, ours: str) -> str:
     """On how many of how many cages all four figures are smaller."""
     counts = smaller(name, ours)
     return f"{sum(c == len(FOUR) for c in counts)} of {len(counts)}"
+
+
+def seconds(name: str, ours: str) -> str:
+    """The most processor time that a surface of a benchmark's models took."""
+    return short(max(found[ours]["seconds"] for found in models(name) if ours in found))
+
+
+def models(name: str) -> list[dict[str, Any]]:
+    """What was measured of each cage or model, by tool; not what is a single number."""
+    found = list(result(name).values())
+    if name == "jobs":
+        found = [tools for job in found for tools in job.values()]
+    return [f for f in found if isinstance(f["Subdivision Surface"], dict)]
 
 
 def best_of_jobs(job: str) -> str:
@@ -219,8 +231,11 @@ SHAPE: dict[str, Callable[[], str]] = {
     "limits.plate": lambda: all_four("limits", "limit"),
     "limits.plate.least": lambda: str(min(smaller("limits", "limit"))),
     "limits.curvature": lambda: all_four("limits", "limit, total curvature"),
+    "limits.plate.seconds": lambda: seconds("limits", "limit"),
+    "limits.curvature.seconds": lambda: seconds("limits", "limit, total curvature"),
     "jobs.table": jobs_table,
     "jobs.panels": lambda: best_of_jobs("panel"),
+    "jobs.seconds": lambda: seconds("jobs", "minimum variation"),
     "jobs.hulls": lambda: best_of_jobs("hull"),
     "peaks.table": peaks_table,
     "pads.fender.table": fender_table,

@@ -184,6 +184,12 @@ def test_no_page_says_that_one_sided_surfaces_cannot_be_faired():
             assert not (one_sided and "cannot be faired" in sentence), (path.name, sentence)
 
 
+def test_no_page_says_that_zips_are_for_one_platform():
+    """`dev.py extension --all` makes them for five."""
+    only = r"(?:only (?:for|on) Linux|Linux[^.|]{0,20} only)"
+    assert found_in_pages(re.compile(rf"[Zz]ips?[^.|]{{0,40}}{only}")) == {}
+
+
 def test_every_public_name_of_the_package_is_explained():
     text = (REFERENCE / "numpy-api.md").read_text("utf-8")
     missing = [n for n in df.__all__ if not re.search(rf"\b{n}\b", text)]
