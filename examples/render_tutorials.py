@@ -22,15 +22,18 @@ from render_row import View, draw_rows, render_tile  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "tutorials"
 HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
+FENDER = View(2.9, turn=-28, elevation=14, height=0.58, stripes=14)
 SCAN = View(2.5, turn=20, elevation=12, height=1.0)
 MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
 
 
-def scripted(tutorial):
-    """The object that the tutorial's first script makes."""
+def scripted(tutorial, scripts=1):
+    """The active object after so many of the tutorial's scripts."""
     text = (ROOT / "docs" / "tutorials" / f"{tutorial}.md").read_text("utf-8")
-    script = re.search(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    exec(compile(script[1], tutorial, "exec"), {})
+    found = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    names = {}
+    for script in found[:scripts]:
+        exec(compile(script, tutorial, "exec"), names)
     return bpy.context.active_object
 
 
@@ -52,6 +55,12 @@ def draw_hull(label, look, corrected, path):
     render_tile(path, label, replace(HULL, look=look), hull, [surface], False)
 
 
+def draw_fender(label, look, scripts, path):
+    surface = centred(scripted("fender", scripts))
+    control = surface.discrete_fairing.source or surface
+    render_tile(path, label, replace(FENDER, look=look), control, [surface], control is surface)
+
+
 def draw_scan(label, look, steps, path):
     scan = scripted("scan")
     if steps > 0:
@@ -67,6 +76,12 @@ ROWS = {
     "hull": [
         partial(draw_hull, "0.76, as read", "zebra", False),
         partial(draw_hull, "0.70", "zebra", True),
+    ],
+    "fender": [
+        partial(draw_fender, "As modelled", "clay", 1),
+        partial(draw_fender, "Panel", "clay", 2),
+        partial(draw_fender, "Panel", "zebra", 2),
+        partial(draw_fender, "With a sharp arch", "zebra", 3),
     ],
     "scan": [
         partial(draw_scan, "A scan", "clay", 0),
