@@ -65,7 +65,7 @@ void take_edges(const ControlMesh& mesh, Outline& out) {
 
 // Curves and centres, of the mesh and of each shape. `held`: where the mesh is, one a control vertex.
 void take_surfaces(const ControlMesh& mesh, const HeldPositions& held, double exponent,
-                 Outline& out) {
+                   Outline& out) {
   const int subdivisions = 1 << out.options.levels;
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
     for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
