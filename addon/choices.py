@@ -9,7 +9,7 @@ ENERGIES = (
     (
         "THIN_PLATE",
         "Thin Plate",
-        "Bends like a thin sheet of spring steel, and is linear: the classic. Flattens a little between vertices",
+        "Bends like a thin sheet of spring steel, a little flat between the vertices",
         0,
     ),
     (
@@ -52,8 +52,7 @@ INTERPOLATIONS = (
     (
         "LIMIT",
         "Limit",
-        "The surface passes where Subdivision Surface would: exactly through the limit positions of the vertices, "
-        "and fairer in between. For cages that were modelled under that modifier",
+        "The surface passes where Subdivision Surface would, for cages that were modelled under that modifier",
         2,
     ),
 )
@@ -72,8 +71,7 @@ REPAIRS = (
     (
         "MEND",
         "Mend",
-        "Fairs the mesh without its duplicate faces, doubled corners and faces that have no area, "
-        "and with all faces looking the same way. The source stays as it is; a note says what was done",
+        "Fairs the mesh without its defects, such as double faces, leaves the source as it is, and says what was done",
     ),
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
@@ -83,8 +81,7 @@ BOUNDARIES = (
     (
         "CORNERS",
         "Keep Corners",
-        "Open borders become smooth curves through their own vertices, and keep their corners: "
-        "vertices of a single face where they turn by more than 60°",
+        "Borders become smooth curves through their vertices, with corners where a single face turns by over 60°",
         3,
     ),
     (

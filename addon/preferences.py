@@ -32,15 +32,14 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
     )
     memory_limit: IntProperty(
         name="Memory Limit (MB)",
-        description="Refuses to start a result that would need more memory than this, in megabytes. "
-        "0: three quarters of this machine's memory",
+        description="Refuses results that would need more megabytes than this, or if 0 than three quarters of the memory",
         default=Defaults.memory_limit,
         min=0,
         soft_max=65536,
     )
     threads: IntProperty(
         name="Threads",
-        description="How many processor cores a run may use. 0: all. The surface is the same for any number",
+        description="How many processor cores a run may use, or 0 for all; the surface is the same for any number",
         default=Defaults.threads,
         min=0,
         max=1024,

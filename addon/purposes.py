@@ -2,7 +2,7 @@
 """What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
 
 Which energy, borders and tolerance a purpose has is decided by benchmarks (benchmarks/jobs.py,
-benchmarks/limits.py), and told in docs/comparison.md.
+benchmarks/limits.py), and told in docs/explanation/comparison.md.
 """
 
 from pathlib import Path
@@ -16,38 +16,37 @@ PURPOSES = (
     (
         "HULL",
         "Hull",
-        "Boats: through the offsets, or within a tolerance of them; marked edges are chines. Minimum Variation",
+        "Boats: through the offsets, or within a tolerance of them; marked edges are chines (Minimum Variation)",
         0,
     ),
     (
         "PANEL",
         "Panel",
-        "Bonnets, doors, wings: the calmest reflections through every vertex; corners stay. Minimum Variation",
+        "Bonnets, doors, wings: the calmest reflections through every vertex; corners stay (Minimum Variation)",
         1,
     ),
     (
         "MECHANICAL",
         "Mechanical",
-        "Machine parts: round between sharp edges, from folds of 30° on. Total Curvature",
+        "Machine parts: round between sharp edges, which are folds of 30° and more (Total Curvature)",
         2,
     ),
     (
         "CHARACTER",
         "Character",
-        "Characters, animals: where Subdivision Surface passes, and fairer in between. Thin Plate",
+        "Characters, animals: where Subdivision Surface passes, and fairer in between (Thin Plate)",
         3,
     ),
     (
         "SCAN_PATCH",
         "Scan Patch",
-        "Measured faces of a mesh, in place: takes their noise off and adds no faces. In Edit Mode the selected faces, "
-        "else all",
+        "Measured faces in place: takes the noise off the selected ones, or in Object Mode all, and adds no faces",
         4,
     ),
     (
         "POINTS",
         "Points (measured)",
-        "A surface near points that were measured, within a tenth of an edge. Thin Plate",
+        "A surface near points that were measured, within a tenth of an edge (Thin Plate)",
         5,
     ),
 )

@@ -65,7 +65,7 @@ class FairingSettings:
 
     levels: IntProperty(
         name="Levels",
-        description="How often every face is split in four. Two or three show the shape; four and more are for close-ups",
+        description="Each level splits every face in four: 2 or 3 show the shape, 4 and more are for close-ups",
         default=3,
         min=1,
         max=10,
@@ -85,8 +85,7 @@ class FairingSettings:
     )
     limit: FloatProperty(
         name="Follow",
-        description="Where the surface passes under Limit. 0: through the vertices of the source, as modelled; "
-        "1: where Subdivision Surface passes",
+        description="How far the surface goes from the vertices as modelled, at 0, to where Subdivision Surface passes, at 1",
         default=1.0,
         min=0.0,
         max=1.0,
@@ -94,8 +93,7 @@ class FairingSettings:
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="How far the surface may pass from a vertex of the source, in scene units. "
-        "A small tolerance removes most bumps",
+        description="How far the surface may pass from each vertex, in scene units: a little already removes most bumps",
         default=0.01,
         min=0.0,
         soft_max=1.0,
@@ -105,8 +103,7 @@ class FairingSettings:
     )
     relative_tolerance: FloatProperty(
         name="Relative Tolerance",
-        description="How far the surface may pass from a vertex of the source, as a share of the mean edge length of "
-        "the control mesh. A small tolerance removes most bumps",
+        description="How far the surface may pass from each vertex, as a share of the mean edge: a little removes most bumps",
         default=0.02,
         min=0.0,
         soft_max=0.25,
@@ -118,30 +115,24 @@ class FairingSettings:
     # behind both: where all are copied, what it says holds
     tolerance_unit: EnumProperty(
         name="Tolerance Unit",
-        description="How the tolerance is said. Setting either of the two in a script chooses it",
+        description="Whether the tolerance is a share of the mean edge length or a length in the scene",
         items=TOLERANCE_UNITS,
     )
     tolerance_group: StringProperty(
         name="Tolerance Group",
-        description="A vertex group, or a float attribute on points, of the source: its weight at a vertex, 0 to 1, "
-        "multiplies the tolerance there. At 0, and outside of the group, the surface passes through the vertex. "
-        "Empty: the same tolerance everywhere",
+        description="Vertex group or float attribute that multiplies the tolerance: where it is 0, the surface passes through the vertex",
         search=_vertex_values,
         search_options={"SUGGESTION"},  # modifiers may make what is not there yet
     )
     pull_group: StringProperty(
         name="Pull Group",
-        description="A vertex group, or a float attribute on points, of the source: how strongly each vertex draws "
-        "the surface to itself. A group's weight, 0 to 1: 0 does not pull, 0.5 gives way by about a twentieth of an "
-        "edge, 1 holds the vertex. An attribute: the weight as it is. The tolerance holds all the same; at 0 the pulls "
-        "alone hold. Empty: none",
+        description="Vertex group or float attribute: how strongly each vertex draws the surface to itself, from 0 to 1 in a group",
         search=_vertex_values,
         search_options={"SUGGESTION"},
     )
     pad_size: FloatProperty(
         name="Hold Softly",
-        description="How the vertices hold the surface. 0: each at its own point, which leaves a mark in the reflections; "
-        "1: each over the faces around it, which leaves none. The surface passes through the vertices all the same",
+        description="Takes away the marks of vertices in reflections: at 0 each holds one point, at 1 the faces around it",
         default=1.0,
         min=0.0,
         max=1.0,
@@ -149,7 +140,7 @@ class FairingSettings:
     )
     tension: FloatProperty(
         name="Tension",
-        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell. Not for Minimum Variation",
+        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell (not with Minimum Variation)",
         default=0.0,
         min=0.0,
         max=1.0,
@@ -163,8 +154,7 @@ class FairingSettings:
     )
     symmetry_plane: EnumProperty(
         name="Symmetry Plane",
-        description="For half hulls and the like: the surface crosses this plane of the object as if its "
-        "mirror image were there, and only the half is made",
+        description="The surface crosses this plane of the object as if its mirror image were there, as for half a hull",
         items=SYMMETRY_PLANES,
     )
 
@@ -173,8 +163,7 @@ class FairingSettings:
     )
     use_selection: BoolProperty(
         name="Selected Faces Only",
-        description="Fairs the faces that are selected in Edit Mode, on the mesh as modelled. "
-        "All others keep their shape and are subdivided to match",
+        description="Fairs the selected faces only, and subdivides all others to match without changing their shape",
         default=False,
     )
     joint: EnumProperty(
@@ -191,8 +180,7 @@ class FairingSettings:
 
     use_crease_attribute: BoolProperty(
         name="Edge Creases",
-        description="Edges with a crease (Shift E in Edit Mode) become sharp curves; "
-        "vertices with a vertex crease become corners where such curves end",
+        description="Creased edges (Shift E in Edit Mode) become sharp curves, and creased vertices their corners",
         default=True,
     )
     crease_threshold: FloatProperty(
@@ -237,8 +225,7 @@ class FairingSettings:
 
     metric_exponent: FloatProperty(
         name="Spacing",
-        description="How much the size of the source's faces shapes the surface. 1: faces keep their proportions; "
-        "0: all count the same; ½ is the calmest on uneven meshes",
+        description="How much uneven faces shape the surface: at 1 they keep their proportions, at 0 all count the same",
         default=0.5,
         min=0.0,
         max=1.0,
@@ -251,8 +238,7 @@ class FairingSettings:
     )
     weld: FloatProperty(
         name="Weld",
-        description="Mend joins vertices of the source that are no farther apart than this, in scene units. The source "
-        "stays as it is. 0: vertices of different faces stay apart",
+        description="Joins vertices that are no farther apart than this, in scene units, and leaves the source as it is",
         default=0.0,
         min=0.0,
         soft_max=0.1,
@@ -271,19 +257,17 @@ class FairingSettings:
     )
     hide_source: BoolProperty(
         name="Hide Source",
-        description="Hides the source afterwards, because source and surface overlap. Its eye in the Outliner shows it again",
+        description="Hides the source afterwards, because both overlap, until Show Source brings it back",
         default=True,
     )
     shade_smooth: BoolProperty(
         name="Shade Smooth",
-        description="Shades every face of the result smooth; creases and edges marked sharp stay sharp. "
-        "Off: each face is shaded like the one it comes from",
+        description="Shades all faces smooth but for creases and sharp edges, or if off each like the face it comes from",
         default=True,
     )
     memory_limit: IntProperty(
         name="Memory Limit",
-        description="Refuses to start a result that would need more memory than this, in megabytes. "
-        "0: the limit in the add-on's preferences",
+        description="Refuses results that would need more megabytes than this, or if 0 than the preferences allow",
         default=0,
         min=0,
         soft_max=65536,

@@ -2,8 +2,8 @@
 """Discrete Fairing beside what its users have today: the same control meshes, the same measures for
 all.
 
-    python3 build_tools/dev.py bench side_by_side .venv/bin/python benchmarks/side_by_side.py
-    --markdown    also prints the tables of docs/comparison.md
+    python3 build_tools/dev.py bench side_by_side
+    .venv/bin/python benchmarks/side_by_side.py
 
 A tool that is not installed, or does not take a mesh, leaves a line that says so.
 """
@@ -33,7 +33,6 @@ REPEATS, ENOUGH = (
 )  # runs, of which the shortest counts; processor seconds after which one will do
 # seconds are the processor's, of all threads together: other work on the machine hardly moves them
 HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "seconds")
-BOLD = (3, 4)  # of these, in Markdown
 
 
 def control_meshes() -> dict[str, tuple[np.ndarray, list[list[int]], int, bool]]:
@@ -171,51 +170,11 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
     return result
 
 
-def markdown(result: dict[str, Any]) -> str:
-    """The same tables as docs/comparison.md has them; bold is the best printed figure of those that
-    keep the vertices."""
-    keeps = {rival.name for rival in rivals.ALL if rival.interpolates}
-    text = []
-    for name, found in result["meshes"].items():
-        ours_and_theirs = [
-            cells(f) for tool, f in found.items() if tool in keeps and "absent" not in f
-        ]
-        best = {place: min((row[place] for row in ours_and_theirs), key=float) for place in BOLD}
-        text += [f"### {name[0].upper()}{name[1:]}, {result['levels'][name]} levels", ""]
-        heads = [
-            "",
-            "least radius",
-            "largest radius",
-            "off",
-            "dihedral",
-            "E / 8π",
-            "triangles",
-            "seconds",
-        ]
-        inscribed = "(exact sphere)" in found
-        columns = range(len(heads)) if inscribed else [0, *range(3, len(heads))]
-        text += ["| " + " | ".join(heads[k] for k in columns) + " |"]
-        text += ["|---" * len(columns) + "|"]
-        for tool, figures in found.items():
-            if "absent" in figures:
-                text += [f"| {tool} | *{figures['absent']}* |" + " |" * (len(columns) - 2)]
-                continue
-            row = cells(figures)
-            is_best = [tool in keeps and row[place] == best.get(place) for place in range(len(row))]
-            row[3] += "°"
-            row[5] = f"{figures['triangles']:,}"
-            row = [tool, *(f"**{cell}**" if bold else cell for cell, bold in zip(row, is_best))]
-            text += ["| " + " | ".join(row[k] for k in columns) + " |"]
-        text += [""]
-    return "\n".join(text)
-
-
 def main() -> None:
     """The same without the other benchmarks."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
-    parser.add_argument("--markdown", action="store_true", help="print the tables as Markdown, too")
     parser.add_argument(
         "--without", action="append", default=[], metavar="TOOL", help="may be repeated"
     )
@@ -224,8 +183,6 @@ def main() -> None:
     out = ROOT / "out" / "bench"
     out.mkdir(parents=True, exist_ok=True)
     (out / "side_by_side.json").write_text(json.dumps(result, indent=1) + "\n")
-    if options.markdown:
-        print(markdown(result))
 
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ class PatchSettings:
     )
     fit_levels: IntProperty(
         name="Levels",
-        description="How often faces are split before patches are fitted. 0: as often as the tolerance needs",
+        description="How often faces are split before patches are fitted, or 0 for as often as the tolerance needs",
         default=0,
         min=0,
         max=8,
@@ -56,8 +56,7 @@ class StepSettings(PatchSettings):
     )
     insist: BoolProperty(
         name="Write Faulty Faces",
-        description="Writes the file even if a surface folds or turns too sharply for patches. "
-        "The patches of such faces are red",
+        description="Writes surfaces that fold or turn too sharply for patches, too, with red patches there",
         default=False,
     )
 

@@ -15,8 +15,7 @@ MODES = (
     (
         "ZEBRA",
         "Zebra",
-        "Stripes as if the surface were a mirror among light tubes: a broken stripe is an edge, "
-        "a kinked stripe a jump in curvature, an even flow is fair",
+        "Stripes as if the surface mirrored light tubes: they break at edges, kink where curvature jumps, else flow",
         "ALIGN_JUSTIFY",
         1,
     ),
@@ -37,15 +36,14 @@ MODES = (
     (
         "TOTAL",
         "Total",
-        "Total curvature: how strongly the surface bends, whichever way. Red spots are where it is least fair",
+        "Total curvature: how strongly the surface bends, whichever way, with red where it is least fair",
         "COLOR",
         4,
     ),
     (
         "LINES",
         "Lines",
-        "Reflection lines: thin dark tubes in a light room. Finer than zebra: they show small faults "
-        "between stripes",
+        "Reflection lines: thin dark tubes in a light room, which show small faults between the stripes of Zebra",
         "ALIGN_FLUSH",
         5,
     ),
@@ -136,8 +134,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
 
     stripes: IntProperty(
         name="Stripes",
-        description="How many pairs of light and dark stripes the room around the surface has. "
-        "More stripes find smaller faults",
+        description="How many pairs of light and dark stripes there are: more of them find smaller faults",
         default=10,
         min=1,
         max=200,
@@ -146,7 +143,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     direction: FloatProperty(
         name="Direction",
-        description="How far the stripes lean. 0°: level; 90°: upright. Faults show best in stripes that cross them",
+        description="How far the stripes lean, from 0° level to 90° upright: faults show best in stripes that cross them",
         default=radians(20),
         soft_min=radians(-90),
         soft_max=radians(90),
@@ -155,7 +152,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     sharpness: FloatProperty(
         name="Sharpness",
-        description="How sharp the edges of the stripes are. Soft stripes are calmer on coarse meshes",
+        description="How sharp the edges of the stripes are: soft ones are calmer on coarse meshes",
         default=0.95,
         min=0.0,
         max=1.0,
@@ -181,7 +178,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     smooth: BoolProperty(
         name="Smooth",
-        description="Shades the object smooth while it is inspected, whatever its faces say. Sharp edges stay sharp",
+        description="Shades the object smooth while it is inspected, except at edges marked sharp",
         default=True,
         update=_drawing_changed,
     )
@@ -208,8 +205,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     use_fixed_range: BoolProperty(
         name="Fixed Range",
-        description="The same colours for the same curvature on every object, so that they can be compared. "
-        "Off: each object uses all the colours",
+        description="The same colours for the same curvature on every object, so that they can be compared",
         default=False,
         update=_range_changed,
     )
@@ -235,15 +231,14 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     deviation_object: PointerProperty(
         name="Measured from",
-        description="The mesh object that distances are measured from, as it is seen. "
-        "None: the control vertices",
+        description="The mesh object that distances are measured from, or the control vertices if there is none",
         type=bpy.types.Object,
         poll=_is_mesh,
         update=_deviation_changed,
     )
     section_axes: EnumProperty(
         name="Planes across",
-        description="The axes of the object that the planes stand across. Shift-click for several",
+        description="The axes of the object that the planes stand across, several with Shift",
         items=(
             ("X", "X", "Planes across the object's x axis"),
             ("Y", "Y", "Planes across the object's y axis"),
@@ -264,8 +259,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     show_combs: BoolProperty(
         name="Combs",
-        description="Draws the curvature of each section as teeth on the side that bulges: an even "
-        "comb is a fair curve, a notch is a flat spot, a spike a bend",
+        description="Draws curvature as teeth: an even comb is a fair curve, a notch a flat spot, a spike a tight bend",
         default=True,
         update=_lines_changed,
     )

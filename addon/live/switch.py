@@ -151,14 +151,13 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
 
     on: BoolProperty(
         name="Live",
-        description="The surface follows while its source is edited. Off again after loading a file, unless it is to stay on",
+        description="The surface follows while its source is edited, until you switch this off or open a file",
         get=_is_on,
         set=_switch,
     )
     levels: IntProperty(
         name="Live Levels",
-        description="The level shown during an edit, at most the surface's own. The full level comes when the edit pauses. "
-        "Lowered automatically where updates would be slow",
+        description="The level shown during an edit, at most the surface's own, and lower where updates would be slow",
         default=DEFAULT_LEVELS,
         min=1,
         max=10,
@@ -171,8 +170,7 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
     in_renders: BoolProperty(
         name="Live in Renders",
-        description="The surface follows frame by frame in renders too, at its Live Levels. "
-        "Off: renders show it as it is when they begin",
+        description="The surface follows frame by frame in renders too, at its Live Levels",
         default=False,
     )
     cage_as_wire: BoolProperty(

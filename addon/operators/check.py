@@ -94,7 +94,7 @@ class OBJECT_OT_fairing_select_defect(_AtDefect, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
-    """Repair this defect in the mesh itself. Undo restores the mesh"""
+    """Repair this defect in the mesh itself, which Undo takes back"""
 
     bl_idname = "object.fairing_repair"
     bl_label = "Repair"

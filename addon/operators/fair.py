@@ -183,7 +183,7 @@ class FairSurface(Fairing, FairingSettings):
 
 
 class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
-    """Make a new object: the fairest surface through the vertices of this mesh. The mesh itself stays as it is"""
+    """Make the fairest surface through the vertices of this mesh as a new object, and leave the mesh as it is"""
 
     bl_idname = "object.fairing_surface"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
@@ -199,7 +199,7 @@ def faired_objects(context: Context) -> list[Object]:
 
 
 class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
-    """Compute this surface again from its source as it is now, with the settings below. Materials and modifiers added since then stay"""
+    """Make this surface again from its source as it is now, and keep its own materials and modifiers"""
 
     bl_idname = "object.fairing_recompute"
     bl_label = "Recompute"

@@ -18,7 +18,7 @@ from .fair import Fairing, poll_reason
 
 
 class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
-    """Close holes with the fairest surface that goes on from the faces around. In Edit Mode: the holes whose border edges are selected, or in Face Mode what the selected faces leave"""
+    """Close holes so that nobody sees where they were: all small ones, or in Edit Mode those that are selected"""
 
     bl_idname = "object.fairing_fill"
     bl_label = "Fill Hole Fair"
@@ -39,7 +39,7 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
     )
     density: FloatProperty(
         name="Density",
-        description="New edges are so many times as short as those of the rim. 0: no new vertices",
+        description="How many times as fine as the rim the filling is, or 0 for no new vertices",
         default=1.0,
         min=0.0,
         max=100.0,

@@ -25,7 +25,7 @@ def _joints() -> tuple[tuple[str, str, str], ...]:
 
 
 class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
-    """Fair the selected faces of this mesh itself: move their vertices, or refine them too. Everything around stays where it is"""
+    """Fair the selected faces of this mesh itself: move their vertices, or refine them too, and nothing around"""
 
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair Selected Faces in Place"
@@ -33,7 +33,7 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
 
     levels: IntProperty(
         name="Levels",
-        description="How often the selected faces are split in four. 0: only their vertices move",
+        description="How often the selected faces are split in four, or 0 to move their vertices only",
         default=0,
         min=0,
         max=6,
@@ -55,8 +55,7 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
     )
     release: BoolProperty(
         name="Move Vertices",
-        description="The vertices of the selection move too. Off: the surface passes through them, "
-        "and only those between them are new",
+        description="The vertices of the selection move too, or if off the surface passes through them",
         default=False,
     )
     vertices: EnumProperty(
@@ -71,14 +70,13 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
             (
                 "MEASURED",
                 "Measured",
-                "They are data with noise. The surface passes near them, and they go to it along its normals: for scans. "
-                "Edges marked sharp stay",
+                "They are data with noise: the surface passes near them, and they move to it, but for edges marked sharp",
             ),
         ),
     )
     noise: FloatProperty(
         name="Noise",
-        description="How far measured vertices are moved, root mean square, in scene units: as far as they are off. 0: found out from the vertices",
+        description="How far measured vertices are moved in scene units, root mean square, or 0 to find it from them",
         default=0.0,
         min=0.0,
         soft_max=1.0,

@@ -35,7 +35,7 @@ class _Inspecting(ExplainedPoll):
 
 
 class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
-    """Show the selected objects in stripes or curvature colours. Their own materials stay and come back with Off"""
+    """Show the selected objects in stripes or curvature colours, until Off brings their own materials back"""
 
     bl_idname = "object.fairing_inspect"
     bl_label = "Inspect Surface"

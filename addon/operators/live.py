@@ -17,7 +17,7 @@ _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
 
 class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
-    """Let the faired surface follow while you edit the control mesh; the full level comes when you pause. Makes the surface if there is none yet"""
+    """Let the surface follow while you edit the control mesh, and make one if there is none yet"""
 
     bl_idname = "object.fairing_live"
     bl_label = "Live"

@@ -43,7 +43,7 @@ class _Fitting(fair.Fairing):
 
 
 class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.types.Operator):
-    """Write the fair surfaces of the selected objects as spline patches, for CAD: faired surfaces by their own settings, other meshes by those of the scene"""
+    """Write the selected objects as spline patches for CAD: surfaces by their own settings, meshes by the scene's"""
 
     bl_idname = "export_scene.fairing_step"
     bl_label = "Export Fair Surface"

@@ -17,10 +17,21 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 DOCUMENTS = [
     *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")),
-    *sorted(DOCS.glob("*.md")),
+    *sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "site"),
+    ROOT / "benchmarks" / "results" / "README.md",
 ]
 PICTURES = DOCS / "images" / "settings"
-PYTHON = ("scripting.md",)  # whose Python runs in Blender; the NumPy API's runs without it
+# Whose Python runs in Blender, and the files that it leaves.
+PYTHON = {
+    "how-to/scripting.md": ["faired.blend"],
+    "tutorials/hull.md": [],
+    "tutorials/fender.md": [],
+    "tutorials/scan.md": [],
+    "tutorials/cad.md": ["cube.step"],
+    "how-to/cad.md": [],
+    "reference/numpy-api.md": [],
+    "../README.md": [],
+}
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -105,55 +116,65 @@ def is_said(words, text):
     return re.search(rf"(?<![\w-]){re.escape(words)}(?![\w-])", text) is not None
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=named)
-def test_links_lead_somewhere(path):
-    assert broken_links(path.read_text("utf-8"), path.parent, path) == []
+def wrong(judge):
+    """What `judge` finds in each document, of its text and its path; only where it finds something."""
+    found = {named(path): judge(path.read_text("utf-8"), path) for path in DOCUMENTS}
+    return {name: faults for name, faults in found.items() if faults}
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=named)
-def test_operators_exist(path):
-    assert {pair for pair in operators(path.read_text("utf-8")) if not exists(*pair)} == set()
+def test_links_lead_somewhere():
+    assert wrong(lambda text, path: broken_links(text, path.parent, path)) == {}
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=named)
-def test_sources_are_there(path):
-    assert missing_sources(path.read_text("utf-8")) == []
+def test_operators_exist():
+    assert wrong(lambda text, _: [pair for pair in operators(text) if not exists(*pair)]) == {}
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=named)
-def test_nothing_of_one_machine(path):
-    assert MACHINE.findall(path.read_text("utf-8")) == []
+def test_sources_are_there():
+    assert wrong(lambda text, _: missing_sources(text)) == {}
 
 
-@pytest.mark.parametrize(("name", "label"), list(setting_names()))
-def test_every_setting_is_explained(name, label):
-    text = (DOCS / "settings.md").read_text("utf-8")
-    assert f"`{name}`" in text, "its property"
-    assert is_said(label, text), "its name in Blender"
+def test_nothing_of_one_machine():
+    assert wrong(lambda text, _: MACHINE.findall(text)) == {}
+
+
+@pytest.mark.parametrize("folder", ["tutorials", "how-to", "reference", "explanation", "notes"])
+def test_every_page_is_listed(folder):
+    contents = (DOCS / ("notes/README.md" if folder == "notes" else "README.md")).read_text("utf-8")
+    pages = {path.name for path in (DOCS / folder).glob("*.md")} - {"README.md"}
+    prefix = "" if folder == "notes" else f"{folder}/"
+    assert {name for name in pages if f"({prefix}{name}" not in contents} == set()
+
+
+def test_every_setting_is_explained():
+    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
+    for name, label in setting_names():
+        assert f"`{name}`" in text, f"{name}: its property"
+        assert is_said(label, text), f"{name}: its name in Blender"
 
 
 def test_every_choice_is_explained():
-    text = (DOCS / "settings.md").read_text("utf-8")
+    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
     for name, declared in FairingSettings.__annotations__.items():
         for key, label, *_ in declared.keywords.get("items", ()):
             assert is_said(label, text) and f"`{key}`" in text, f"{name}: {label}"
 
 
-@pytest.mark.parametrize("name", list(inspect.signature(discrete_fairing.fair).parameters))
-def test_every_argument_of_the_core_is_explained_once(name):
-    tables = (DOCS / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
-    assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1
+def test_every_argument_of_the_core_is_explained_once():
+    tables = (DOCS / "reference" / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    for name in inspect.signature(discrete_fairing.fair).parameters:
+        assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1, name
 
 
-@pytest.mark.parametrize("path", sorted(PICTURES.glob("*.png")), ids=named)
-def test_pictures_are_small_and_used(path):
-    assert path.stat().st_size <= 150_000
-    link = path.relative_to(DOCS).as_posix()
-    assert any(link in document.read_text("utf-8") for document in DOCUMENTS)
+def test_pictures_are_small_and_used():
+    texts = "".join(document.read_text("utf-8") for document in DOCUMENTS)
+    for path in [*PICTURES.glob("*.png"), *(DOCS / "images" / "tutorials").glob("*.png")]:
+        assert path.stat().st_size <= 150_000, path.name
+        assert path.relative_to(DOCS).as_posix() in texts, path.name
 
 
-@pytest.mark.parametrize("name", PYTHON)
-def test_examples_run(name, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("name", "left"), PYTHON.items())
+def test_examples_run(name, left, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PWD", str(tmp_path))  # by which Blender finds relative paths
     namespace = {}
@@ -161,20 +182,20 @@ def test_examples_run(name, tmp_path, monkeypatch):
     assert blocks
     for number, block in enumerate(blocks, 1):
         exec(compile(block, f"{name}, example {number}", "exec"), namespace)
-    assert [path.name for path in tmp_path.iterdir()] == ["faired.blend"]
+    assert [path.name for path in tmp_path.iterdir()] == left
 
 
 @pytest.mark.parametrize(
     "text",
-    ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](settings.md#nowhere)", "[x](#nowhere)"],
+    ["[x](nowhere.md)", "![x](images/nowhere.png)", "[x](packaging.md#nowhere)", "[x](#nowhere)"],
 )
 def test_a_broken_link_is_seen(text):
-    assert broken_links(text, DOCS, DOCS / "guide.md")
+    assert broken_links(text, DOCS, DOCS / "architecture.md")
 
 
 def test_a_good_link_is_let_through():
-    text = "[a](settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
-    assert broken_links(text, DOCS, DOCS / "guide.md") == []
+    text = "[a](reference/settings.md#levels) [b](https://example.org/) [c](../README.md)\n```python\nx[0](nowhere)\n```"
+    assert broken_links(text, DOCS, DOCS / "architecture.md") == []
 
 
 @pytest.mark.parametrize(

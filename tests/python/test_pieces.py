@@ -14,7 +14,7 @@ TIGHT = {"relative_residual": 1e-9}
 
 
 def bound(rings):
-    """Of the difference to the whole, as a share of its size (docs/pieces.md)."""
+    """Of the difference to the whole, as a share of its size (docs/how-to/pieces.md)."""
     return 5e-3 * 2.6**-rings
 
 

@@ -44,7 +44,7 @@ class Result:
     crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
     shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
     mended: Mended, the mesh that was faired, where it is not the one given; else None.
-    report: what the run did; see docs/numpy-api.md for its keys.
+    report: what the run did; see docs/reference/numpy-api.md for its keys.
     """
 
     def __init__(self, arrays: dict[str, Any]):

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What benchmarks have measured, and the Markdown that figures are written in."""
+
+import json
+from collections.abc import Iterable, Sequence
+from functools import cache
+from typing import Any
+
+from layout import ROOT
+
+RESULTS = ROOT / "benchmarks" / "results"
+
+
+@cache
+def result(name: str) -> Any:
+    """What one benchmark has measured."""
+    return json.loads((RESULTS / f"{name}.json").read_text("utf-8"))["result"]
+
+
+def short(value: float, digits: int = 2) -> str:
+    """A number with so many digits, never with an exponent from a thousandth to a million."""
+    if value and not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits - 1}e}".replace("e-0", "e-")
+    text = f"{value:.{digits}g}"
+    return f"{float(text):,.0f}" if "e" in text or abs(value) >= 1000 else text
+
+
+def span(values: Iterable[float], digits: int = 2) -> str:
+    """From the least to the largest: "1.4 to 2.8"."""
+    least, *_, most = sorted(values)
+    return f"{short(least, digits)} to {short(most, digits)}"
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table, in lines of its own."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n\n"

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures of docs/tutorials/, of the very meshes that their scripts make.
+
+    .venv/bin/python examples/render_tutorials.py           all of them, to docs/images/tutorials/
+    .venv/bin/python examples/render_tutorials.py hull      only those named
+
+Rendered by Cycles on the processor, some ten seconds a tile.
+"""
+
+import re
+import sys
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import bpy
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
+
+from render_row import View, draw_rows, render_tile  # noqa: E402
+
+OUT = ROOT / "docs" / "images" / "tutorials"
+HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
+SCAN = View(2.5, turn=20, elevation=12, height=1.0)
+MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
+
+
+def scripted(tutorial):
+    """The object that the tutorial's first script makes."""
+    text = (ROOT / "docs" / "tutorials" / f"{tutorial}.md").read_text("utf-8")
+    script = re.search(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    exec(compile(script[1], tutorial, "exec"), {})
+    return bpy.context.active_object
+
+
+def centred(target):
+    """`target` with its middle above the origin, where the camera looks."""
+    corners = [vertex.co for vertex in target.data.vertices]
+    for axis in (0, 1):
+        values = [co[axis] for co in corners]
+        target.location[axis] -= (min(values) + max(values)) / 2
+    return target
+
+
+def draw_hull(label, look, corrected, path):
+    hull = centred(scripted("hull"))
+    if corrected:
+        hull.data.vertices[MISREAD].co.y = MEANT
+    bpy.ops.object.fairing_for(purpose="HULL")
+    surface = bpy.context.active_object
+    render_tile(path, label, replace(HULL, look=look), hull, [surface], False)
+
+
+def draw_scan(label, look, steps, path):
+    scan = scripted("scan")
+    if steps > 0:
+        bpy.ops.object.fairing_fill()
+    if steps > 1:
+        bpy.ops.object.fairing_for(purpose="SCAN_PATCH")
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.shade_smooth()
+    render_tile(path, label, replace(SCAN, look=look), scan, [scan], False)
+
+
+ROWS = {
+    "hull": [
+        partial(draw_hull, "0.76, as read", "zebra", False),
+        partial(draw_hull, "0.70", "zebra", True),
+    ],
+    "scan": [
+        partial(draw_scan, "A scan", "clay", 0),
+        partial(draw_scan, "Filled", "clay", 1),
+        partial(draw_scan, "Filled", "zebra", 1),
+        partial(draw_scan, "Without noise", "zebra", 2),
+    ],
+}
+
+if __name__ == "__main__":
+    draw_rows(sys.argv[1:], ROWS, OUT)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What documents claim in several places is what the code does: defaults, what energies take, platforms, names."""
+
+import inspect
+import re
+import sys
+from pathlib import Path
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+from addon.preferences import DiscreteFairingPreferences
+from addon.settings import FairingSettings
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+REFERENCE = DOCS / "reference"
+USER_PAGES = [
+    ROOT / "README.md",
+    ROOT / "CHANGELOG.md",
+    *sorted(path for path in DOCS.rglob("*.md") if path.parent.name not in ("site", "notes")),
+]
+# How a notebook speaks: allowed in docs/notes alone.
+NOTEBOOK = re.compile(
+    r"\bTried\b|\b(?:was|were) tried\b|\bin trials?\b|\bof no use\b|\b[Tt]he targets? (?:of|was|were|is|are)\b|\*[Bb]efore\*|\| [Bb]efore\b"
+    r"|\bin a later run\b|\bearlier version\b|\bit used to\b|\bMissed targets\b"
+)
+# Words that nobody says any more, or that Blender's users do not.
+ARCHAIC = re.compile(
+    r"\banew\b|\bin place of\b|\bforetold\b|\bfor want of\b|\bwillingly\b|\bthereof\b|\bupon\b|\bis of use\b"
+)
+STATED_DEFAULT = re.compile(r"`(\w+)`, default ([\d.]+)|\(`(\w+)`, (\d[\d.]*) by default\)")
+
+
+def named(path):
+    return path.relative_to(ROOT).as_posix()
+
+
+def table_rows(text, first):
+    """Cells of the rows of the first table whose head begins with `first`."""
+    lines = text[text.index(f"| {first}") :].split("\n\n")[0].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+def found_in_pages(pattern):
+    """Where a pattern stands in pages that it has no place in."""
+    found = {named(path): pattern.findall(path.read_text("utf-8")) for path in USER_PAGES}
+    return {name: words for name, words in found.items() if words}
+
+
+def test_only_notes_say_how_things_came_about():
+    assert found_in_pages(NOTEBOOK) == {}
+
+
+def test_nothing_is_said_in_old_words():
+    assert found_in_pages(ARCHAIC) == {}
+
+
+@pytest.mark.parametrize("text", ["Tried, and of no use:", "The target was 40.", "| Before |"])
+def test_a_notebook_is_seen(text):
+    assert NOTEBOOK.search(text)
+
+
+def test_stated_defaults_are_those_of_the_code():
+    checked = 0
+    for path in USER_PAGES:
+        for match in STATED_DEFAULT.finditer(path.read_text("utf-8")):
+            name, value = (match[1], match[2]) if match[1] else (match[3], match[4])
+            assert default_of(name) == float(value), (named(path), match[0])
+            checked += 1
+    assert checked
+
+
+def default_of(name):
+    """Of a setting in Blender, or an argument of the core."""
+    if name in FairingSettings.__annotations__:
+        return FairingSettings.__annotations__[name].keywords["default"]
+    return inspect.signature(df.fair).parameters[name].default
+
+
+def test_settings_have_the_defaults_that_their_page_says():
+    text = (REFERENCE / "settings.md").read_text("utf-8")
+    stated = dict(re.findall(r"`(\w+)`(?: \([\w ]+\))?, (on|off|[\d.]+)(?=°|,|;|$| |\n)", text))
+    declared = FairingSettings.__annotations__
+    checked = 0
+    for name, value in stated.items():
+        if name not in declared:
+            continue
+        default = declared[name].keywords["default"]
+        if isinstance(default, bool):
+            assert default == (value == "on"), name
+        elif declared[name].keywords.get("subtype") == "ANGLE":
+            assert np.degrees(default) == pytest.approx(float(value)), name
+        else:
+            assert default == float(value), name
+        checked += 1
+    assert checked > 15
+
+
+def test_preferences_have_the_defaults_that_their_table_says():
+    rows = table_rows((REFERENCE / "settings.md").read_text("utf-8"), "Preference |")
+    for _, name, value, _ in rows:
+        default = DiscreteFairingPreferences.__annotations__[name.strip("`")].keywords["default"]
+        assert str(default) == value.strip("`"), name
+
+
+def test_arguments_have_the_defaults_that_their_tables_say():
+    text = (REFERENCE / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    parameters = inspect.signature(df.fair).parameters
+    checked = 0
+    for names, value in re.findall(r"^\| ([^|]*) \| `?([^|`]*)`? \|", text, re.MULTILINE):
+        for name in re.findall(r"`(\w+)`", names)[:1]:
+            default = parameters[name].default
+            said = value.strip().strip('"')
+            if said in ("", "none"):
+                assert default in (inspect.Parameter.empty, None), name
+            elif isinstance(default, bool) or default is None or isinstance(default, str):
+                assert str(default) == said, name
+            else:
+                assert float(default) == float(said), name
+            checked += 1
+    assert checked > 30
+
+
+# Each row of the table of energies: how fair is asked for it.
+ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
+
+
+def moebius_strip():
+    """Nine quads around, joined with a half turn."""
+    turns = 2 * np.pi * np.arange(9) / 9
+    rim = [
+        [
+            (2 + s * np.cos(t / 2)) * np.cos(t),
+            (2 + s * np.cos(t / 2)) * np.sin(t),
+            s * np.sin(t / 2),
+        ]
+        for t in turns
+        for s in (-0.5, 0.5)
+    ]
+    faces = [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(8)] + [(16, 1, 0, 17)]
+    return np.array(rim), faces
+
+
+CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+NORMALS = np.full((8, 3), np.nan)
+NORMALS[7] = 1.0
+ASKED = {
+    "One-sided sheets": (moebius_strip(), {}),
+    "Fixed normals (`normals`)": ((CUBE, SIDES), {"normals": NORMALS}),
+    "Tension (`tension`)": ((CUBE, SIDES), {"tension": 0.5}),
+    "`epsilon`": ((CUBE, SIDES), {"epsilon": 0.1}),
+    '`method="back_leg"`': ((CUBE, SIDES), {"method": "back_leg"}),
+    "Tolerance and weights": ((CUBE, SIDES), {"interpolation": "approximate", "tolerance": 0.1}),
+    '`interpolation="limit"`': ((CUBE, SIDES), {"interpolation": "limit"}),
+}
+
+
+def takes(mesh, options, energy):
+    try:
+        df.fair(*mesh, levels=1, energy=energy, **options)
+    except df.FairingError:
+        return False
+    return True
+
+
+def test_the_table_of_energies_is_what_the_core_takes():
+    rows = table_rows((REFERENCE / "numpy-api.md").read_text("utf-8"), "| Thin plate")
+    said = {what: [cell == "yes" for cell in cells] for what, *cells in rows}
+    assert said.keys() == ASKED.keys()
+    found = {
+        what: [takes(mesh, options, energy) for energy in ENERGIES]
+        for what, (mesh, options) in ASKED.items()
+    }
+    assert said == found
+
+
+def test_no_page_says_that_one_sided_surfaces_cannot_be_faired():
+    for path in USER_PAGES:
+        for sentence in re.split(r"(?<=[.!?])\s", path.read_text("utf-8")):
+            one_sided = re.search(r"one-sided|Möbius", sentence, re.IGNORECASE)
+            assert not (one_sided and "cannot be faired" in sentence), (path.name, sentence)
+
+
+def test_no_page_says_that_zips_are_for_one_platform():
+    """`dev.py extension --all` makes them for five."""
+    only = r"(?:only (?:for|on) Linux|Linux[^.|]{0,20} only)"
+    assert found_in_pages(re.compile(rf"[Zz]ips?[^.|]{{0,40}}{only}")) == {}
+
+
+def test_every_public_name_of_the_package_is_explained():
+    text = (REFERENCE / "numpy-api.md").read_text("utf-8")
+    missing = [n for n in df.__all__ if not re.search(rf"\b{n}\b", text)]
+    assert missing == []
+
+
+def test_packaging_names_the_platforms_that_zips_are_made_for():
+    sys.path.insert(0, str(ROOT / "build_tools"))
+    try:
+        from cross import targets
+    finally:
+        sys.path.pop(0)
+    text = (DOCS / "packaging.md").read_text("utf-8")
+    platforms = {target.name for target in targets.TARGETS}
+    assert platforms and all(f"`{name.replace('-', '_')}`" in text for name in platforms)
