@@ -7,7 +7,7 @@ Plain arrays, no Blender.
 
 import re
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -180,20 +180,28 @@ def takes_normals(settings: Any) -> bool:
     return settings.energy == "THIN_PLATE"
 
 
+# From pieces, and memory_limit (bytes) of each, to their parts.
+Spread = Callable[[Sequence[Any], int], Iterable[Any]]
+
+
 def faired(
     arguments: Mapping[str, Any],
     pieces: int | None = None,
+    spread: Spread | None = None,
     progress: Callable[[float, str], bool | None] | None = None,
     **monitor: Any,
 ) -> Any:
     """discrete_fairing's Result for `fair_arguments`; with `pieces`, of so many, one after another:
-    then the run takes the memory of one, and nothing is measured.
+    then the run takes the memory of one, and nothing is measured. `spread` fairs them otherwise, and
+    `progress` then hears of parts that are done.
     """
     if pieces is None:
         return module().fair(**arguments, progress=progress, **monitor)
     own = {name: value for name, value in arguments.items() if name != "measure"}
     run = {name: own.pop(name) for name in ("threads", "memory_limit")} | monitor
     cut = module().pieces(**own, count=pieces)
+    if spread is not None:
+        return module().join(_told(spread(cut, run["memory_limit"]), len(cut), progress))
 
     def told(index: int) -> Callable[[float, str], bool | None]:
         def tell(fraction: float, phase: str) -> bool | None:
@@ -202,6 +210,15 @@ def faired(
         return tell
 
     return module().join(piece.fair(**run, progress=told(piece.index)) for piece in cut)
+
+
+def _told(
+    parts: Iterable[Any], count: int, progress: Callable[[float, str], bool | None] | None
+) -> Iterator[Any]:
+    for done, part in enumerate(parts):
+        if progress:
+            progress((done + 1) / count, "pieces")
+        yield part
 
 
 def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:

@@ -95,13 +95,14 @@ class Job:
         if self.arrays.normals is not None and not core.takes_normals(self.settings):
             self.notes.append("Fixed normals are left out: only Thin Plate holds them.")
         self.pieces: int | None = None  # faired one after another; None: as a whole
+        self.spread: core.Spread | None = None  # how pieces are faired otherwise
         self.result: Any = None
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         with errors.explained(self.name):
-            self.result = core.faired(self.arguments, self.pieces, **watchers)
+            self.result = core.faired(self.arguments, self.pieces, self.spread, **watchers)
         self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
         self._at_tolerance = core.at_tolerance(self.arguments, self.result.vertices)

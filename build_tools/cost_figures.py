@@ -172,13 +172,17 @@ def cancel_largest() -> str:
 def pieces_table() -> str:
     """Surfaces made in pieces, by their size."""
     heads = ["triangles", "pieces", "a worker's peak, all its memory"]
-    heads += ["processor", "on disk", "largest jump / size"]
+    heads += ["time", "processor", "on disk", "largest jump / size"]
     rows = []
     for s in result("piecewise")["sizes"]:
         work, share = s["work"], s["judge"]["jump"]["share"]
         row = [f"{s['triangles'] / 1e6:.3g} million", str(s["pieces"])]
-        row += [f"{work['resident_bytes'] / 1e6:,.0f} MB", f"{short(work['processor'])} s"]
-        rows.append([*row, f"{s['bytes_of_parts'] / 1e6:.3g} MB", short(share) if share else "–"])
+        row += [f"{work['resident_bytes'] / 1e6:,.0f} MB"]
+        row += [
+            f"{work[clock]:,.3g} s" if work[clock] < 1000 else f"{work[clock]:,.0f} s"
+            for clock in ("wall", "processor")
+        ]
+        rows.append([*row, f"{s['bytes_of_parts'] / 1e6:,.0f} MB", short(share) if share else "–"])
     return table(heads, rows)
 
 
@@ -186,6 +190,11 @@ def pieces_rate() -> str:
     """Seconds of a core for a million triangles."""
     runs = result("piecewise")["sizes"]
     return span(1e6 * s["work"]["processor"] / s["triangles"] for s in runs)
+
+
+def two_workers() -> str:
+    """How many times as fast as one worker two are."""
+    return f"{2 * result('piecewise')['two_workers']['efficiency']:.2f}"
 
 
 def rings_table() -> str:
@@ -222,5 +231,6 @@ COST: dict[str, Callable[[], str]] = {
     "cancel.largest": cancel_largest,
     "pieces.table": pieces_table,
     "pieces.rate": pieces_rate,
+    "pieces.two_workers": two_workers,
     "pieces.rings.table": rings_table,
 }

@@ -8,7 +8,7 @@ import sys
 import time
 import traceback
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from types import SimpleNamespace
 from typing import Any, TextIO
 
@@ -19,7 +19,7 @@ from ..blender import Mesh, Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import report, step
+from . import engines, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -38,7 +38,7 @@ def main(argv: list[str]) -> int:
         _say(core.why_missing())
         return NO_NATIVE_MODULE
     with _standard_output(arguments.json) as output, _interruptible():
-        records, exit_code = _run_all(arguments, settings, ways)
+        records, exit_code = _run_all(arguments, settings, ways, argv)
         return _write_report(arguments.json, output, exit_code, records)
 
 
@@ -49,6 +49,9 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
     try:
         settings = settings_of(arguments)
         ways = places(arguments.inputs, arguments.output, arguments.format)
+        ways = ways[arguments.only] if arguments.only else ways
+        if arguments.scheduler is not None and arguments.jobs > 1:
+            raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
         no_report_over(arguments.json, ways)
         arguments.patches = step.wanted_of(arguments, settings, ways)
         return arguments, settings, ways
@@ -57,26 +60,92 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
 
 
 def _run_all(
-    arguments: argparse.Namespace, settings: SimpleNamespace, ways: list[Place]
+    arguments: argparse.Namespace,
+    settings: SimpleNamespace,
+    ways: list[Place],
+    argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
     records = [report.new_record(way, shown(settings)) for way in ways]
-    width = max(len(record["input"]) for record in records)
-    if not arguments.quiet:
-        to_cad = arguments.patches is not None
-        _say(step.table_head(width) if to_cad else report.table_head(width, settings.energy))
-    for way, record in zip(ways, records):
-        try:
-            _run_one(way, record, arguments, settings)
-        except KeyboardInterrupt:
-            record["status"] = report.CANCELLED
-            record["error"] = report.error_entry("CANCELLED", "Interrupted.")
-            _say(f"{way.source}: interrupted")
-            return records, INTERRUPTED
-        if record["status"] == report.DONE and not arguments.quiet:
-            _say((step if is_cad(way.target) else report).table_line(record, width))
+    table = _Table(arguments, ways, records, settings.energy)
+    spread = engines.is_spread(arguments)
+    try:
+        with engines.engine(arguments) if spread else nullcontext() as engine:
+            if engine is not None and arguments.pieces is None:
+                _run_shares(engine, argv, records, table)
+            else:
+                arguments.spread = engine and engine.faired
+                for index, way in enumerate(ways):
+                    _run_one(way, records[index], arguments, settings)
+                    table.line(index)
+    except engines.NoEngine as error:
+        _say(f"error: {error}")
+        return records, SOME_FAILED
+    except KeyboardInterrupt:
+        _note_interruption(records, all_of_them=spread and arguments.pieces is None)
+        return records, INTERRUPTED
     failed = any(record["status"] == report.FAILED for record in records)
     return records, SOME_FAILED if failed else ALL_DONE
+
+
+def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None:
+    """In the record of the input whose turn it was; or of all that were not done, side by side."""
+    waiting = [record for record in records if record["status"] == report.NOT_RUN]
+    for record in waiting if all_of_them else waiting[:1]:
+        record["status"] = report.CANCELLED
+        record["error"] = report.error_entry("CANCELLED", "Interrupted.")
+    if waiting:
+        _say(f"{waiting[0]['input']}: interrupted")
+
+
+class _Table:
+    """A line for each input that is done, for people, if they want any."""
+
+    def __init__(
+        self,
+        arguments: argparse.Namespace,
+        ways: list[Place],
+        records: list[dict[str, Any]],
+        energy: str,
+    ) -> None:
+        self.is_wanted = not arguments.quiet
+        self._ways, self._records = ways, records
+        self._width = max((len(record["input"]) for record in records), default=0)
+        if self.is_wanted:
+            to_cad = arguments.patches is not None
+            _say(step.table_head(self._width) if to_cad else report.table_head(self._width, energy))
+
+    def line(self, index: int) -> None:
+        record = self._records[index]
+        if record["status"] == report.DONE and self.is_wanted:
+            kind = step if is_cad(self._ways[index].target) else report
+            _say(kind.table_line(record, self._width))
+
+
+def _run_shares(
+    engine: engines.Engine, argv: Sequence[str], records: list[dict[str, Any]], table: _Table
+) -> None:
+    """All files, side by side; says of each what this process would have said."""
+    for share, found in engines.run_files(engine, argv, len(records)):
+        for k, index in enumerate(share):
+            record = records[index]
+            if isinstance(found, str):
+                _fail(record, "INTERNAL", (), f"{record['input']}: {found}")
+                continue
+            record.update(found[k])
+            if record["error"] is not None:
+                _say(f"error: {record['error']['message']}")
+            for entry in record["objects"] if table.is_wanted else ():
+                _say_mended(record["input"], entry["report"].get("repairs"))
+            for warning in record["warnings"]:
+                _say(f"{record['input']}: warning: {warning}")
+            table.line(index)
+
+
+def _say_mended(name: object, repairs: Any) -> None:
+    mended = repairs_text(repairs) if repairs else ""
+    if mended:
+        _say(f"{name}: mended: {mended}")
 
 
 def _run_one(
@@ -118,7 +187,7 @@ def _fair_file(
                 job.arguments["weld"] = arguments.weld
             if arguments.threads is not None:
                 job.arguments["threads"] = arguments.threads
-            job.pieces = arguments.pieces
+            job.pieces, job.spread = arguments.pieces, arguments.spread
             job.compute(**{} if arguments.quiet else {"progress": progress})
             progress.next_run()
     finally:
@@ -126,9 +195,8 @@ def _fair_file(
     if patches is not None:
         step.require_patches(jobs)
     for job, source in zip(jobs, sources):
-        mended = repairs_text(job.result.report["repairs"])
-        if mended and not arguments.quiet:
-            _say(f"{way.source}: mended: {mended}")
+        if not arguments.quiet:
+            _say_mended(way.source, job.result.report["repairs"])
         for warning in job.warnings():
             record["warnings"].append(warning)
             _say(f"{way.source}: warning: {warning}")

@@ -264,11 +264,25 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--pieces",
-        type=_pieces,
+        type=_whole_number,
         metavar="N",
         help="fair each mesh in so many pieces, one after another, in the memory of one; needs the Python package "
         "pymetis [whole]",
     )
+    made.add_argument(
+        "--jobs",
+        type=_whole_number,
+        default=1,
+        metavar="N",
+        help="so many files at a time, each by a Blender of its own; with --pieces so many pieces at a time [1]",
+    )
+    made.add_argument(
+        "--scheduler",
+        metavar="tcp://HOST:PORT",
+        help="the same on the workers of a Dask cluster, which see the files under the same names; needs the Python "
+        "package distributed [none]",
+    )
+    made.add_argument("--only", type=_share, metavar="FIRST:END", help=argparse.SUPPRESS)
     made.add_argument(
         "--json",
         metavar="FILE|-",
@@ -302,7 +316,13 @@ def _distance(text: str) -> float:
     return value
 
 
-def _pieces(text: str) -> int:
+def _share(text: str) -> slice:
+    """Of the inputs, for one task of an engine."""
+    first, end = map(int, text.split(":"))
+    return slice(first, end)
+
+
+def _whole_number(text: str) -> int:
     if not text.isdecimal() or not 0 < int(text) < 2**31:
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, 1 or more")
     return int(text)

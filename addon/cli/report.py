@@ -94,7 +94,7 @@ def table_line(record: dict[str, Any], width: int) -> str:
 
 def _accuracy(reports: list[Mapping[str, Any]], energy: str) -> str:
     if energy == "THIN_PLATE":
-        return f"{max(report.get('residuals', [nan])[-1] for report in reports):>9.1e}"
+        return f"{max(_number(report.get('residuals', [nan])[-1]) for report in reports):>9.1e}"
     most_steps = max(core.step_count(report) or 0 for report in reports)
     decrement = max(core.last_decrement(report) or 0.0 for report in reports)
     return f"{most_steps:>6} {decrement:>9.1e}"
@@ -103,7 +103,12 @@ def _accuracy(reports: list[Mapping[str, Any]], energy: str) -> str:
 def _energy(report: Mapping[str, Any], record: dict[str, Any], state: str) -> float:
     # before and after are told for two energies; the third makes little of the total curvature too
     told = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
-    return report.get("energy", {}).get(state, {}).get(told, nan)
+    return _number(report.get("energy", {}).get(state, {}).get(told, nan))
+
+
+def _number(value: float | None) -> float:
+    """What another process has told by JSON, which knows no NaN."""
+    return nan if value is None else value
 
 
 def _finite(value: Any) -> Any:

@@ -25,12 +25,13 @@ py::array rows(const std::vector<T>& values, std::size_t columns) {
 }
 
 py::dict outline_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                        const Contiguous<std::int64_t>& offsets, const FairOptions& options,
-                        Monitor& monitor) {
+                        const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
+                        FairOptions options, Monitor& monitor) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
-  const FairOptions own = options;
+  const std::vector<double> positions = copy_of(shapes);
+  options.shapes = positions;
   Outline outline;
-  Runner().run([&] { outline = outline_of(mesh.view(), own, monitor); }, monitor, nullptr,
+  Runner().run([&] { outline = outline_of(mesh.view(), options, monitor); }, monitor, nullptr,
                py::none());
   py::dict d;
   d["vertices"] = rows(outline.mesh.coordinates, 3);
@@ -47,6 +48,7 @@ py::dict outline_arrays(const Contiguous<double>& vertices, const Contiguous<std
   d["edge_kind"] = column(outline.edge_kind);
   d["curve"] = column(outline.curve);
   d["curve_points"] = rows(outline.curve_points, 3);
+  d["shapes"] = rows(outline.shapes, 3);
   d["units"] = py::make_tuple(outline.units.edge, outline.units.edge_in_space, outline.units.weight,
                               outline.units.weight_in_space);
   py::dict report;
@@ -75,8 +77,10 @@ void bind_outline(py::module_& m) {
   m.attr("curve_edge") = int(curve_edge);
   m.attr("boundary_edge") = int(boundary_edge);
   m.attr("split_edge") = int(split_edge);
+  m.attr("straight_edge") = int(straight_edge);
   m.def("outline", &outline_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("options"), py::arg("monitor"),
+        py::arg("offsets").noconvert(), py::arg("shapes").noconvert(), py::arg("options"),
+        py::arg("monitor"),
         "What is decided once for a whole mesh; the package's pieces() cuts it up.");
 }
 

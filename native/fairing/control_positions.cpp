@@ -61,10 +61,14 @@ ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> worl
 
 using Pair = std::array<std::int64_t, 2>;
 
-// Handed points take the place of those that a piece of the chain would have.
-void take_handed(const ControlMesh& mesh, const HandedCurves& handed, FeatureCurves& curves) {
+// Handed points take the place of those that a piece of the chain would have. `surface`: 0 for the
+// mesh, s + 1 for shape s.
+void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
+                 FeatureCurves& curves) {
   const auto inner = std::size_t(curves.points_per_edge);
-  if (handed.points.size() != 3 * inner * handed.edges.size())
+  const std::size_t size = 3 * inner * handed.edges.size();
+  if (size == 0 ? !handed.points.empty()
+                : handed.points.size() % size || handed.points.size() / size <= surface)
     throw FairingError(ErrorCode::bad_shape, "Curves of the whole have points of another level.");
   std::vector<std::pair<Pair, std::size_t>> place;
   for (std::size_t k = 0; k < handed.edges.size(); ++k) {
@@ -79,7 +83,7 @@ void take_handed(const ControlMesh& mesh, const HandedCurves& handed, FeatureCur
     const Pair pair{std::min(from, to), std::max(from, to)};
     const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
     if (at == place.end() || at->first != pair) continue;
-    const double* points = handed.points.data() + 3 * inner * at->second;
+    const double* points = handed.points.data() + surface * size + 3 * inner * at->second;
     Vec3* own = curves.points.data() + std::size_t(curves.run[std::size_t(e)]) * inner;
     const bool along = handed.edges[at->second][0] == from;
     for (std::size_t k = 0; k < inner; ++k)
@@ -109,7 +113,7 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
                                    const Frame& frame, int subdivisions, double exponent,
                                    const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
-  take_handed(mesh, handed, curves);
+  take_handed(mesh, handed, 0, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
@@ -126,9 +130,11 @@ std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> b
 
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent) {
+                                    int subdivisions, double exponent, const HandedCurves& handed,
+                                    std::size_t shape) {
   std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
+  if (!handed.edges.empty()) take_handed(mesh, handed, shape + 1, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 

@@ -50,10 +50,11 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
 
 // Of other positions of the input's vertices: `coordinates`, in world coordinates, 3 a vertex. A
 // linear map of them: the parameters of curves and the centres' weights in their polygons are
-// those of `basis_world`.
+// those of `basis_world`. Handed curves are those of the shape with this number.
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent);
+                                    int subdivisions, double exponent,
+                                    const HandedCurves& handed = {}, std::size_t shape = 0);
 
 // `coordinates`, 3 numbers an input vertex, as positions of all control vertices: copies and centres
 // follow, the latter by their weights in `basis_world`.

@@ -22,9 +22,12 @@ namespace {
 constexpr double start_tolerance = 1e-3;
 
 // A shape may repeat the mesh or an earlier shape, as unused shape keys do: the number of the first
-// surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none.
-std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> shapes,
+// surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none. Handed
+// curves may differ where these positions do not.
+std::ptrdiff_t same_before(const PolygonMesh& input, const FairOptions& options,
                            std::size_t shape) {
+  if (!options.whole.curves.edges.empty()) return -1;
+  const std::span<const double> shapes = options.shapes;
   const std::size_t size = input.coordinates.size();
   const auto own = shapes.subspan(shape * size, size);
   for (std::size_t s = 0; s <= shape; ++s) {
@@ -50,12 +53,10 @@ void fair_once(FairingSystems& systems, const ControlPositions& control, bool me
 void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const PolygonMesh& input,
                  Stopwatch& watch, Monitor& monitor, FairResult& result) {
   Report& report = result.report;
-  const std::size_t size = input.coordinates.size();
-  const std::span<const double> shapes = problem.options.shapes;
-  const std::size_t count = problem.options.shape_count(size);
+  const std::size_t count = problem.options.shape_count(input.coordinates.size());
   for (std::size_t s = 0; s < count; ++s) {
     monitor.enter_part(double(s + 1) / double(count + 1), double(s + 2) / double(count + 1));
-    const std::ptrdiff_t same = same_before(input, shapes, s);
+    const std::ptrdiff_t same = same_before(input, problem.options, s);
     if (same == 0) {
       result.shapes.push_back(result.vertices);
       report.shapes.push_back(
@@ -68,7 +69,7 @@ void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const P
       continue;
     }
     watch.enter(Phase::curves, 0);
-    const ControlPositions control = problem.control_positions(shapes.subspan(s * size, size));
+    const ControlPositions control = problem.shape_positions(s);
     require_in_reach(problem.mesh, control);
     Report own;
     fair_once(systems, control, false, watch, own, result.shapes.emplace_back());

@@ -7,7 +7,9 @@
 
 #include "curves/feature_curves.h"
 #include "fairing/checked.h"
+#include "fairing/control_positions.h"
 #include "fairing/fair.h"
+#include "fairing/held_positions.h"
 #include "fairing/mending.h"
 #include "parallel/cancel.h"
 
@@ -55,15 +57,35 @@ void take_edges(const ControlMesh& mesh, Outline& out) {
                                          (boundary ? boundary_edge : 0) |
                                          (mesh.inside_polygon(e) ? split_edge : 0)));
   }
+  for (const Chain& chain : mesh.chains)
+    for (const Index e : chain.edges)
+      if (chain.straight && e < mesh.first_copied_edge())
+        out.edge_kind[std::size_t(e)] |= straight_edge;
 }
 
-void take_curves(const ControlMesh& mesh, int subdivisions, double exponent, Outline& out) {
-  const FeatureCurves curves = refine_feature_edges(mesh, subdivisions, exponent);
-  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
-    if (curves.run[std::size_t(e)] < 0) continue;
-    out.curve.push_back(e);
-    for (const Vec3& p : curves.of(e))
-      out.curve_points.insert(out.curve_points.end(), p.data(), p.data() + 3);
+// Curves and centres, of the mesh and of each shape. `held`: where the mesh is, one a control vertex.
+void take_surfaces(const ControlMesh& mesh, const HeldPositions& held, double exponent,
+                   Outline& out) {
+  const int subdivisions = 1 << out.options.levels;
+  const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
+    for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
+      const Vec3& centre = world[std::size_t(c)];
+      out.centres.insert(out.centres.end(), centre.data(), centre.data() + 3);
+    }
+    for (const Index e : out.curve)
+      for (const Vec3& p : curves.of(e))
+        out.curve_points.insert(out.curve_points.end(), p.data(), p.data() + 3);
+  };
+  const FeatureCurves own =
+      refine_feature_edges(mesh, held.world, held.world, subdivisions, exponent);
+  for (Index e = 0; e < mesh.first_copied_edge(); ++e)
+    if (own.run[std::size_t(e)] >= 0) out.curve.push_back(e);
+  append(own, held.world);
+  const std::size_t size = out.mesh.coordinates.size();
+  for (std::size_t s = 0; s * size < out.shapes.size(); ++s) {
+    const std::span<const double> shape = std::span(out.shapes).subspan(s * size, size);
+    const std::vector<Vec3> world = all_positions(mesh, held.world, held.of(shape));
+    append(refine_feature_edges(mesh, held.world, world, subdivisions, exponent), world);
   }
 }
 
@@ -73,21 +95,21 @@ Outline outline_of(const Mending& mending) {
   const FairOptions& options = out.options;
   check_options(mending.mesh(), options);
   check_mesh(mending.mesh(), options, out.report);
-  const ControlMesh mesh =
-      make_control_mesh(mending.mesh(), options.features, out.report.flipped_faces);
+  check_shapes(mending.mesh(), options.shapes);
+  out.shapes.assign(options.shapes.begin(), options.shapes.end());
+  ControlMesh mesh = make_control_mesh(mending.mesh(), options.features, out.report.flipped_faces);
   out.report.sheets = sheets_of(mesh);
   out.mesh = turned(mending.mesh(), out.report.flipped_faces);
   if (mending.mended()) out.mended = *mending.mended();
-  for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
-    const Vec3& centre = mesh.positions[std::size_t(c)];
-    out.centres.insert(out.centres.end(), centre.data(), centre.data() + 3);
-  }
   take_faces(mesh, out);
   take_edges(mesh, out);
   const double exponent = options.paper.metric_exponent(options.metric_exponent);
-  take_curves(mesh, 1 << options.levels, exponent, out);
+  HeldPositions held = held_positions(mending.mesh(), mesh, options);
+  take_surfaces(mesh, held, exponent, out);
+  mesh.positions = std::move(held.world);
   out.units = measure_units(mesh, exponent);
   mending.restore(out.report);
+  out.options.shapes = {};  // of `mending`
   return out;
 }
 

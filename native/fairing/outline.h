@@ -21,6 +21,7 @@ enum EdgeKind : std::uint8_t {
   curve_edge = 1,     // a crease, or a boundary that is not free
   boundary_edge = 2,  // of one face
   split_edge = 4,     // inside a polygon of the input
+  straight_edge = 8,  // of a boundary that is not smoothed
 };
 
 // Ids are those of the result: of its sheets, which are joined, and in the order of its points
@@ -31,7 +32,8 @@ struct Outline {
   std::optional<MendedMesh> mended{};  // where that is not the one given
   FairOptions options{};               // as of that mesh
 
-  std::vector<double> centres{};        // of split polygons, 3 numbers each: behind the vertices
+  // Of split polygons, 3 numbers each, behind the vertices: those of the mesh, then of each shape.
+  std::vector<double> centres{};
   std::vector<std::int32_t> face{};     // 4 vertices a control face; -1 behind those of a triangle
   std::vector<std::int32_t> polygon{};  // 1 a control face: the face of `mesh` that it is part of
   std::vector<std::int32_t> side_edge{};  // 4 a control face
@@ -39,9 +41,11 @@ struct Outline {
   std::vector<std::int32_t> edge{};       // 2 vertices an edge
   std::vector<std::uint8_t> edge_kind{};  // EdgeKind
   std::vector<std::int32_t> curve{};      // the edges that have refined curves, ascending
-  std::vector<double> curve_points{};     // inside each of these, from its first vertex on; world
-  MeshUnits units{};                      // in world coordinates
-  Report report{};                        // warnings, repairs, turned faces, sheets
+  // Inside each of these, from its first vertex on; world: all those of the mesh, then of each shape.
+  std::vector<double> curve_points{};
+  std::vector<double> shapes{};  // other positions of the mesh's vertices, shape after shape
+  MeshUnits units{};             // in world coordinates
+  Report report{};               // warnings, repairs, turned faces, sheets
 };
 
 // Throws FairingError as fair() does for what is wrong with the mesh or the options.

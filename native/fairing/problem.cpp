@@ -15,10 +15,6 @@
 namespace fairing {
 namespace {
 
-bool goes_through_limits(const FairOptions& options) {
-  return options.interpolation == Interpolation::limit;
-}
-
 // Of a run, as far as it can be counted, `held` and what mending took included.
 RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::int64_t held) {
   const FairOptions& options = problem.options;
@@ -30,23 +26,10 @@ RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::in
   };
   add(held);
   add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
-  if (goes_through_limits(options)) add(std::int64_t(LimitPositions::bytes(input)));
+  if (options.interpolation == Interpolation::limit)
+    add(std::int64_t(LimitPositions::bytes(input)));
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
-}
-
-// One a control vertex. Where they fall together the charts would have no shape.
-std::vector<Vec3> limits_of_input(const FairingProblem& problem, const PolygonMesh& input) {
-  const std::vector<double> moved = problem.limits.of(input.coordinates);
-  try {
-    check({moved, input.corners, input.offsets}, {problem.options.repair == Repair::mend});
-  } catch (const FairingError& error) {
-    throw FairingError(error.code,
-                       std::string("At the limit positions of the vertices: ") + error.what() +
-                           " Or use a lower limit, or interpolation=\"exact\".",
-                       error.elements, error.kind);
-  }
-  return all_positions(problem.mesh, problem.mesh.positions, moved);
 }
 
 // The whole's, where this is a piece of it.
@@ -126,12 +109,8 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   expect_memory(report);
   const auto& given = problem->mesh.positions;
   std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
-  std::vector<Vec3> world = given;
-  if (goes_through_limits(options)) {
-    problem->limits = LimitPositions(input, problem->mesh, options.features.corner_vertices,
-                                     options.sharpness, options.limit);
-    world = limits_of_input(*problem, input);
-  }
+  problem->held = held_positions(input, problem->mesh, options);
+  std::vector<Vec3> world = problem->held.world;
   make_about(std::move(world), std::move(cage), watch, *problem);
   return problem;
 }
@@ -141,18 +120,25 @@ std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double>
                                                          Stopwatch& watch) {
   auto problem = std::make_unique<FairingProblem>(FairingProblem{
       like.options, like.workers, like.mesh, like.exponent, like.unknowns, like.normals});
-  problem->limits = like.limits;
+  problem->held = like.held;
   ControlPositions next = like.control_positions(coordinates);
   make_about(std::move(next.world), std::move(next.cage), watch, *problem);
   return problem;
 }
 
 ControlPositions FairingProblem::control_positions(std::span<const double> coordinates) const {
-  const auto positions = [&](std::span<const double> held) {
-    return positions_of_shape(mesh, basis.world, held, frame, 1 << options.levels, exponent);
-  };
-  if (!goes_through_limits(options)) return positions(coordinates);
-  ControlPositions control = positions(limits.of(coordinates));
+  return about(coordinates, {}, 0);
+}
+
+ControlPositions FairingProblem::shape_positions(std::size_t shape) const {
+  const std::size_t size = 3 * std::size_t(mesh.input_vertices);
+  return about(options.shapes.subspan(shape * size, size), options.whole.curves, shape);
+}
+
+ControlPositions FairingProblem::about(std::span<const double> coordinates,
+                                       const HandedCurves& handed, std::size_t shape) const {
+  ControlPositions control = positions_of_shape(mesh, basis.world, held.of(coordinates), frame,
+                                                1 << options.levels, exponent, handed, shape);
   for (std::size_t v = 0; v < control.cage.size(); ++v)
     control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
   return control;

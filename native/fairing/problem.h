@@ -8,6 +8,7 @@
 
 #include "fairing/control_positions.h"
 #include "fairing/fixed_normals.h"
+#include "fairing/held_positions.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
 #include "fairing/symmetry.h"
@@ -24,7 +25,7 @@ struct FairingProblem {
   double exponent;   // of the metric
   Unknowns unknowns;
   ChosenNormals normals;
-  LimitPositions limits{};  // where the surface passes through them
+  HeldPositions held{};
 
   // Of the positions that charts and stencils are made about.
   Frame frame{};
@@ -39,6 +40,8 @@ struct FairingProblem {
   // Other positions of the input's vertices, 3 numbers each in world coordinates, with the basis'
   // parameters of curves.
   ControlPositions control_positions(std::span<const double> coordinates) const;
+  // Of one of the options' shapes, with the curves that are handed down for it.
+  ControlPositions shape_positions(std::size_t shape) const;
   // The mirror symmetries that the mesh has with these positions too.
   Mirrors mirrors_of(const ControlPositions& control) const {
     return kept_by(control, mesh, frame, mirrors);
@@ -53,6 +56,8 @@ struct FairingProblem {
   }
 
  private:
+  ControlPositions about(std::span<const double> coordinates, const HandedCurves& handed,
+                         std::size_t shape) const;
   // One an input vertex and copy: in working coordinates, infinity: none; the caller's, or empty.
   std::vector<double> working_tolerances() const;
   std::vector<double> weights_with_copies() const;

@@ -26,7 +26,9 @@ MeshUnits in_lengths_of(const MeshUnits& units, double scale, double exponent);
 // Refined curves, an edge at a time: a chain goes on where a piece ends.
 struct HandedCurves {
   std::vector<std::array<std::int64_t, 2>> edges;  // vertex pairs of the input
-  std::vector<double> points;  // inside each edge, from its first vertex on; world, 3 numbers each
+  // Inside each edge, from its first vertex on; world, 3 numbers each: all those of the mesh, then
+  // those of each shape.
+  std::vector<double> points;
 };
 
 struct OfWhole {

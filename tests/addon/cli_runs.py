@@ -42,7 +42,7 @@ def contains(positions, wanted, tolerance):
     return (distance.min(axis=0) <= tolerance).all()
 
 
-_PROCESS = """
+PROCESS = """
 import os, sys
 import addon
 from addon.cli import _command
@@ -56,7 +56,7 @@ os._exit(code)  # as Blender does: bpy as a module is slow to end
 def process(*words, **extra):
     """A process of its own with these variables: exit code, standard output, standard error."""
     done = subprocess.run(
-        [sys.executable, "-c", _PROCESS, *map(str, words)],
+        [sys.executable, "-c", PROCESS, *map(str, words)],
         env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": "", **extra},
         capture_output=True,
         timeout=120,

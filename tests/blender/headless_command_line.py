@@ -134,6 +134,25 @@ def test_usage_errors_are_two():
         assert code == 2 and "usage: " in error, (bad, code, error)
 
 
+def test_files_side_by_side():
+    for name in ("a.obj", "b.obj", "c.obj"):
+        write_obj(name)
+    names = ("a.obj", "b.obj", "c.obj")
+    assert report(*names, "alone/", "--levels", 2)[0] == 0
+    code, told = report(*names, "spread/", "--levels", 2, "--jobs", 2)
+    assert code == 0 and [entry["status"] for entry in told["inputs"]] == ["done"] * 3, told
+    for name in names:
+        assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
+
+
+def test_a_piece_in_another_process():
+    write_obj("in.obj")
+    assert call("in.obj", "here.obj", "--levels", 2, "--pieces", 1)[0] == 0
+    code, _, error = call("in.obj", "there.obj", "--levels", 2, "--pieces", 1, "--jobs", 2)
+    assert code == 0, error
+    assert Path("there.obj").read_text() == Path("here.obj").read_text()
+
+
 def test_help_and_version():
     code, output, _ = call("--help")
     assert code == 0 and "--crease-angle" in output

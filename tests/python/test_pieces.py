@@ -222,7 +222,6 @@ def test_units_are_those_of_the_whole(name):
 @pytest.mark.parametrize(
     ("settings", "name"),
     [
-        ({"shapes": [torus()[0]]}, "shapes"),
         ({"symmetry_plane": "x"}, "symmetry_plane"),
         ({"measure": True}, "measure"),
         ({"threads": 2}, "threads"),
@@ -332,3 +331,80 @@ def test_a_crease_is_felt_by_its_own_piece_only():
     }
     same = [np.array_equal(plain[k].fair().vertices, creased[k].fair().vertices) for k in range(6)]
     assert 2 <= sum(same) < 6
+
+
+def shapes_of(points):
+    """One that is bent, the mesh itself, and one that is bent more and more along x."""
+    points = np.where(np.isfinite(points), points, 0.0)
+    bent = points + 0.2 * np.sin(2 * points[:, [1, 2, 0]])
+    share = (1 + np.tanh(points[:, :1])) / 2
+    return np.stack([bent, points, points + share * (bent - points)])
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_shapes_are_cut_out_with_each_piece(name):
+    points, faces, settings = MESHES[name]
+    given = {**TIGHT, **settings, "shapes": shapes_of(points)}
+    whole = df.fair(points, faces, 2, **given)
+    joined = in_pieces(points, faces, rings=5, count=3, **given)
+    assert len(joined.shapes) == len(joined.report["shapes"]) == 3
+    for mine, theirs in zip(joined.shapes, whole.shapes):
+        assert np.linalg.norm(mine - theirs, axis=1).max() / np.ptp(points, axis=0).max() < bound(5)
+    for mine, theirs in zip(joined.report["shapes"], whole.report["shapes"]):
+        assert mine.keys() == theirs.keys() and mine["converged"]
+        assert mine["largest_deviation"] == pytest.approx(theirs["largest_deviation"], abs=1e-12)
+
+
+def test_shapes_outside_a_region_stay(tmp_path):
+    points, faces, _ = MESHES["split polygons"]
+    given = {**TIGHT, "region": range(40), "shapes": shapes_of(points)[:1]}
+    whole = df.fair(points, faces, 2, **given)
+    paths = []
+    for piece in cut(points, faces, count=8, rings=2, **given):
+        piece.save(tmp_path / "piece.npz")  # files hold shapes too
+        paths.append(tmp_path / f"{piece.index}.npz")
+        df.Piece.load(tmp_path / "piece.npz").fair().save(paths[-1])
+    joined = df.join(paths)
+    gap = np.linalg.norm(joined.shapes[0] - whole.shapes[0], axis=1).max()
+    assert gap / np.ptp(points, axis=0).max() < bound(2)
+    outside = whole.triangle_polygon >= 40
+    rows = np.unique(whole.faces[0][outside])
+    assert np.allclose(joined.shapes[0][rows], whole.shapes[0][rows], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_through_limit_positions(name):
+    points, faces, settings = MESHES[name]
+    semi_sharp = {
+        "edge_sharpness": (ring()[:9], 1.5) if "torus" in name or "crease" in name else ((), ()),
+        "vertex_sharpness": np.arange(len(points)) % 7 / 4,
+    }
+    given = {**TIGHT, **settings, **semi_sharp, "interpolation": "limit", "tension": 0.3}
+    whole = df.fair(points, faces, 2, shapes=shapes_of(points)[:1], **given)
+    joined = in_pieces(points, faces, rings=5, count=3, shapes=shapes_of(points)[:1], **given)
+    assert difference(joined, whole, points) < bound(5)
+    gap = np.linalg.norm(joined.shapes[0] - whole.shapes[0], axis=1).max()
+    assert gap / np.ptp(points, axis=0).max() < bound(5)
+
+
+def test_zarr_groups_hold_pieces_and_parts(tmp_path):
+    zarr = pytest.importorskip("zarr")
+    points, faces, settings = MESHES["split polygons"]
+    given = {**settings, "region": range(40), "shapes": shapes_of(points)[:1]}
+    names = []
+    for piece in cut(points, faces, count=3, rings=2, **given):
+        piece.save(tmp_path / f"piece-{piece.index}.zarr")
+        names.append(str(tmp_path / f"part-{piece.index}.zarr"))
+        df.Piece.load(tmp_path / f"piece-{piece.index}.zarr").fair().save(names[-1], np.float32)
+    direct = df.join(piece.fair() for piece in cut(points, faces, count=3, rings=2, **given))
+    joined = df.join(names)
+    assert np.array_equal(joined.vertices, direct.vertices.astype(np.float32))
+    assert np.array_equal(joined.shapes[0], direct.shapes[0].astype(np.float32))
+    group = zarr.open_group(names[1])
+    assert group["triangle_points"].dtype == np.float32  # any other program reads them
+    del group.attrs["json"]  # as it is while a worker writes
+    with pytest.raises(df.FairingError, match="holds no Part") as caught:
+        df.Part.load(names[1])
+    assert caught.value.code == "BAD_OPTION"
+    with pytest.raises(OSError):
+        df.Part.load(tmp_path / "none.zarr")

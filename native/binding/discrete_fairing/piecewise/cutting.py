@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, vertex_array
+from ..arrays import face_arrays, shape_array, vertex_array
 from ..errors import fairing_error
 from ..options import whole
 from .outline import Outline
@@ -50,7 +50,7 @@ def pieces(
         Of control faces around each piece that are faired with it. With every ring the difference
         to the whole's surface becomes about 2.6 times smaller.
     **settings
-        Those of fair(), but for shapes, symmetry_plane and measure, which exclude pieces, and for
+        Those of fair(), shapes too, but for symmetry_plane and measure, which exclude pieces, and for
         threads, memory_limit, progress and monitor, which Piece.fair() takes.
 
     Returns
@@ -66,8 +66,10 @@ def pieces(
     wanted, around = whole("count", count), whole("rings", rings)
     if wanted < 1:
         raise fairing_error("BAD_OPTION", f"count is {wanted}; it must be 1 or more.")
+    points = vertex_array(vertices)
+    shapes = shape_array(settings.pop("shapes", None), len(points))
     given, options = checked(settings, levels)
-    outline = Outline(vertex_array(vertices), *face_arrays(faces), options)
+    outline = Outline(points, *face_arrays(faces), shapes, options)
     weights = np.bincount(outline.polygon, outline.quad + 1.0, outline.polygon_count)
     labels = partition(
         neighbours(outline.side_edge, outline.polygon),
@@ -131,6 +133,7 @@ class Cutter:
         return Piece(
             index=index,
             vertices=outline.vertices[vertex_id],
+            shapes=np.ascontiguousarray(outline.shapes[:, vertex_id]),
             corners=self.local[corners],
             offsets=np.concatenate([[0], np.cumsum(ends - starts)]),
             settings=settings,
@@ -154,12 +157,13 @@ class Cutter:
         edges, uses = np.unique(side_edge[side_edge >= 0], return_counts=True)
         kind = outline.edge_kind[edges]
         is_curve, is_boundary = kind & _native.curve_edge != 0, kind & _native.boundary_edge != 0
+        is_straight = kind & _native.straight_edge != 0
         is_cut = (uses == 1) & (outline.edge_uses[edges] > 1)
         handed = edges[self.curve_of[edges] >= 0]
-        inside = (1 << outline.numbering.levels) - 1
-        points = outline.curve_points.reshape(len(outline.curve), inside, 3)[self.curve_of[handed]]
+        points = outline.curve_points[:, self.curve_of[handed]]
         free = edges[is_boundary & ~is_curve]
         by_mode = {"free": [self.pairs(free)], "curve": [], "linear": []}
+        by_mode["linear"].append(self.pairs(edges[is_boundary & is_straight]))
         by_mode[CUT_BOUNDARY].append(self.pairs(edges[is_cut]))
         return {
             "edges": self.pairs(handed),
@@ -189,6 +193,7 @@ class Cutter:
             "edges": numbering.edges,
             "triangles": numbering.triangles,
             "quads": numbering.quads,
+            "shapes": len(outline.shapes),
             "size": float(np.ptp(outline.vertices[outline.corners], axis=0).max()),
         }
         if index == 0:
@@ -198,6 +203,7 @@ class Cutter:
                 "crease_edges": outline.crease_edges(),
                 "alone": alone,
                 "alone_points": outline.vertices[alone],
+                "alone_shapes": outline.shapes[:, alone],
             }
             if outline.mended:
                 same["mended"] = outline.mended

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Records of arrays as files: .npz, one array a field, without pickles."""
+"""Records of arrays as files, one array a field, without pickles: .npz, or Zarr groups."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import fields
-from pathlib import Path
+from os import PathLike
 from typing import Any, Self
 
 import numpy as np
@@ -17,30 +19,80 @@ from ..whole_files import whole_file
 class Record:
     """A dataclass of NumPy arrays and of what JSON can hold, dicts of both among them."""
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | PathLike) -> None:
         """Writes a file (.npz) that is whole or not there: one process may write while others read.
 
-        Raises OSError.
+        A name that ends in .zarr is a Zarr group instead, with its arrays compressed, in a folder or,
+        as s3://… and the like, wherever fsspec reaches; it cannot be read before it is whole. Raises
+        OSError.
         """
         arrays: dict[str, np.ndarray] = {}
         plain: dict[str, Any] = {"record": type(self).__name__}
         for field in fields(self):  # type: ignore[arg-type]
             plain[field.name] = _taken(getattr(self, field.name), field.name, arrays)
+        if is_group(path):
+            return _write_group(str(path), arrays, json.dumps(plain))
         with whole_file(path, suffix=".npz") as place, place.open("wb") as out:
             np.savez(out, **arrays, json=np.array(json.dumps(plain)))
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
+    def load(cls, path: str | PathLike) -> Self:
         """Reads what save() has written. Raises OSError, and FairingError BAD_OPTION for other files."""
         wrong = fairing_error("BAD_OPTION", f"{path} holds no {cls.__name__} of discrete_fairing.")
         try:
-            with np.load(path, allow_pickle=False) as stored:
+            with _opened(path) as stored:
                 plain = json.loads(str(stored["json"]))
                 if plain.pop("record") != cls.__name__:
                     raise wrong
                 return cls(**{name: _put_back(value, stored) for name, value in plain.items()})
         except (KeyError, ValueError, TypeError, AttributeError, EOFError) as error:
             raise wrong from error
+
+
+def is_group(path: str | PathLike) -> bool:
+    """Whether this names a Zarr group."""
+    return str(path).rstrip("/").endswith(".zarr")
+
+
+def _zarr() -> Any:
+    try:
+        import zarr
+    except ImportError as error:
+        raise ImportError(
+            f'Files of the kind .zarr need the package zarr: pip install "discrete-fairing[cluster]" '
+            f"({error})"
+        ) from error
+    return zarr
+
+
+def _write_group(name: str, arrays: dict[str, np.ndarray], text: str) -> None:
+    """The text comes last: without it the group is no record yet."""
+    group = _zarr().open_group(name, mode="w")
+    for key, array in arrays.items():
+        group.create_array(key, data=array)
+    group.attrs["json"] = text
+
+
+@contextmanager
+def _opened(path: str | PathLike) -> Iterator[Mapping[str, Any]]:
+    """The arrays of a record by name, and its text as "json"."""
+    if not is_group(path):
+        with np.load(path, allow_pickle=False) as stored:
+            yield stored
+        return
+    group = _zarr().open_group(str(path), mode="r")
+    yield _Group(group)
+
+
+class _Group(dict):
+    """Reads arrays when they are asked for."""
+
+    def __init__(self, group: Any) -> None:
+        super().__init__(json=group.attrs["json"])
+        self._group = group
+
+    def __missing__(self, name: str) -> np.ndarray:
+        return self._group[name][...]
 
 
 def _taken(value: Any, name: str, arrays: dict[str, np.ndarray]) -> Any:

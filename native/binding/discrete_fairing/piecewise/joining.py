@@ -92,6 +92,7 @@ class Whole:
         self.surface, self.numbering = first.surface, numbering
         cells = 1 << (2 * numbering.levels)
         self.vertices = np.empty((numbering.size, 3))
+        self.shapes = [np.empty((numbering.size, 3)) for _ in range(first.surface["shapes"])]
         self.faces = [
             np.empty((count, cells, size), np.int32)
             for count, size in ((numbering.triangles, 3), (numbering.quads, 4))
@@ -113,6 +114,8 @@ class Whole:
         if part.index in self.reports:
             raise fairing_error("BAD_OPTION", f"Part {part.index} is there twice.")
         part.write_into(self.vertices)
+        for shape, vertices in enumerate(self.shapes):
+            part.of_shape(shape).write_into(vertices)
         cells = 1 << (2 * self.numbering.levels)
         for kind, faces in enumerate(part.faces):
             which = part.is_quad == bool(kind)
@@ -137,6 +140,8 @@ class Whole:
                 f"Parts are missing: {', '.join(map(str, missing[:20]))}. Fair these pieces too.",
             )
         self.vertices[self.first["alone"]] = self.first["alone_points"]
+        for vertices, alone in zip(self.shapes, self.first["alone_shapes"]):
+            vertices[self.first["alone"]] = alone
         cells = 1 << (2 * self.numbering.levels)
         arrays: dict[str, Any] = {
             "vertices": self.vertices,
@@ -145,7 +150,7 @@ class Whole:
             "triangle_polygon": np.repeat(self.polygon[0], cells),
             "quad_polygon": np.repeat(self.polygon[1], cells),
             "crease_edges": self.first["crease_edges"],
-            "shapes": [],
+            "shapes": self.shapes,
             "mended": self.first.get("mended"),
         }
         if arrays["mended"]:
@@ -156,7 +161,8 @@ class Whole:
     def _restore(self, arrays: dict[str, Any]) -> None:
         """Back from the mended mesh, as native/fairing/mending.cpp does."""
         origin, count = arrays["mended"]["vertex_origin"], self.surface["input_vertices"]
-        self.vertices[:count] = self.vertices[origin]
+        for vertices in (self.vertices, *self.shapes):
+            vertices[:count] = vertices[origin]
         self.widths = self.widths[origin]
         for kind in ("triangle", "quad"):
             mended = arrays[f"{kind}_polygon"]
@@ -176,6 +182,15 @@ class Whole:
                 for level in range(levels)
             ]
 
+        def of_shape(shape: int) -> dict[str, Any]:
+            told = [report["shapes"][shape] for report in reports if report["shapes"]]
+            return {
+                name: all(entry[name] for entry in told)
+                if name == "converged"
+                else max(entry[name] for entry in told)
+                for name in (told[0] if told else ())
+            }
+
         phases = dict.fromkeys(phase for report in reports for phase in report["seconds"])
         pads = [report["pads"] for report in reports if "pads" in report]
         return {
@@ -183,7 +198,7 @@ class Whole:
             "residuals": by_level("residuals"),
             "converged": all(report["converged"] for report in reports),
             "warm": False,
-            "shapes": [],
+            "shapes": [of_shape(shape) for shape in range(len(self.shapes))],
             "seconds": {
                 phase: sum(report["seconds"].get(phase, 0.0) for report in reports)
                 for phase in phases

@@ -16,15 +16,21 @@ from .lattice import Numbering
 class Outline:
     """The control mesh with its faces split and turned, its edges numbered and its curves refined.
 
-    Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 behind a triangle's
-    three; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices.
+        Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 behind a triangle's
+        three; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices. curve_points: (1 + k, c,
+    n - 1, 3), and centres: (1 + k, p, 3), of the mesh and its k shapes. shapes: (k, V, 3), of the mended mesh.
     """
 
     def __init__(
-        self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, options: _native.Options
+        self,
+        points: np.ndarray,
+        corners: np.ndarray,
+        offsets: np.ndarray,
+        shapes: np.ndarray,
+        options: _native.Options,
     ):
         found: dict[str, Any] = _native.outline(
-            points, corners, offsets, options, _native.Monitor()
+            points, corners, offsets, shapes, options, _native.Monitor()
         )
         self.input_vertices = len(points)
         self.vertices: np.ndarray = found["vertices"]
@@ -39,16 +45,19 @@ class Outline:
         self.edge: np.ndarray = found["edge"]
         self.edge_kind: np.ndarray = found["edge_kind"]
         self.curve: np.ndarray = found["curve"]
-        self.curve_points: np.ndarray = found["curve_points"]
+        inside = (1 << int(options.levels)) - 1
+        curves = (1 + len(shapes), len(self.curve), inside, 3)
+        self.curve_points: np.ndarray = found["curve_points"].reshape(curves)
+        self.shapes: np.ndarray = found["shapes"].reshape(len(shapes), len(self.vertices), 3)
         self.units: tuple[float, float, float, float] = found["units"]
         self.report: dict[str, Any] = found["report"]
-        self.centres: np.ndarray = found["centres"]
+        self.centres: np.ndarray = found["centres"].reshape(1 + len(shapes), -1, 3)
         self.quad = self.face[:, 3] >= 0
         self.quads_before = np.cumsum(self.quad) - self.quad
         quads = int(self.quad.sum())
         self.numbering = Numbering(
             int(options.levels),
-            len(points) + len(self.centres),
+            len(points) + self.centres.shape[1],
             len(self.edge),
             len(self.face) - quads,
             quads,

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 class Part(Record):
     """What one piece owns of a surface: its faces, and the points that no lower piece has.
 
-    Can be pickled, saved (.npz) and loaded. Faces take no room: they are arithmetic on the few
+    Can be pickled, saved (.npz, .zarr) and loaded. Faces take no room: they are arithmetic on the few
     numbers that each control face has.
 
     index: of the piece.
@@ -31,6 +31,7 @@ class Part(Record):
     edge_id (b,); those inside faces belong to face_id, triangles and quads each in its order.
     face, side_edge, side_reversed: (F, 4), quads_before, polygon: (F,): the owned control faces.
     What begins with "seam" is what the piece makes of points that others own.
+    shapes: by the number of each shape, all "…_points" of it.
     report: of the run.
     surface: what all parts agree on.
     """
@@ -53,6 +54,7 @@ class Part(Record):
     seam_vertex_points: np.ndarray
     seam_edge_id: np.ndarray
     seam_edge_points: np.ndarray
+    shapes: dict[str, dict[str, np.ndarray]]
     report: dict[str, Any]
 
     @property
@@ -118,6 +120,10 @@ class Part(Record):
         for rows, points in zip(self._face_rows(), (self.triangle_points, self.quad_points)):
             vertices[rows] = points
 
+    def of_shape(self, shape: int) -> Part:
+        """The same part of the surface that this shape has."""
+        return replace(self, shapes={}, **self.shapes[str(shape)])
+
     def seam_ids(self) -> np.ndarray:
         """(s,) int64: rows of the points that this part shares and others own."""
         inside = np.arange(self.numbering.n - 1)
@@ -128,14 +134,19 @@ class Part(Record):
         """(s, 3): where this part has them."""
         return np.concatenate([self.seam_vertex_points, self.seam_edge_points.reshape(-1, 3)])
 
-    def save(self, path: str | Path, dtype: DTypeLike = np.float64) -> None:
-        """Writes a file (.npz) that is whole or not there; with points rounded to `dtype`.
+    def save(self, path: str | PathLike, dtype: DTypeLike = np.float64) -> None:
+        """Writes a file (.npz, or .zarr) that is whole or not there; with points rounded to `dtype`.
 
         Raises OSError.
         """
         names = [name for name in self.__dataclass_fields__ if name.endswith("_points")]
-        rounded = {name: getattr(self, name).astype(dtype, copy=False) for name in names}
-        Record.save(replace(self, **rounded), path)
+
+        def rounded(points: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+            return {name: array.astype(dtype, copy=False) for name, array in points.items()}
+
+        own = rounded({name: getattr(self, name) for name in names})
+        shapes = {shape: rounded(points) for shape, points in self.shapes.items()}
+        Record.save(replace(self, shapes=shapes, **own), path)
 
     def __repr__(self) -> str:
         return (
@@ -159,20 +170,29 @@ NUMBERS = (
 
 
 def report_of(
-    piece: Piece, report: dict[str, Any] | None, vertex_id: np.ndarray, points: np.ndarray
+    piece: Piece, report: dict[str, Any] | None, vertex_id: np.ndarray, surfaces: list[np.ndarray]
 ) -> dict[str, Any]:
-    """A part's report: the run's numbers, and what it says of vertices that the piece owns."""
+    """A part's report: the run's numbers, and what it says of vertices that the piece owns.
+
+    `surfaces`: of the mesh and of each shape, the points (a, 3) at these vertices.
+    """
     count = piece.surface["input_vertices"]
     own = vertex_id < count
     row = np.searchsorted(piece.vertex_id, vertex_id[own])
-    moved = np.linalg.norm(points[own] - piece.vertices[row], axis=1)
-    out: dict[str, Any] = {"largest_deviation": float(moved.max(initial=0.0)), "warnings": []}
+    moved = [
+        float(np.linalg.norm(points[own] - held[row], axis=1).max(initial=0.0))
+        for points, held in zip(surfaces, (piece.vertices, *piece.shapes))
+    ]
+    out: dict[str, Any] = {"largest_deviation": moved[0], "warnings": [], "shapes": []}
     if report is None:  # outside the region
         out |= {"iterations": [], "residuals": [], "converged": True, "seconds": {}, "threads": 1}
         out |= {"predicted_bytes": 0, "peak_bytes": 0, "constraint_rounds": 0, "constraint_gap": 0}
         out |= {"normals": {"fixed": 0, "largest_angle": 0.0}, "pad_widths": np.zeros(len(row))}
         return out
     out |= {name: report[name] for name in NUMBERS}
+    out["shapes"] = [
+        {**shape, "largest_deviation": far} for shape, far in zip(report["shapes"], moved[1:])
+    ]
     widths = np.asarray(report["pads"]["widths"], float)
     out["pad_widths"] = widths[row] if len(widths) else widths
     out["pads"] = {name: report["pads"][name] for name in ("narrower", "gone")}

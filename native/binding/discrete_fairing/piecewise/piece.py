@@ -21,11 +21,11 @@ from .part import Part, report_of
 class Piece(Record):
     """Some faces of a control mesh with rings around them, as pieces() cuts them out.
 
-    Can be pickled, saved (.npz) and loaded. It needs nothing but itself: fair() gives what it owns
+    Can be pickled, saved (.npz, .zarr) and loaded. It needs nothing but itself: fair() gives what it owns
     of the surface. All arrays are of the size of its control mesh, but for the points of curves.
 
     index: which piece, from 0.
-    vertices: (v, 3) float64; corners and offsets: its faces, as fair() takes them.
+    vertices: (v, 3) float64, shapes: (k, v, 3); corners and offsets: its faces, as fair() takes them.
     settings: of fair(), with the piece's own ids.
     of_whole: what a piece cannot know, curves and units.
     vertex_id: (v,), its vertices' ids in the whole.
@@ -36,6 +36,7 @@ class Piece(Record):
 
     index: int
     vertices: np.ndarray
+    shapes: np.ndarray
     corners: np.ndarray
     offsets: np.ndarray
     settings: dict[str, Any]
@@ -71,26 +72,34 @@ class Piece(Record):
         is_outside = region is not None and not len(region)
         if is_outside:
             del settings["region"]
+        sharp = settings.get("edge_sharpness")
+        if sharp is not None:
+            settings["edge_sharpness"] = (sharp["edges"], sharp["sharpness"])
         options = native_options(**settings)
-        own = Outline(self.vertices, self.corners, self.offsets, options)
+        own = Outline(self.vertices, self.corners, self.offsets, self.shapes, options)
         if is_outside:
-            points, report = linear_surface(own), None
+            control = zip((self.vertices, *self.shapes), own.centres)
+            surfaces = [linear_surface(own, np.concatenate(held)) for held in control]
+            report = None
         else:
             found = _native.fair(
                 self.vertices,
                 self.corners,
                 self.offsets,
-                np.empty((0, len(self.vertices), 3)),
+                self.shapes,
                 options,
                 monitor or _native.Monitor(),
                 progress,
                 self.of_whole,
             )
-            points, report = found["vertices"], found["report"]
+            surfaces, report = [found["vertices"], *found["shapes"]], found["report"]
             del found
-        return self._part(own, points, report)
+        return self._part(own, surfaces, report)
 
-    def _part(self, own: Outline, points: np.ndarray, report: dict[str, Any] | None) -> Part:
+    def _part(
+        self, own: Outline, surfaces: list[np.ndarray], report: dict[str, Any] | None
+    ) -> Part:
+        """`surfaces`: of the mesh, then of each shape."""
         mirrored = self._mirrored(own)
         mine, quad = np.flatnonzero(self.owned), self.face[:, 3] >= 0
         vertex_id, vertex_row = self._vertices(own, mirrored, self.corner_owned)
@@ -99,20 +108,26 @@ class Piece(Record):
         seam_vertex_id, seam_vertex_row = self._vertices(own, mirrored, there & ~self.corner_owned)
         seam_edge_id, seam_edge_rows = self._edges(own, mirrored, there & ~self.side_owned)
         inside = [
-            points[
-                self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)
-            ]
+            self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)
             for kind in (False, True)
         ]
+
+        def owned_of(points: np.ndarray) -> dict[str, np.ndarray]:
+            return {
+                "vertex_points": points[vertex_row],
+                "edge_points": points[edge_rows],
+                "triangle_points": points[inside[0]],
+                "quad_points": points[inside[1]],
+                "seam_vertex_points": points[seam_vertex_row],
+                "seam_edge_points": points[seam_edge_rows],
+            }
+
+        points, *shapes = surfaces
         return Part(
             index=self.index,
             surface=self.surface,
             vertex_id=vertex_id,
-            vertex_points=points[vertex_row],
             edge_id=edge_id,
-            edge_points=points[edge_rows],
-            triangle_points=inside[0],
-            quad_points=inside[1],
             face=self.face[mine],
             side_edge=self.side_edge[mine],
             side_reversed=self.side_reversed[mine],
@@ -120,10 +135,12 @@ class Piece(Record):
             quads_before=self.quads_before[mine],
             polygon=self.polygon[mine],
             seam_vertex_id=seam_vertex_id,
-            seam_vertex_points=points[seam_vertex_row],
             seam_edge_id=seam_edge_id,
-            seam_edge_points=points[seam_edge_rows],
-            report=report_of(self, report, vertex_id, points[vertex_row]),
+            shapes={str(s): owned_of(shape) for s, shape in enumerate(shapes)},
+            report=report_of(
+                self, report, vertex_id, [surface[vertex_row] for surface in surfaces]
+            ),
+            **owned_of(points),
         )
 
     def _mirrored(self, own: Outline) -> np.ndarray:
@@ -192,10 +209,11 @@ def turned_corners(size: np.ndarray) -> np.ndarray:
     return rows[size - 3]
 
 
-def linear_surface(own: Outline) -> np.ndarray:
-    """(N, 3): a piece that lies outside the region, as the core leaves it."""
+def linear_surface(own: Outline, control: np.ndarray) -> np.ndarray:
+    """(N, 3): a piece with these control vertices, centres of polygons too, that lies outside the
+    region, as the core leaves it.
+    """
     numbering = own.numbering
-    control = np.concatenate([own.vertices, own.centres])
     points = np.empty((numbering.size, 3))
     for kind in (False, True):
         faces = np.flatnonzero(own.quad == kind)

@@ -14,7 +14,6 @@ from .outline import Outline
 
 # fair()'s arguments that pieces exclude, and what to do instead.
 EXCLUDED = {
-    "shapes": "Cut each shape on its own, as vertices of a mesh of its own.",
     "symmetry_plane": "Mirror the mesh first, or fair the half as it is.",
     "measure": "No piece has an energy of its own. Measure the surface when it is whole.",
 }
@@ -29,7 +28,8 @@ DECIDED = (
     "repair",
     "weld",
 )
-PER_VERTEX = ("tolerance", "weights", "normals")
+PER_VERTEX = ("tolerance", "weights", "normals", "vertex_sharpness")
+BY_ID = ("region", "corner_vertices", "edge_sharpness")
 
 
 def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
@@ -59,7 +59,7 @@ class PieceSettings:
         self.common = {
             name: _plain(value)
             for name, value in settings.items()
-            if name in SETTINGS and name not in (*DECIDED, *PER_VERTEX, "region", "corner_vertices")
+            if name in SETTINGS and name not in (*DECIDED, *PER_VERTEX, *BY_ID)
         }
         # One-sided sheets are cut into pieces with two sides, whose faces may not agree yet.
         self.common["repair"] = "mend" if outline.report["sheets"]["one_sided"] else "refuse"
@@ -74,6 +74,12 @@ class PieceSettings:
             self.per_vertex["weights"] = np.asarray(options.weights, float)
         if len(options.normals):
             self.per_vertex["normals"] = np.asarray(options.normals, float).reshape(-1, 3)
+        if len(options.vertex_sharpness):
+            self.per_vertex["vertex_sharpness"] = np.asarray(options.vertex_sharpness, float)
+        edges, sharpness = options.edge_sharpness
+        self.sharp_edges = np.asarray(edges, np.int64).reshape(-1, 2)
+        self.sharpness = np.asarray(sharpness, float)
+        self.local = np.full(count, -1, np.int64)  # scratch
         self.corner = np.zeros(count, bool)
         self.corner[np.asarray(options.corner_vertices, np.int64)] = True
         self.region = None
@@ -89,7 +95,17 @@ class PieceSettings:
         settings["corner_vertices"] = np.flatnonzero(self.corner[vertex_id])
         if self.region is not None:
             settings["region"] = np.flatnonzero(self.region[polygon])
+        if len(self.sharp_edges):
+            settings["edge_sharpness"] = self._sharpness_in(vertex_id)
         return settings
+
+    def _sharpness_in(self, vertex_id: np.ndarray) -> dict[str, np.ndarray]:
+        """Of the edges with both ends in a piece; some may be no edges of its faces."""
+        self.local[vertex_id] = np.arange(len(vertex_id))
+        ends = self.local[self.sharp_edges]
+        self.local[vertex_id] = -1
+        inside = (ends >= 0).all(axis=1)
+        return {"edges": ends[inside], "sharpness": self.sharpness[inside]}
 
 
 def _plain(value: Any) -> Any:

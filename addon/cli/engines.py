@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the work of a call is done: here, in processes of this machine, or on a Dask cluster.
+
+With --pieces the pieces of a mesh are spread, and otherwise the files: each task then is this very
+command again, for some of its inputs.
+"""
+
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import as_completed as completed
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from importlib import import_module
+from operator import methodcaller
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+_MORE_TRIES = 3  # of a task whose worker died
+_MOST_FILES = (
+    16  # of one task: a new Blender takes a second, and a task is what an interruption loses
+)
+_TASKS_A_WORKER = 4  # so that no worker waits long for the last one
+_LAST_WORDS = 2000  # characters of what a process has said that left no report
+
+
+class NoEngine(Exception):
+    """Why there is none, as a sentence."""
+
+
+# A worker of a cluster runs subprocess.run itself: it needs Blender and this extension, and no code
+# of ours beside.
+@dataclass(frozen=True)
+class Engine:
+    """Where tasks run. `run_words`: as subprocess.run, of what a worker is to start."""
+
+    executor: Executor
+    workers: int  # tasks at once
+    threads: int  # of each
+    run_words: Callable[..., Any] = subprocess.run
+
+    def faired(self, pieces: Sequence[Any], memory_limit: int) -> Iterator[Any]:
+        """The pieces' parts, in their order. `memory_limit`: bytes, of each."""
+        fair = methodcaller("fair", threads=self.threads, memory_limit=memory_limit)
+        return self.executor.map(fair, pieces)
+
+
+def is_spread(arguments: Namespace) -> bool:
+    """Whether work leaves this process."""
+    is_share = arguments.only is not None
+    return not is_share and (arguments.scheduler is not None or arguments.jobs > 1)
+
+
+@contextmanager
+def engine(arguments: Namespace) -> Iterator[Engine]:
+    """The one that was asked for. An error ends what runs, and what has not begun is left."""
+    with _dask(arguments) if arguments.scheduler else _local(arguments) as found:
+        try:
+            yield found
+        except BaseException:
+            found.executor.shutdown(wait=False, cancel_futures=True)
+            for child in multiprocessing.active_children():
+                child.terminate()
+            raise
+
+
+@contextmanager
+def _local(arguments: Namespace) -> Iterator[Engine]:
+    count = arguments.jobs
+    if arguments.pieces is not None:
+        spawn = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(count, mp_context=spawn) as pool:
+            yield Engine(pool, count, _threads(arguments))
+        return
+    running: set[subprocess.Popen] = set()
+    with ThreadPoolExecutor(count) as pool:  # each waits for a process of its own
+        try:
+            yield Engine(pool, count, _threads(arguments), lambda *a, **k: _run(running, *a, **k))
+        finally:
+            for process in list(running):
+                process.terminate()
+
+
+def _run(
+    running: set[subprocess.Popen], words: Sequence[str], *, capture_output: bool, **how: Any
+) -> subprocess.CompletedProcess:
+    """As subprocess.run, with the process among those that are running."""
+    pipe = subprocess.PIPE if capture_output else None
+    with subprocess.Popen(words, stdout=pipe, stderr=pipe, **how) as process:
+        running.add(process)
+        try:
+            output, said = process.communicate()
+        finally:
+            running.discard(process)
+    return subprocess.CompletedProcess(words, process.returncode, output, said)
+
+
+@contextmanager
+def _dask(arguments: Namespace) -> Iterator[Engine]:
+    address = arguments.scheduler
+    try:
+        distributed: Any = import_module("distributed")
+    except ImportError as error:
+        raise NoEngine(
+            f"--scheduler needs the package distributed in Blender's own Python ({error})."
+        ) from error
+    try:
+        client = distributed.Client(address, timeout="10s")
+    except (OSError, TimeoutError, ValueError) as error:
+        raise NoEngine(f"No Dask scheduler answers at {address} ({error}).") from error
+    with client:
+        workers = sum(client.nthreads().values())
+        if not workers:
+            raise NoEngine(f"The Dask scheduler at {address} has no workers.")
+        with client.get_executor(retries=_MORE_TRIES, pure=False) as executor:
+            yield Engine(executor, workers, _threads(arguments))
+
+
+def _threads(arguments: Namespace) -> int:
+    """Of one task, where the user has not said: all tasks together use the cores once."""
+    if arguments.threads is not None:
+        return arguments.threads
+    return 1 if arguments.scheduler else max(1, (os.cpu_count() or 1) // arguments.jobs)
+
+
+def shares(count: int, workers: int) -> list[range]:
+    """`count` inputs as tasks of neighbours."""
+    size = min(_MOST_FILES, max(1, count // (_TASKS_A_WORKER * workers)))
+    return [range(first, min(first + size, count)) for first in range(0, count, size)]
+
+
+def blender_again() -> list[str]:
+    """The words that start this command once more, before its own arguments."""
+    after = sys.argv.index("--command") if "--command" in sys.argv else len(sys.argv)
+    flags = sys.argv[1:after] if "--background" in sys.argv[1:after] else ["--background"]
+    return [bpy.app.binary_path, *flags, "--command", "discrete_fairing"]
+
+
+def run_files(
+    made: Engine, words: Sequence[str], count: int
+) -> Iterator[tuple[range, list[dict[str, Any]] | str]]:
+    """Runs this command, given as `words`, for all of `count` inputs, a share a task.
+
+    Yields, as tasks end, the inputs' numbers and their records, or what a process has said that left
+    none. Files are read and written by who runs the task, in the folder of this process.
+    """
+    tasks: dict[Future, range] = {}
+    for share in shares(count, made.workers):
+        own = [
+            *blender_again(),
+            *words,
+            *("--threads", str(made.threads)),
+            *("--only", f"{share.start}:{share.stop}"),
+            *("--json", "-", "--quiet"),
+        ]
+        task = made.executor.submit(
+            made.run_words, own, capture_output=True, cwd=Path.cwd(), stdin=subprocess.DEVNULL
+        )
+        tasks[task] = share
+    for task in completed(tasks):
+        yield tasks[task], _records(task, len(tasks[task]))
+
+
+def _records(task: Future, count: int) -> list[dict[str, Any]] | str:
+    try:
+        done = task.result()
+    except Exception as error:  # the engine's: no such program there, a worker that dies each time
+        return f"{type(error).__name__}: {error}"
+    found: list[dict[str, Any]] = []
+    with suppress(ValueError, KeyError):
+        found = json.loads(done.stdout)["inputs"]
+    if len(found) == count:
+        return found
+    said = done.stderr.decode(errors="replace").strip()[-_LAST_WORDS:]
+    return f"A process ended with code {done.returncode}: {said}"

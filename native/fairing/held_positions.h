@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a surface is held: at its control vertices, or at their limit positions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fairing/options.h"
+#include "mesh/control_mesh.h"
+#include "mesh/limit_positions.h"
+
+namespace fairing {
+
+struct HeldPositions {
+  bool at_limits = false;
+  LimitPositions limits{};    // where that is so
+  std::vector<Vec3> world{};  // one a control vertex: the input's, copies of them, centres
+
+  // Of other positions of the input's vertices, 3 numbers each: where these are held.
+  std::vector<double> of(std::span<const double> coordinates) const;
+};
+
+// `mesh` is made of `input`. Throws FairingError where limit positions have no shape.
+HeldPositions held_positions(const PolygonMesh& input, const ControlMesh& mesh,
+                             const FairOptions& options);
+
+}  // namespace fairing

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command's work in other processes and on a cluster: the same files, the same report."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from cli_files import write_obj, write_ply
+from cli_runs import CORE, PROCESS, ROOT, entries, run
+
+from addon.cli import engines
+from addon.cli import main as command
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    """Every test in a folder of its own; what starts the command once more is not Blender here."""
+    monkeypatch.chdir(tmp_path)
+    program = f"import sys; sys.path[:0] = {[str(ROOT), str(CORE)]}\n{PROCESS}"
+    monkeypatch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", program])
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None
+    ) as made:
+        yield made.scheduler_address
+
+
+def three_files():
+    write_obj("a.obj")
+    write_ply("b.ply")
+    write_obj("c.obj")
+    return ["a.obj", "b.ply", "c.obj"]
+
+
+def without_seconds(records):
+    """What two runs have in common."""
+
+    def stripped(value):
+        if isinstance(value, dict):
+            return {
+                key: stripped(item)
+                for key, item in value.items()
+                if key not in ("seconds", "threads", "peak_bytes", "output")
+            }
+        return [stripped(item) for item in value] if isinstance(value, list) else value
+
+    return stripped(records)
+
+
+def test_files_side_by_side_are_those_of_one_process(capfd):
+    names = three_files()
+    code, alone = entries(*names, "alone/", "--levels", 2)
+    assert code == 0
+    lines = sorted(capfd.readouterr().err.splitlines())
+    code, spread = entries(*names, "spread/", "--levels", 2, "--jobs", 2)
+    assert code == 0
+    assert [record["output"] for record in spread] == [f"spread/{name}" for name in names]
+    assert without_seconds(spread) == without_seconds(alone)
+    for name in names:
+        assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
+    said = sorted(capfd.readouterr().err.splitlines())
+    for name in names:
+        (mine,) = [line for line in said if line.startswith(name)]
+        (theirs,) = [line for line in lines if line.startswith(name) and "%" not in line]
+        assert mine.split()[:3] == theirs.split()[:3] and mine.split()[4:] == theirs.split()[4:]
+
+
+def test_one_bad_file_does_not_harm_the_others(capfd):
+    names = three_files()
+    Path(names[2]).write_text("v 0 0 0\n")
+    code, records = entries(*names, "out/", "--levels", 1, "--jobs", 2)
+    assert code == command.SOME_FAILED
+    assert [record["status"] for record in records] == ["done", "done", "failed"]
+    assert "error: c.obj" in capfd.readouterr().err
+
+
+def test_a_process_that_dies_is_told(capfd, monkeypatch):
+    names = three_files()
+    program = "import os, sys; sys.stderr.write('no more'); os._exit(9)"
+    monkeypatch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", program])
+    code, records = entries(*names, "out/", "--jobs", 2)
+    assert code == command.SOME_FAILED
+    assert {record["status"] for record in records} == {"failed"}
+    assert records[0]["error"]["code"] == "INTERNAL"
+    assert "ended with code 9: no more" in capfd.readouterr().err
+
+
+def test_pieces_in_two_processes():
+    write_obj("in.obj")
+    assert run("in.obj", "one.obj", "--levels", 3, "--pieces", 3) == 0
+    code, (record,) = entries("in.obj", "two.obj", "--levels", 3, "--pieces", 3, "--jobs", 2)
+    assert code == 0 and record["objects"][0]["report"]["pieces"]["count"] == 3
+    assert Path("two.obj").read_text() == Path("one.obj").read_text()
+
+
+def test_a_refusal_comes_back_from_another_process(capfd):
+    write_obj("in.obj")
+    words = ("--levels", 2, "--pieces", 2, "--jobs", 2, "--memory-limit", 1)
+    code, (record,) = entries("in.obj", "out.obj", *words, "--levels", 9)
+    assert code == command.SOME_FAILED
+    assert record["error"]["code"] == "TOO_LARGE"
+
+
+def test_files_on_a_cluster(cluster):
+    names = three_files()
+    assert run(*names, "alone/", "--levels", 2, "--quiet") == 0
+    code, records = entries(*names, "spread/", "--levels", 2, "--scheduler", cluster)
+    assert code == 0 and {record["status"] for record in records} == {"done"}
+    for name in names:
+        assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
+
+
+def test_pieces_on_a_cluster(cluster):
+    write_obj("in.obj")
+    words = ("--levels", 3, "--pieces", 3)
+    assert run("in.obj", "one.obj", *words) == 0
+    assert run("in.obj", "two.obj", *words, "--scheduler", cluster) == 0
+    assert Path("two.obj").read_text() == Path("one.obj").read_text()
+
+
+def test_no_scheduler_there(capfd):
+    write_obj("in.obj")
+    code, (record,) = entries("in.obj", "out.obj", "--scheduler", "tcp://127.0.0.1:9")
+    assert code == command.SOME_FAILED and record["status"] == "not_run"
+    assert "No Dask scheduler answers at tcp://127.0.0.1:9" in capfd.readouterr().err
+
+
+def test_one_engine_is_enough(capfd):
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj", "--jobs", 2, "--scheduler", "tcp://127.0.0.1:9") == 2
+    assert "give one of --jobs and --scheduler" in capfd.readouterr().err
+    assert run("in.obj", "out.obj", "--jobs", 0) == 2
+
+
+def test_an_interruption_ends_all_processes(capfd):
+    names = three_files()
+    sleeper = "import time; time.sleep(600)"
+    threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", sleeper])
+        code, records = entries(*names, "out/", "--jobs", 2)
+    assert code == command.INTERRUPTED and time.monotonic() - begun < 60
+    assert {record["status"] for record in records} == {"cancelled"}
+    assert "interrupted" in capfd.readouterr().err
+    left = subprocess.run(["pgrep", "-f", sleeper], capture_output=True, text=True).stdout.split()
+    assert not left
+
+
+def test_shares_cover_all_inputs_once():
+    for count, workers in ((1, 4), (5, 2), (1000, 3), (17, 16)):
+        parts = engines.shares(count, workers)
+        assert [k for share in parts for k in share] == list(range(count))
+        assert max(map(len, parts)) <= 16
+
+
+def test_the_share_is_no_option_for_people(capsys):
+    with pytest.raises(SystemExit):
+        command.parser("").parse_args(["--help"])
+    assert "--only" not in capsys.readouterr().out
