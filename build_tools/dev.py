@@ -12,6 +12,7 @@ python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench
 python3 build_tools/dev.py extension      the extension's zips under out/extension/
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
+python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -95,6 +96,15 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
     return 0
 
 
+def docs() -> int:
+    """The site, of the documents and docstrings."""
+    import site_pages
+
+    setup_tools()
+    say(f"{site_pages.build().relative_to(ROOT)}/index.html is ready")
+    return 0
+
+
 def format_sources() -> int:
     """Rewrites the sources in the project's style."""
     import style
@@ -109,7 +119,7 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "fuzz", "bench", "extension", "format"]
+        "command", choices=["setup", "test", "demo", "fuzz", "bench", "docs", "extension", "format"]
     )
     parser.add_argument(
         "names",
@@ -140,6 +150,7 @@ def main() -> int:
         "fuzz": lambda: fuzz(given.minutes),
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
+        "docs": docs,
         "format": format_sources,
     }
     return commands[given.command]() or 0

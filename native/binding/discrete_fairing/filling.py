@@ -67,6 +67,7 @@ class Filled:
     new_faces: (M - m,) int64
         Ids of the new ones, which are triangles.
     holes: list of FilledHole
+        What closed each hole, in the order of the holes.
     """
 
     vertices: np.ndarray
