@@ -13,6 +13,7 @@ python3 build_tools/dev.py extension      the extension's zips under out/extensi
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
 python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
+python3 build_tools/dev.py release        a folder for any static host under out/release/; --all, --wheels as for extension
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -85,14 +86,19 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
     import extension as packing
 
     setup_tools()
-    if wheels is not None:
-        found = packing.wheels_in(wheels.resolve())
-    elif all_platforms:
-        found = packing.wheels_of_all_platforms()
-    else:
-        found = packing.wheels_at_hand()
-    for path in packing.build_all(found):
+    for path in packing.build_all(packing.wheels_of(wheels, all_platforms)):
         say(f"{path.relative_to(ROOT)} is ready")
+    return 0
+
+
+def release(wheels: Path | None, all_platforms: bool) -> int:
+    """Everything that is published, of the same wheels as the extension's zips."""
+    import extension as packing
+    import release as publishing
+
+    setup_tools()
+    made = publishing.build(packing.wheels_of(wheels, all_platforms))
+    say(f"{made.relative_to(ROOT)} is ready")
     return 0
 
 
@@ -119,7 +125,7 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "fuzz", "bench", "docs", "extension", "format"]
+        "command", choices=["setup", "test", "demo", "fuzz", "bench", "docs", "extension", "release", "format"]
     )
     parser.add_argument(
         "names",
@@ -127,13 +133,13 @@ def arguments() -> argparse.Namespace:
         help="bench, demo, test: only these; test blender:TEXT or windows:TEXT: its parts named so",
     )
     parser.add_argument(
-        "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"
+        "--wheels", type=Path, metavar="DIR", help="extension, release: pack the wheels in this folder"
     )
     parser.add_argument(
         "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
     )
     parser.add_argument(
-        "--all", action="store_true", help="extension: compile and pack for every platform"
+        "--all", action="store_true", help="extension, release: compile and pack for every platform"
     )
     return parser.parse_args()
 
@@ -151,6 +157,7 @@ def main() -> int:
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
         "docs": docs,
+        "release": lambda: release(given.wheels, given.all),
         "format": format_sources,
     }
     return commands[given.command]() or 0

@@ -193,6 +193,13 @@ def wheels_in(folder: Path) -> list[list[Path]]:
     return by_platform(wheels)
 
 
+def wheels_of(folder: Path | None, all_platforms: bool) -> list[list[Path]]:
+    """The wheels of each zip: those in a folder, else of all platforms, else those at hand."""
+    if folder is not None:
+        return wheels_in(folder.resolve())
+    return wheels_of_all_platforms() if all_platforms else wheels_at_hand()
+
+
 def build_all(zips: list[list[Path]]) -> list[Path]:
     """A zip for each list of wheels, under out/, made by a Blender with a wheel's Python where there is one."""
     folder = OUT / "extension"
