@@ -2,6 +2,7 @@
 """How Sphinx makes the site of the staged documents; `build_tools/site_pages.py` says what is staged."""
 
 import os
+import re
 
 project = "Discrete Fairing"
 release = version = os.environ["DF_VERSION"]
@@ -26,3 +27,20 @@ html_theme = "furo"
 html_static_path = ["_static"]
 html_show_sourcelink = False
 html_copy_source = False
+
+ATTRIBUTE = re.compile(r"[a-z_]\w*(?:, [a-z_]\w*)*: ")
+
+
+def attributes_apart(app, what, name, obj, options, lines):
+    """Gives each attribute that a docstring lists one a line a paragraph of its own."""
+    apart = []
+    for line in lines:
+        if ATTRIBUTE.match(line) and apart and apart[-1]:
+            apart.append("")
+        apart.append(line)
+    lines[:] = apart
+
+
+def setup(app):
+    """Sphinx calls this at its start."""
+    app.connect("autodoc-process-docstring", attributes_apart)
