@@ -125,7 +125,18 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "fuzz", "bench", "docs", "extension", "release", "format"]
+        "command",
+        choices=[
+            "setup",
+            "test",
+            "demo",
+            "fuzz",
+            "bench",
+            "docs",
+            "extension",
+            "release",
+            "format",
+        ],
     )
     parser.add_argument(
         "names",
@@ -133,7 +144,10 @@ def arguments() -> argparse.Namespace:
         help="bench, demo, test: only these; test blender:TEXT or windows:TEXT: its parts named so",
     )
     parser.add_argument(
-        "--wheels", type=Path, metavar="DIR", help="extension, release: pack the wheels in this folder"
+        "--wheels",
+        type=Path,
+        metavar="DIR",
+        help="extension, release: pack the wheels in this folder",
     )
     parser.add_argument(
         "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
