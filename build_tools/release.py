@@ -58,7 +58,7 @@ def notes(changelog: str) -> str:
     return sections[1].strip() + "\n"
 
 
-def serve_by(blender: RealBlender, zips: list[Path], folder: Path) -> None:
+def serve_by(blender: RealBlender, zips: list[Path], folder: Path, epoch: int) -> None:
     """Blender's own listing of the zips, and a page to drag from, in a folder that is not there yet."""
     shared = blender.exchange / REPOSITORY
     shutil.rmtree(shared, ignore_errors=True)
@@ -69,6 +69,11 @@ def serve_by(blender: RealBlender, zips: list[Path], folder: Path) -> None:
     command = ["--command", "extension", "server-generate", "--html"]
     run(*blender.headless(*command, "--repo-dir", blender.seen(shared)))
     shutil.copytree(shared, folder)
+    page = folder / "index.html"
+    day = time.strftime("%Y-%m-%d", time.gmtime(epoch))
+    page.write_text(
+        re.sub(r"Built [\d-]+, [\d:]+", f"Built {day}", page.read_text("utf-8")), "utf-8"
+    )
 
 
 def sums(folder: Path) -> str:
@@ -90,7 +95,7 @@ def build(zips: list[list[Path]]) -> Path:
     for path in packed:
         settle(path, epoch)
     with alone("blender"):
-        serve_by(next(iter(places().values()))(), packed, RELEASE / REPOSITORY)
+        serve_by(next(iter(places().values()))(), packed, RELEASE / REPOSITORY, epoch)
     for wheel in (wheel for wheels in zips for wheel in wheels):
         shutil.copy(wheel, RELEASE / "wheels")
     run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)
