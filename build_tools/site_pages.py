@@ -20,7 +20,7 @@ TOOLS_STAMP = TOOLS / "stamp"
 SOURCE = BUILD / "site"
 SITE = OUT / "site"
 
-STAGED = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD_PARTY_LICENSES.txt"]
+STAGED = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE", "THIRD_PARTY_LICENSES.txt"]
 STAGED_FOLDERS = ["docs", "benchmarks/results"]
 
 
