@@ -14,7 +14,8 @@ python3 build_tools/dev.py extension      the extension's zips under out/extensi
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
 python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
-python3 build_tools/dev.py release        a folder for any static host under out/release/; --all, --wheels as for extension
+python3 build_tools/dev.py release        all that is published, as a folder for any static host under out/release/
+python3 build_tools/dev.py release --platforms linux-x64 …   the same for these alone; --wheels DIR as for extension
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -25,6 +26,7 @@ from pathlib import Path
 import native_wheel
 import python_environment
 import system_packages
+from cross.targets import TARGETS
 from layout import OUT, ROOT, VENV_PYTHON
 from shell import DevError, fail, run, say
 from stamp import alone
@@ -87,19 +89,25 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
     import extension as packing
 
     setup_tools()
-    for path in packing.build_all(packing.wheels_of(wheels, all_platforms)):
+    if wheels is not None:
+        found = packing.wheels_in(wheels)
+    elif all_platforms:
+        found = packing.wheels_of_platforms()
+    else:
+        found = packing.wheels_at_hand()
+    for path in packing.build_all(found):
         say(f"{path.relative_to(ROOT)} is ready")
     return 0
 
 
-def release(wheels: Path | None, all_platforms: bool) -> int:
-    """Everything that is published, of the same wheels as the extension's zips."""
+def release(wheels: Path | None, platforms: list[str] | None) -> int:
+    """Everything that is published, of the wheels in a folder or compiled here for the platforms."""
     import extension as packing
     import release as publishing
 
     setup_tools()
-    made = publishing.build(packing.wheels_of(wheels, all_platforms))
-    say(f"{made.relative_to(ROOT)} is ready")
+    found = packing.wheels_in(wheels) if wheels else packing.wheels_of_platforms(platforms)
+    say(f"{publishing.build(found).relative_to(ROOT)} is ready")
     return 0
 
 
@@ -127,17 +135,8 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument(
         "command",
-        choices=[
-            "setup",
-            "test",
-            "demo",
-            "fuzz",
-            "bench",
-            "docs",
-            "extension",
-            "release",
-            "format",
-        ],
+        choices=["setup", "test", "demo", "fuzz", "bench"]
+        + ["extension", "docs", "release", "format"],
     )
     parser.add_argument(
         "names",
@@ -146,15 +145,21 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument(
         "--wheels",
-        type=Path,
+        type=lambda folder: Path(folder).resolve(),
         metavar="DIR",
         help="extension, release: pack the wheels in this folder",
+    )
+    parser.add_argument(
+        "--platforms",
+        nargs="+",
+        choices=[target.name for target in TARGETS],
+        help="release: only for these platforms; for all by default",
     )
     parser.add_argument(
         "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
     )
     parser.add_argument(
-        "--all", action="store_true", help="extension, release: compile and pack for every platform"
+        "--all", action="store_true", help="extension: compile and pack for every platform"
     )
     return parser.parse_args()
 
@@ -172,7 +177,7 @@ def main() -> int:
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
         "docs": docs,
-        "release": lambda: release(given.wheels, given.all),
+        "release": lambda: release(given.wheels, given.platforms),
         "format": format_sources,
     }
     return commands[given.command]() or 0

@@ -8,14 +8,14 @@ import hashlib
 import os
 import re
 import shutil
-import time
-import zipfile
 from pathlib import Path
 
+import blender_repository
 import extension
 import site_pages
+import tool_environment
 from layout import OUT, ROOT, VENV_PYTHON
-from real_blender import RealBlender, places
+from real_blender import places
 from shell import DevError, output, run, say
 from stamp import alone
 from wheel_version import manifest_version
@@ -23,8 +23,8 @@ from wheel_version import manifest_version
 RELEASE = OUT / "release"
 REPOSITORY = "blender"
 SUMS = "SHA256SUMS"
+COMPONENTS = "components.cdx.json"
 BUILD_SDIST = "import sys, scikit_build_core.build as b; b.build_sdist(sys.argv[1])"
-FIRST_DATE = 315532800  # of zip: 1980-01-01, in seconds since 1970
 
 
 def commit_time() -> int:
@@ -37,43 +37,12 @@ def commit_time() -> int:
     return int(text)
 
 
-def settle(path: Path, epoch: int) -> None:
-    """Writes a zip anew, its entries in order of their names and all of one time."""
-    date = time.gmtime(max(epoch, FIRST_DATE))[:6]
-    settled = path.with_suffix(".settled")
-    with zipfile.ZipFile(path) as old, zipfile.ZipFile(settled, "w") as new:
-        for name in sorted(old.namelist()):
-            entry = zipfile.ZipInfo(name, date)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (0o40755 << 16 | 0x10) if name.endswith("/") else 0o100644 << 16
-            new.writestr(entry, old.read(name))
-    settled.replace(path)
-
-
 def notes(changelog: str) -> str:
     """The newest section of the changelog, without its heading."""
     sections = re.split(r"^## .*\n", changelog, flags=re.MULTILINE)
     if len(sections) < 2 or not sections[1].strip():
         raise DevError("CHANGELOG.md has no section to take release notes from.")
     return sections[1].strip() + "\n"
-
-
-def serve_by(blender: RealBlender, zips: list[Path], folder: Path, epoch: int) -> None:
-    """Blender's own listing of the zips, and a page to drag from, in a folder that is not there yet."""
-    shared = blender.exchange / REPOSITORY
-    shutil.rmtree(shared, ignore_errors=True)
-    shared.mkdir()
-    shared.chmod(0o777)
-    for path in zips:
-        shutil.copy(path, shared)
-    command = ["--command", "extension", "server-generate", "--html"]
-    run(*blender.headless(*command, "--repo-dir", blender.seen(shared)))
-    shutil.copytree(shared, folder)
-    page = folder / "index.html"
-    day = time.strftime("%Y-%m-%d", time.gmtime(epoch))
-    page.write_text(
-        re.sub(r"Built [\d-]+, [\d:]+", f"Built {day}", page.read_text("utf-8")), "utf-8"
-    )
 
 
 def sums(folder: Path) -> str:
@@ -85,6 +54,14 @@ def sums(folder: Path) -> str:
     )
 
 
+def list_components(path: Path, epoch: int) -> None:
+    """Writes what the wheels are made of."""
+    with alone("components"):
+        python = tool_environment.install("components", "release")
+        script = ROOT / "build_tools" / "components.py"
+        run(python, script, manifest_version(), str(epoch), path)
+
+
 def build(zips: list[list[Path]]) -> Path:
     """The release's folder, with a zip for each list of wheels."""
     epoch = commit_time()
@@ -93,13 +70,15 @@ def build(zips: list[list[Path]]) -> Path:
     shutil.rmtree(RELEASE, ignore_errors=True)
     (RELEASE / "wheels").mkdir(parents=True)
     for path in packed:
-        settle(path, epoch)
+        blender_repository.settle(path, epoch)
     with alone("blender"):
-        serve_by(next(iter(places().values()))(), packed, RELEASE / REPOSITORY, epoch)
+        blender = next(iter(places().values()))()
+        blender_repository.generate(blender, packed, RELEASE / REPOSITORY)
     for wheel in (wheel for wheels in zips for wheel in wheels):
         shutil.copy(wheel, RELEASE / "wheels")
     run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)
     shutil.copytree(site_pages.build(), RELEASE / "site")
+    list_components(RELEASE / COMPONENTS, epoch)
     (RELEASE / "NOTES.md").write_text(notes((ROOT / "CHANGELOG.md").read_text("utf-8")), "utf-8")
     (RELEASE / SUMS).write_text(sums(RELEASE), "utf-8")
     say(f"release {manifest_version()}")
