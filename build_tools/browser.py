@@ -26,6 +26,6 @@ def photograph(address: str, path: Path, size: tuple[int, int], *options: str) -
     _run(address, f"--window-size={size[0]},{size[1]}", f"--screenshot={path}", *options)
 
 
-def document(address: str, *options: str) -> str:
+def html_of(address: str, *options: str) -> str:
     """The page's HTML after its scripts have run."""
     return _run(address, "--dump-dom", *options)

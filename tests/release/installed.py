@@ -37,7 +37,7 @@ def keep_preset():
         return
     folder = Path(bpy.utils.user_resource("SCRIPTS", path=FOLDER, create=True))
     lines = ["import bpy", "op = bpy.context.active_operator", "op.tolerance = 0.125", ""]
-    (folder / f"{PRESET.lower()}.py").write_text("\n".join(lines))
+    (folder / f"{PRESET}.py").write_text("\n".join(lines))
 
 
 def test_a_preset_and_preferences_are_kept():

@@ -23,7 +23,7 @@ def test_preferences_are_kept():
 
 def test_the_preset_is_offered_and_applied():
     folders = bpy.utils.preset_paths(FOLDER.removeprefix("presets/"))
-    (path,) = (p for folder in folders for p in Path(folder).glob(f"{PRESET.lower()}.py"))
+    (path,) = (p for folder in folders for p in Path(folder).glob(f"{PRESET}.py"))
     settings = bpy.context.scene.discrete_fairing
     assert settings.tolerance != 0.125
     assert bpy.ops.object.fairing_preset_apply(filepath=str(path)) == {"FINISHED"}

@@ -5,11 +5,16 @@
 
 (() => {
   const STATIC = new URL("./", document.currentScript.src);
-  const STRIPES = 9;
-  const FIRST = "Total curvature";
-  const FIELD = 28; // degrees, from top to bottom
-  // where the camera is at first: degrees about the vertical, degrees above the horizon
-  const VIEWS = { hull: [-40, 14], fender: [-28, 16], mug: [50, 24], branching: [25, 18] };
+  const FIRST = "Thin plate";
+  const FIELD = 14; // degrees, from top to bottom
+  // where the camera is at first: degrees about the vertical, degrees above the horizon, distance (1: all fits in, however
+  // it turns); and how many stripes: flat shapes need more
+  const VIEWS = {
+    hull: [-40, 18, 0.68, 14],
+    fender: [-28, 16, 0.7, 7],
+    mug: [50, 24, 0.85, 6],
+    branching: [25, 18, 0.8, 6],
+  };
 
   const vertexShader = `
     varying vec3 vNormal, vView;
@@ -22,11 +27,11 @@
 
   // Level lamps all around, as in a car maker's light tunnel: stripes in what the surface mirrors.
   const fragmentShader = `
-    uniform float zebra;
+    uniform float zebra, stripes;
     varying vec3 vNormal, vView;
     void main() {
       vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0), v = normalize(vView);
-      float wave = sin(${STRIPES.toFixed(1)} * 3.14159265 * reflect(-v, n).y);
+      float wave = sin(stripes * 3.14159265 * reflect(-v, n).y);
       float soft = fwidth(wave);
       float stripe = mix(0.10, 0.96, smoothstep(-soft, soft, wave));
       vec3 clay = vec3(0.80, 0.70, 0.60) * (0.30 + 0.70 * max(dot(n, normalize(vec3(-0.4, 0.8, 0.6))), 0.0));
@@ -61,12 +66,12 @@
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", image.alt);
 
-    const look = { zebra: { value: 1 } };
+    const [turn, rise, distance, stripes] = VIEWS[name];
+    const look = { zebra: { value: 1 }, stripes: { value: stripes } };
     const skin = new THREE.ShaderMaterial({
       uniforms: look, vertexShader, fragmentShader, side: THREE.DoubleSide, extensions: { derivatives: true },
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
-    const wire = new THREE.LineBasicMaterial({ color: 0xd2541b });
+    const wire = new THREE.LineBasicMaterial({ color: 0xd2541b, depthTest: false, transparent: true, opacity: 0.8 });
     const surfaces = new Map();
     let lines = null;
     for (const node of model.children) {
@@ -79,9 +84,9 @@
     scene.add(model);
     const ball = new THREE.Box3().setFromObject(model).getBoundingSphere(new THREE.Sphere());
     const camera = new THREE.PerspectiveCamera(FIELD, 1, ball.radius / 10, ball.radius * 20);
-    const [turn, rise] = (VIEWS[name] || [30, 18]).map((degrees) => degrees * Math.PI / 180);
-    const away = new THREE.Vector3(Math.sin(turn) * Math.cos(rise), Math.sin(rise), Math.cos(turn) * Math.cos(rise));
-    camera.position.copy(ball.center).addScaledVector(away, ball.radius / Math.sin(FIELD * Math.PI / 360) * 0.9);
+    const degree = Math.PI / 180;
+    const away = new THREE.Vector3().setFromSphericalCoords(1, (90 - rise) * degree, turn * degree);
+    camera.position.copy(ball.center).addScaledVector(away, distance * ball.radius / Math.sin(FIELD / 2 * degree));
 
     const controls = new THREE.OrbitControls(camera, canvas);
     controls.target.copy(ball.center);
@@ -103,10 +108,11 @@
     button("Zebra", looks, () => { look.zebra.value = 1; }).click();
     button("Clay", looks, () => { look.zebra.value = 0; });
     if (lines) {
+      lines.visible = false;
       const toggle = document.createElement("button");
       toggle.type = "button";
       toggle.textContent = "Control mesh";
-      toggle.setAttribute("aria-pressed", String(lines.visible));
+      toggle.setAttribute("aria-pressed", "false");
       toggle.addEventListener("click", () => {
         lines.visible = !lines.visible;
         toggle.setAttribute("aria-pressed", String(lines.visible));
