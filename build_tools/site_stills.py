@@ -17,7 +17,7 @@ STILLS = ROOT / "docs" / "site" / "stills"
 SIZE = (800, 500)
 PAGE = """<!DOCTYPE html><link rel="stylesheet" href="turning.css">
 <style>body, figure.turning {{ margin: 0 }} .turning-choices {{ display: none }}</style>
-<figure class="turning"><img src="{name}.png" alt=""></figure>
+<figure class="turning"><img src="turning_{name}.png" alt=""></figure>
 <script src="three/three.min.js"></script><script src="three/GLTFLoader.js"></script>
 <script src="three/OrbitControls.js"></script><script src="turning.js"></script>"""
 
@@ -32,7 +32,7 @@ def main() -> None:
             for name in models:
                 (static / f"{name}.html").write_text(PAGE.format(name=name), "utf-8")
                 clear = "--default-background-color=00000000"
-                photograph(f"{address}/{name}.html", STILLS / f"{name}.png", SIZE, clear)
+                photograph(f"{address}/{name}.html", STILLS / f"turning_{name}.png", SIZE, clear)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ def install(name: str, tool: str) -> Path:
     """
     folder, lock = CACHE / name, lock_file(tool)
     python, stamp = folder / "bin" / "python", folder / "stamp"
-    value = fingerprint([lock], PYTHON_STAMP.read_text())
+    value = fingerprint([lock], PYTHON_STAMP.read_text(), str(VENV))
     if not is_fresh(stamp, value):
         say(f"Python environment: {folder.relative_to(ROOT)}")
         run(VENV / "bin" / "python", "-m", "venv", "--clear", folder)

@@ -25,6 +25,7 @@ autodoc_typehints = "none"
 
 html_theme = "furo"
 html_static_path = ["_static"]
+html_css_files = ["pictures.css"]
 html_show_sourcelink = False
 html_copy_source = False
 

@@ -105,7 +105,7 @@ def test_without_scripts_there_are_pictures(site):
     page = (site / "turning.html").read_text("utf-8")
     assert figures(page) == [(1, 0)] * len(models(site))
     for name in models(site):
-        assert f"{name}.png" in page, name
+        assert f"/turning_{name}.png" in page, name
 
 
 def test_from_a_disk_the_pictures_stay(site):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces that turn: each figure of the class "turning" whose picture is stills/NAME.png gets the model models/NAME.glb
+// Surfaces that turn: each figure of the class "turning" whose picture is turning_NAME.png gets the model models/NAME.glb
 // in its place. The picture stays where there is no WebGL, or no host to fetch the model from (a page opened from disk).
 "use strict";
 
@@ -33,10 +33,10 @@
       vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0), v = normalize(vView);
       float wave = sin(stripes * 3.14159265 * reflect(-v, n).y);
       float soft = fwidth(wave);
-      float stripe = mix(0.10, 0.96, smoothstep(-soft, soft, wave));
+      vec3 stripe = mix(vec3(0.20, 0.22, 0.26), vec3(0.96), smoothstep(-soft, soft, wave)); // dark, but no page is so dark
       vec3 clay = vec3(0.80, 0.70, 0.60) * (0.30 + 0.70 * max(dot(n, normalize(vec3(-0.4, 0.8, 0.6))), 0.0));
       float facing = 0.75 + 0.25 * max(dot(n, v), 0.0);
-      gl_FragColor = vec4(mix(clay, vec3(stripe) * facing, zebra), 1.0);
+      gl_FragColor = vec4(mix(clay, stripe * facing, zebra), 1.0);
     }`;
 
   function button(text, group, choose) {
@@ -136,7 +136,7 @@
 
   for (const figure of document.querySelectorAll("figure.turning")) {
     const image = figure.querySelector("img");
-    const name = image.src.replace(/^.*\/|\.png$/g, "");
+    const name = image.src.replace(/^.*\/turning_|\.png$/g, "");
     new THREE.GLTFLoader().load(
       new URL(`models/${name}.glb`, STATIC).href,
       (loaded) => {
