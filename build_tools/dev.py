@@ -14,6 +14,8 @@ python3 build_tools/dev.py extension      the extension's zips under out/extensi
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
 python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
+python3 build_tools/dev.py release        all that is published, as a folder for any static host under out/release/
+python3 build_tools/dev.py release --platforms linux-x64 …   the same for these alone; --wheels DIR as for extension
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -24,6 +26,7 @@ from pathlib import Path
 import native_wheel
 import python_environment
 import system_packages
+from cross.targets import TARGETS
 from layout import OUT, ROOT, VENV_PYTHON
 from shell import DevError, fail, run, say
 from stamp import alone
@@ -87,13 +90,24 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
 
     setup_tools()
     if wheels is not None:
-        found = packing.wheels_in(wheels.resolve())
+        found = packing.wheels_in(wheels)
     elif all_platforms:
-        found = packing.wheels_of_all_platforms()
+        found = packing.wheels_of_platforms()
     else:
         found = packing.wheels_at_hand()
     for path in packing.build_all(found):
         say(f"{path.relative_to(ROOT)} is ready")
+    return 0
+
+
+def release(wheels: Path | None, platforms: list[str] | None) -> int:
+    """Everything that is published, of the wheels in a folder or compiled here for the platforms."""
+    import extension as packing
+    import release as publishing
+
+    setup_tools()
+    found = packing.wheels_in(wheels) if wheels else packing.wheels_of_platforms(platforms)
+    say(f"{publishing.build(found).relative_to(ROOT)} is ready")
     return 0
 
 
@@ -120,7 +134,9 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "fuzz", "bench", "extension", "docs", "format"]
+        "command",
+        choices=["setup", "test", "demo", "fuzz", "bench"]
+        + ["extension", "docs", "release", "format"],
     )
     parser.add_argument(
         "names",
@@ -128,7 +144,16 @@ def arguments() -> argparse.Namespace:
         help="bench, demo, test: only these; test blender:TEXT or windows:TEXT: its parts named so",
     )
     parser.add_argument(
-        "--wheels", type=Path, metavar="DIR", help="extension: pack the wheels in this folder"
+        "--wheels",
+        type=lambda folder: Path(folder).resolve(),
+        metavar="DIR",
+        help="extension, release: pack the wheels in this folder",
+    )
+    parser.add_argument(
+        "--platforms",
+        nargs="+",
+        choices=[target.name for target in TARGETS],
+        help="release: only for these platforms; for all by default",
     )
     parser.add_argument(
         "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
@@ -152,6 +177,7 @@ def main() -> int:
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
         "docs": docs,
+        "release": lambda: release(given.wheels, given.platforms),
         "format": format_sources,
     }
     return commands[given.command]() or 0

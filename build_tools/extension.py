@@ -176,11 +176,13 @@ def wheels_at_hand() -> list[list[Path]]:
     ]
 
 
-def wheels_of_all_platforms() -> list[list[Path]]:
-    """The wheels of each platform that is cross-compiled for."""
-    from cross.wheels import build_all as compile_all
+def wheels_of_platforms(names: list[str] | None = None) -> list[list[Path]]:
+    """The wheels of each platform named, of all that are cross-compiled for where none is."""
+    from cross.targets import TARGETS, target_named
+    from cross.wheels import build as compile_for
 
-    return by_platform(compile_all())
+    targets = [target_named(name) for name in names] if names else TARGETS
+    return by_platform([wheel for target in targets for wheel in compile_for(target)])
 
 
 def wheels_in(folder: Path) -> list[list[Path]]:

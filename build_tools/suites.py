@@ -12,6 +12,7 @@ from time import monotonic, time
 import blender_suite
 import fuzzing
 import native_wheel
+import release_suite
 import style
 import system_packages
 from durations import REPORTS, slowest
@@ -125,6 +126,7 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "build_tools": lambda: pytest_suite("build_tools"),
     "site": site_suite,
     "blender": blender_suite.run_suite,
+    "release": release_suite.run_suite,
 }
 
 

@@ -17,7 +17,7 @@ from wheel_version import LOCAL_PART
 
 from cross import native_build
 from cross.inspection import faults
-from cross.targets import PYTHONS, TARGETS, Target
+from cross.targets import PYTHONS, Target
 
 PACKAGE = ROOT / "native" / "binding" / "discrete_fairing"
 WHEELS = native_build.BUILD / "wheels" / "cross"
@@ -98,8 +98,3 @@ def build(target: Target, pythons: tuple[str, ...] = PYTHONS) -> list[Path]:
                     raise DevError(f"{wheel.name}: {'; '.join(found)}.")
             leave(stamp, value)
         return sorted(folder.glob("*.whl"))
-
-
-def build_all() -> list[Path]:
-    """The wheels of all platforms."""
-    return [wheel for target in TARGETS for wheel in build(target)]

@@ -24,6 +24,8 @@ autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
 
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["pictures.css"]
 html_show_sourcelink = False
 html_copy_source = False
 

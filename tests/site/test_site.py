@@ -6,11 +6,19 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from browser import html_of, photograph
+from serving import served
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "out" / "site"
 SCREENSHOTS = ROOT / "out" / "screenshots" / "site"
-PNG_SIZE = slice(16, 24)  # width and height in a PNG's first chunk
+LARGEST = 8_000_000  # bytes of the page of turning surfaces
+
+
+def png_size(path):
+    """Width and height, from a PNG's first chunk."""
+    size = path.read_bytes()[16:24]
+    return int.from_bytes(size[:4]), int.from_bytes(size[4:])
 
 
 @pytest.fixture(scope="module")
@@ -21,9 +29,8 @@ def site():
 
 
 def test_every_document_has_a_page(site):
-    for document in sorted((ROOT / "docs").rglob("*.md")):
-        page = document.relative_to(ROOT).with_suffix(".html")
-        assert document.parent.name == "site" or (site / page).is_file(), page
+    for document in sorted((ROOT / "docs").glob("*.md")):
+        assert (site / "docs" / f"{document.stem}.html").is_file(), document.name
 
 
 def test_every_public_name_is_in_the_reference(site):
@@ -48,15 +55,66 @@ def test_no_page_loads_anything_over_the_network(site):
     assert found == set()
 
 
-@pytest.mark.parametrize("width", [1400, 500])
-@pytest.mark.parametrize("page", ["index", "docs/reference/settings", "api"])
-def test_browser_draws_the_page(site, page, width):
-    SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-    picture = SCREENSHOTS / f"{Path(page).name}-{width}.png"
-    picture.unlink(missing_ok=True)
-    options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
-    options += [f"--window-size={width},1000", f"--screenshot={picture}"]
-    address = (site / f"{page}.html").as_uri()
-    subprocess.run(["chromium", *options, address], check=True, timeout=120, capture_output=True)
-    size = picture.read_bytes()[PNG_SIZE]
-    assert (int.from_bytes(size[:4]), int.from_bytes(size[4:])) == (width, 1000)
+DARK = "--blink-settings=preferredColorScheme=0"
+WIDE, NARROW = (1400, 1000), (500, 1000)
+
+
+@pytest.fixture(scope="module")
+def address(site):
+    """Where a host on this machine serves the site."""
+    with served(site) as found:
+        yield found
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize("page", ["index", "docs/reference/settings", "api", "turning"])
+def test_browser_draws_the_page(address, page, size):
+    picture = SCREENSHOTS / f"{Path(page).name}-{size[0]}.png"
+    photograph(f"{address}/{page}.html", picture, size)
+    assert png_size(picture) == size
+
+
+@pytest.mark.parametrize("page", ["index", "docs/explanation/gallery", "turning"])
+def test_browser_draws_the_page_in_the_dark(address, page):
+    light, dark = (SCREENSHOTS / f"{Path(page).name}-{name}.png" for name in ("light", "dark"))
+    photograph(f"{address}/{page}.html", light, WIDE)
+    photograph(f"{address}/{page}.html", dark, WIDE, DARK)
+    assert png_size(dark) == WIDE
+    assert light.read_bytes() != dark.read_bytes()
+
+
+def figures(page):
+    """The figures that turn, as (number of pictures, number of canvases) of each."""
+    found = re.findall(r'<figure class="[^"]*\bturning\b.*?</figure>', page, re.DOTALL)
+    return [(figure.count("<img"), figure.count("<canvas")) for figure in found]
+
+
+def models(site):
+    return sorted(path.stem for path in (site / "_static" / "models").glob("*.glb"))
+
+
+def test_every_model_turns(site, address):
+    page = html_of(f"{address}/turning.html")
+    assert figures(page) == [(0, 1)] * len(models(site))
+    assert page.count('data-turning="yes"') == len(models(site)) > 0
+    for way in ("Subdivision Surface", "Thin plate", "Total curvature", "Control mesh"):
+        assert page.count(f">{way}</button>") == len(models(site)), way
+
+
+def test_without_scripts_there_are_pictures(site):
+    page = (site / "turning.html").read_text("utf-8")
+    assert figures(page) == [(1, 0)] * len(models(site))
+    for name in models(site):
+        assert f"/turning_{name}.png" in page, name
+
+
+def test_from_a_disk_the_pictures_stay(site):
+    page = html_of((site / "turning.html").as_uri())
+    assert figures(page) == [(1, 0)] * len(models(site))
+
+
+def test_what_turns_is_small_and_has_its_licence(site):
+    static = site / "_static"
+    parts = [path for name in ("models", "three") for path in (static / name).iterdir()]
+    assert sum(path.stat().st_size for path in parts) < LARGEST
+    assert "Expat" in (static / "three" / "copyright").read_text("utf-8")

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A release as a folder that any static host can serve: Blender's repository of the zips, wheels, source, site, sums.
+
+Every time in it is that of the commit, so that the same commit and tools give the same bytes.
+"""
+
+import hashlib
+import os
+import re
+import shutil
+from pathlib import Path
+
+import blender_repository
+import extension
+import site_pages
+import tool_environment
+from layout import OUT, ROOT, VENV_PYTHON
+from real_blender import places
+from shell import DevError, output, run, say
+from stamp import alone
+from wheel_version import manifest_version
+
+RELEASE = OUT / "release"
+REPOSITORY = "blender"
+SUMS = "SHA256SUMS"
+COMPONENTS = "components.cdx.json"
+BUILD_SDIST = "import sys, scikit_build_core.build as b; b.build_sdist(sys.argv[1])"
+
+
+def commit_time() -> int:
+    """Seconds since 1970: SOURCE_DATE_EPOCH where it is set, else the time of the commit."""
+    if given := os.environ.get("SOURCE_DATE_EPOCH"):
+        return int(given)
+    code, text = output("git", "log", "-1", "--format=%ct")
+    if code != 0:
+        raise DevError("a release is made of a git commit, or with SOURCE_DATE_EPOCH set.")
+    return int(text)
+
+
+def notes(changelog: str) -> str:
+    """The newest section of the changelog, without its heading."""
+    sections = re.split(r"^## .*\n", changelog, flags=re.MULTILINE)
+    if len(sections) < 2 or not sections[1].strip():
+        raise DevError("CHANGELOG.md has no section to take release notes from.")
+    return sections[1].strip() + "\n"
+
+
+def sums(folder: Path) -> str:
+    """Hash and name of every file, as `sha256sum --check` reads them."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != SUMS)
+    return "".join(
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(folder)}\n"
+        for path in files
+    )
+
+
+def list_components(path: Path, epoch: int) -> None:
+    """Writes what the wheels are made of."""
+    with alone("components"):
+        python = tool_environment.install("components", "release")
+        script = ROOT / "build_tools" / "components.py"
+        run(python, script, manifest_version(), str(epoch), path)
+
+
+def build(zips: list[list[Path]]) -> Path:
+    """The release's folder, with a zip for each list of wheels."""
+    epoch = commit_time()
+    os.environ["SOURCE_DATE_EPOCH"] = str(epoch)  # for Sphinx and the sdist
+    packed = extension.build_all(zips)
+    shutil.rmtree(RELEASE, ignore_errors=True)
+    (RELEASE / "wheels").mkdir(parents=True)
+    for path in packed:
+        blender_repository.settle(path, epoch)
+    with alone("blender"):
+        blender = next(iter(places().values()))()
+        blender_repository.generate(blender, packed, RELEASE / REPOSITORY)
+    for wheel in (wheel for wheels in zips for wheel in wheels):
+        shutil.copy(wheel, RELEASE / "wheels")
+    run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)
+    shutil.copytree(site_pages.build(), RELEASE / "site")
+    list_components(RELEASE / COMPONENTS, epoch)
+    (RELEASE / "NOTES.md").write_text(notes((ROOT / "CHANGELOG.md").read_text("utf-8")), "utf-8")
+    (RELEASE / SUMS).write_text(sums(RELEASE), "utf-8")
+    say(f"release {manifest_version()}")
+    return RELEASE

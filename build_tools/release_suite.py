@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The life of the extension at a user's: installed from a served repository, used, updated, removed, in each real Blender."""
+
+import shutil
+import zipfile
+from pathlib import Path
+
+import blender_repository
+import extension
+from blender_suite import SCRIPTS as BLENDER_SCRIPTS
+from blender_suite import count
+from layout import BUILD, ROOT
+from real_blender import RealBlender, places
+from serving import served
+from shell import DevError, output, say
+from stamp import alone
+from tally import Tally
+from wheel_version import manifest_version
+
+SCRIPTS = ROOT / "tests" / "release"
+SERVED = BUILD / "served"
+REPOSITORY = "served"  # as Blender calls it in its settings
+PACKAGE = "discrete_fairing"
+EPOCH = 1_700_000_000  # seconds since 1970: any will do
+PRESET = "scripts/presets/operator/object.fairing_surface/mine.py"
+
+
+def next_version(version: str) -> str:
+    """The version of the next release that mends something."""
+    rest, _, last = version.rpartition(".")
+    return f"{rest}.{int(last) + 1}"
+
+
+def newer(path: Path) -> Path:
+    """The same zip as the next version: only its manifest differs."""
+    old, new = manifest_version(), next_version(manifest_version())
+    made = path.with_name(path.name.replace(old, new))
+    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(made, "w") as copy:
+        for name in archive.namelist():
+            data = archive.read(name)
+            if name == "blender_manifest.toml":
+                data = data.replace(f'version = "{old}"'.encode(), f'version = "{new}"'.encode())
+            copy.writestr(name, data, zipfile.ZIP_DEFLATED)
+    blender_repository.settle(made, EPOCH)
+    return made
+
+
+def command(blender: RealBlender, *words: str) -> str:
+    """What one of Blender's commands for extensions says; its failure is an error."""
+    code, text = output(*blender.headless("--online-mode", "--command", "extension", *words))
+    told = "\n".join(line for line in text.splitlines() if not line.startswith("PROGRESS"))
+    print(told, flush=True)
+    if code:
+        raise DevError(f"`extension {words[0]}` failed in Blender {blender.version}: {told[-300:]}")
+    return told
+
+
+def look(blender: RealBlender, stage: str, version: str) -> Tally:
+    """The script of one stage, in this Blender."""
+    say(f"Blender {blender.version}: {stage}")
+    script = blender.seen(blender.exchange / "tests" / f"{stage}.py")
+    facts = {"DF_VERSION": version, "DF_EXTENSION": f"bl_ext.{REPOSITORY}.{PACKAGE}"}
+    words = ["--python-exit-code", "1", "--python", script]
+    code, text = output(*blender.headless(*words, **facts))
+    print(text, flush=True)
+    return count(code, text, f"{stage}.py")
+
+
+def check(name: str, fine: bool) -> Tally:
+    """One test that is made from outside."""
+    print(f"{'PASS' if fine else 'FAIL'} {name}", flush=True)
+    return Tally(passed=int(fine), failed=int(not fine))
+
+
+def traces(user: Path) -> list[str]:
+    """What of the extension lies in Blender's folder for a user; what the user made himself is none."""
+    paths = (str(path.relative_to(user)) for path in user.rglob(f"*{PACKAGE}*"))
+    return sorted(path for path in paths if not path.endswith(".pyc"))
+
+
+def live(blender: RealBlender) -> Tally:
+    """All stages in one Blender."""
+    blender.clear()
+    (folder := SERVED / blender.version).mkdir(parents=True, exist_ok=True)
+    zipped = extension.build([blender.wheel()], blender)
+    blender_repository.settle(zipped, EPOCH)
+    tests = blender.exchange / "tests"
+    shutil.copytree(SCRIPTS, tests, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(BLENDER_SCRIPTS / "harness.py", tests)
+    user, now, then = blender.folder / "user", manifest_version(), next_version(manifest_version())
+    with served(folder) as address:
+        blender_repository.generate(blender, [zipped], folder)
+        # Blender's own repository is on the network, and tests are not
+        words = ["--clear-all", "--name", REPOSITORY, "--url", f"{address}/index.json", REPOSITORY]
+        command(blender, "repo-add", *words)
+        command(blender, "install", "--sync", "--enable", PACKAGE)
+        total = look(blender, "installed", now)
+        blender_repository.generate(blender, [newer(zipped)], folder)
+        offered = f"outdated: {now} -> {then}" in command(blender, "list", "--sync")
+        total += check("an update is offered", offered)
+        command(blender, "update", "--sync")
+        total += look(blender, "updated", then)
+        total += check("presets are kept", (user / PRESET).is_file())
+        command(blender, "remove", PACKAGE)
+        total += look(blender, "removed", then)
+        total += check("presets stay the user's", (user / PRESET).is_file())
+        left = traces(user)
+        print("\n".join(left), flush=True)
+        total += check("no traces are left", not left)
+    return total
+
+
+def run_suite() -> dict[str, Tally]:
+    """The tallies by Blender, one after the other."""
+    tallies = {}
+    with alone("blender"):
+        for place, get in places().items():
+            try:
+                blender = get()
+                tallies[f"{place} {blender.version}"] = live(blender)
+            except DevError as error:
+                print(f"dev.py: {error}", flush=True)
+                tallies[place] = Tally(failed=1, note=str(error))
+    return tallies

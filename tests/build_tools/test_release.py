@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a release is made of, without compiling: zips, listing, page and components of settled bytes, notes, sums."""
+
+import itertools
+import json
+import re
+import subprocess
+import zipfile
+
+import pytest
+import release
+from blender_repository import settle, settled_listing, settled_page
+from layout import ROOT
+from release_suite import newer, next_version
+from shell import DevError
+from wheel_version import manifest_version
+
+EPOCH = 1_700_000_000  # seconds since 1970
+
+
+def packed(path, names):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in names:
+            archive.writestr(name, name)
+    return path
+
+
+def test_settled_zips_are_the_same_in_any_order(tmp_path):
+    one = packed(tmp_path / "one.zip", ["b.py", "a/", "a/c.py"])
+    other = packed(tmp_path / "other.zip", ["a/", "a/c.py", "b.py"])
+    for path in (one, other):
+        settle(path, EPOCH)
+    assert one.read_bytes() == other.read_bytes()
+    with zipfile.ZipFile(one) as archive:
+        assert archive.namelist() == ["a/", "a/c.py", "b.py"]
+        assert archive.read("a/c.py") == b"a/c.py"
+
+
+def test_a_zip_from_before_zip_has_its_first_date(tmp_path):
+    path = packed(tmp_path / "one.zip", ["a.py"])
+    settle(path, 0)
+    with zipfile.ZipFile(path) as archive:
+        assert archive.infolist()[0].date_time == (1980, 1, 1, 0, 0, 0)
+
+
+NAMES = ["linux_x64.zip", "macos_arm64.zip", "windows_x64.zip"]
+
+
+def test_the_listing_is_the_same_in_any_order():
+    texts = {
+        settled_listing(json.dumps({"version": "v1", "data": [{"archive_url": n} for n in names]}))
+        for names in itertools.permutations(NAMES)
+    }
+    (text,) = texts
+    assert [package["archive_url"] for package in json.loads(text)["data"]] == NAMES
+
+
+def page(names):
+    """What Blender makes of its template, as far as rows go."""
+    rows = [f'  <tr>\n    <td><a href="{name}">x</a></td>\n  </tr>\n' for name in names]
+    return "<table>\n  <tr>\n    <th>ID</th>\n  </tr>\n" + "".join(rows) + "</table>\n"
+
+
+def test_the_page_is_the_same_in_any_order():
+    texts = {settled_page(page(names)) for names in itertools.permutations(NAMES)}
+    assert texts == {page(NAMES)}
+
+
+def test_the_page_is_of_no_time():
+    template = (ROOT / "build_tools" / "repository_page.html").read_text("utf-8")
+    assert re.findall(r"\$\S+", template) == ["${body}"]
+
+
+def test_the_next_version_differs_by_its_manifest_alone(tmp_path):
+    old = manifest_version()
+    path = tmp_path / f"discrete_fairing-{old}-linux_x64.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("a.py", "a")
+        archive.writestr("blender_manifest.toml", f'id = "x"\nversion = "{old}"\n')
+    with zipfile.ZipFile(newer(path)) as archive:
+        assert archive.read("a.py") == b"a"
+        manifest = archive.read("blender_manifest.toml").decode()
+    assert manifest == f'id = "x"\nversion = "{next_version(old)}"\n'
+
+
+def test_next_version():
+    assert next_version("1.0.9") == "1.0.10"
+
+
+@pytest.fixture(scope="module")
+def components(tmp_path_factory):
+    """The list of components, made twice."""
+    folder = tmp_path_factory.mktemp("components")
+    paths = [folder / name for name in ("one.json", "other.json")]
+    for path in paths:
+        release.list_components(path, EPOCH)
+    return [path.read_bytes() for path in paths]
+
+
+def test_components_are_the_same_twice(components):
+    one, other = components
+    assert one == other
+
+
+def test_components_are_those_whose_licences_we_give(components):
+    listed = json.loads(components[0])
+    text = (ROOT / "THIRD_PARTY_LICENSES.txt").read_text("utf-8")
+    named = re.findall(r"^(\w.*) \((https://\S+)\), ", text, re.MULTILINE)
+    found = [(c["name"], c["externalReferences"][0]["url"]) for c in listed["components"]]
+    assert len(named) > 4
+    assert sorted(found) == sorted(named)
+    assert listed["specVersion"] == "1.6"
+    assert listed["metadata"]["component"]["version"] == manifest_version()
+
+
+def test_notes_are_the_newest_section_alone():
+    text = "# Changes\n\n## [2.0]\n\n### Added\n\n- new\n\n## [1.0]\n\n- old\n"
+    assert release.notes(text) == "### Added\n\n- new\n"
+
+
+def test_a_changelog_without_sections_is_refused():
+    with pytest.raises(DevError, match="no section"):
+        release.notes("# Changes\n")
+
+
+def test_sums_are_what_sha256sum_checks(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "a").write_bytes(b"a")
+    (tmp_path / release.SUMS).write_text(release.sums(tmp_path))
+    command = ["sha256sum", "--check", "--strict", release.SUMS]
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 0
+    (tmp_path / "in" / "a").write_bytes(b"b")
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode != 0
