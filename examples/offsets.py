@@ -42,7 +42,7 @@ def mesh(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 3), station by station from the keel up, and quads (m, 4) that look outwards."""
     stations, lines = offsets.shape[:2]
     at = np.arange(stations * lines).reshape(stations, lines)
-    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=2)
+    quads = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=2)
     return offsets.reshape(-1, 3), quads.reshape(-1, 4)
 
 

@@ -81,6 +81,16 @@ def live_surfaces_of(source: Object) -> list[Object]:
     return [target for its, target in pairs if target is not None and its == source]
 
 
+def look_again(source: Object) -> None:
+    """Live surfaces of `source` are made anew with what Blender does not say has changed, such as new
+    shape keys.
+    """
+    for target in live_surfaces_of(source):
+        session = registry.session_of(target)
+        if session is not None:
+            session.distrust()
+
+
 def surfaces_of(source: Object) -> list[Object]:
     """What is made of `source` and can be made again, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]

@@ -12,6 +12,7 @@ from .. import core, errors, prediction, size
 from ..blender import Context, Mesh, Object
 from ..errors import JobError
 from ..in_place import floats
+from ..live.switch import look_again
 from ..mesh.object import Reference
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import EASED, put_key
@@ -137,8 +138,10 @@ class EaseJob(_Moving):
         return words.eased(eased.noise, self.moves, before, wrong, floor_of(before), text)
 
     def write_key(self) -> None:
-        """As a shape key of the source, whose mesh stays."""
-        put_key(cast(Object, self.reference.find()), EASED, self.positions)
+        """As a shape key of the source, whose mesh stays, and so of its live surfaces."""
+        source = cast(Object, self.reference.find())
+        put_key(source, EASED, self.positions)
+        look_again(source)
 
     def write_copy(self) -> Object:
         """As the mesh of a new object beside the source."""

@@ -7,7 +7,7 @@ import bpy
 import discrete_fairing
 import numpy as np
 import pytest
-from offsets import OFF, WRONG, add_dune, dune, grid
+from dunes import OFF, WRONG, add_dune, dune, grid
 from scenes import activate, fair, positions, snapshot
 
 from addon.mesh.shape_keys import EASED
@@ -137,8 +137,39 @@ def test_the_surface_stands_for_its_source_and_gets_the_key(core):
     activate(surface)
     assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
     assert surface.data.shape_keys.key_blocks[EASED].value == 1.0
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+
+
+def moved(surface, before):
     seen = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    assert (positions(seen)[WRONG] - before)[2] == pytest.approx(-OFF, abs=1e-4)
+    return (positions(seen)[WRONG] - before)[2]
+
+
+def test_a_live_surface_gets_the_key_once_its_full_level_comes(core):
+    source = add_dune()
+    surface = fair(levels=2, hide_source=False)
+    before = positions(surface.data)[WRONG]
+    surface.discrete_fairing_live.on = True
+    activate(source)
+    eased()
+    bpy.context.view_layer.update()
+    surface.discrete_fairing_live.on = False  # without a window the full level comes now
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+
+
+def test_with_modifiers_live_follows_the_slider(core):
+    source = add_dune()
+    surface = fair(levels=2, hide_source=False, mesh_source="EVALUATED")
+    before = positions(surface.data)[WRONG]
+    surface.discrete_fairing_live.on = True
+    activate(source)
+    eased()
+    bpy.context.view_layer.update()
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+    source.data.shape_keys.key_blocks[EASED].value = 0.5
+    bpy.context.view_layer.update()
+    assert moved(surface, before) == pytest.approx(-0.5 * OFF, abs=1e-4)
+    surface.discrete_fairing_live.on = False
 
 
 def test_a_mesh_that_was_edited_meanwhile_is_left_alone(core):

@@ -5,7 +5,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from offsets import OFF, WRONG, add_dune, dune
+from dunes import OFF, WRONG, add_dune, dune
 from scenes import CUBE, activate, add
 
 from addon.strain.measure import StrainJob

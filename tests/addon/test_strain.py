@@ -8,8 +8,8 @@ import bpy
 import discrete_fairing
 import numpy as np
 import pytest
+from dunes import OFF, WRONG, add_dune, dune, grid
 from fake_layout import Layout
-from offsets import OFF, WRONG, add_dune, dune, grid
 from scenes import CUBE, activate, add, fair, snapshot
 
 from addon.mesh.shape_keys import EASED
