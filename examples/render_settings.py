@@ -81,6 +81,16 @@ FIGURES = {
         ),
         SMOOTH,
     ),
+    "offsets": Figure(
+        meshes.offsets,
+        View(6.2, turn=205, elevation=8, look="zebra", height=0.75, stripes=14),
+        (
+            Variant("As measured"),
+            Variant("Near, 10 mm", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
+            Variant("Eased", make=meshes.eased_offsets),
+        ),
+        SMOOTH | {"symmetry_plane": "Y"},
+    ),
     "pads": Figure(
         meshes.pebble,
         View(2.7, look="zebra", height=0.65, stripes=8),

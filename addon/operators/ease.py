@@ -94,6 +94,12 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         description="Vertices that are not selected in Edit Mode stay where they are",
         default=False,
     )
+    go_on: BoolProperty(
+        name="Go On from Eased",
+        description="Starts from the shape key Eased, if there is one, and not from the mesh: first the worst vertices, "
+        "then the scatter of all",
+        default=False,
+    )
     result: EnumProperty(
         name="Result",
         description="Where the new positions go",
@@ -124,10 +130,11 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         elif self.amount == "WORST":
             layout.prop(self, "count")
         layout.prop(self, "use_selection")
+        layout.prop(self, "go_on")
         layout.prop(self, "result")
 
     def make_jobs(self, context: Context) -> list[Any]:
-        wish = Wish(self.amount, self.tolerance, self.count, self.use_selection)
+        wish = Wish(self.amount, self.tolerance, self.count, self.use_selection, self.go_on)
         return [EaseJob(context, source, wish) for source in sources_at_hand(context)]
 
     def write(self, context: Context, jobs: list[Any]) -> None:

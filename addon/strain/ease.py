@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Control vertices put where the surface is fair: all a little, the worst, or those selected."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any, cast
 
@@ -15,7 +15,7 @@ from ..in_place import floats
 from ..live.switch import look_again
 from ..mesh.object import Reference
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.shape_keys import EASED, put_key
+from ..mesh.shape_keys import EASED, key_positions, put_key
 from ..mesh.world_shape import world_shape
 from ..preferences import preferences
 from ..settings import halves
@@ -32,6 +32,7 @@ class Wish:
     tolerance: float = 0.0  # in scene units
     count: int = 1
     use_selection: bool = False  # whether vertices that are not selected stay
+    go_on: bool = False  # whether from the shape key that an earlier run has written
 
 
 class _Moving:
@@ -39,15 +40,20 @@ class _Moving:
 
     kind = "EASE"  # of runs, for predictions
 
-    def __init__(self, context: Context, source: Object) -> None:
-        """Reads; JobError says why that cannot be."""
+    def __init__(self, context: Context, source: Object, go_on: bool = False) -> None:
+        """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
+        was.
+        """
         self.name, self.reference = source.name, Reference(source)
         settings = plate_settings(settings_for(context, source))
         with control_mesh(context, source) as mesh:
             self.arrays = read_mesh(mesh)
             self.selected = _selected(mesh)
+        count = len(self.arrays.positions)
+        eased = key_positions(source, EASED, count) if go_on else None
+        self._start = self.arrays.positions if eased is None else eased
         self._shape = world_shape(source)
-        self._world = self._shape.of_arrays(self.arrays)
+        self._world = self._shape.of_arrays(replace(self.arrays, positions=self._start))
         self._fairing = core.fair_arguments(self._world, settings, preferences())
         coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS
@@ -67,7 +73,7 @@ class _Moving:
         sent = self._world.positions
         places = self._places()
         self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
-        self.positions = self._shape.back(places, sent, self.arrays.positions)
+        self.positions = self._shape.back(places, sent, self._start)
         self._taken = perf_counter() - begun
 
     def _run(self, watchers: dict[str, Any]) -> Any:
@@ -100,7 +106,7 @@ class EaseJob(_Moving):
     """As `wish` says, of the mesh itself, whatever its shape keys make of it."""
 
     def __init__(self, context: Context, source: Object, wish: Wish) -> None:
-        super().__init__(context, source)
+        super().__init__(context, source, wish.go_on)
         self._wish = wish
         if wish.use_selection and not self.selected.any():
             raise JobError(
