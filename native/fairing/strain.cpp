@@ -13,8 +13,6 @@
 #include "strain/own_loads.h"
 
 namespace fairing {
-namespace {
-
 FairOptions options_of_strain(const FairOptions& given) {
   if (given.energy == Energy::minimum_variation)
     throw FairingError(ErrorCode::bad_option,
@@ -50,6 +48,8 @@ Vec3 normal_of(const ControlMesh& mesh, Index v) {
   }
   return sum.stableNormalized();
 }
+
+namespace {
 
 Strain strain_of(const Mending& mending, Monitor& monitor) {
   Report report;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fairing/options.h"
+#include "mesh/control_mesh.h"
 #include "parallel/monitor.h"
 
 namespace fairing {
@@ -22,5 +23,10 @@ struct Strain {
 // from there on. Throws FairingError: bad_option for other energies, for control vertices that are
 // not to stay, and for point forces.
 Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
+
+// The options of the solve that strain is read off; throws what measure_strain() does.
+FairOptions options_of_strain(const FairOptions& given);
+// The control mesh's own unit normal at a vertex; zero where its faces have no area.
+Vec3 normal_of(const ControlMesh& mesh, Index v);
 
 }  // namespace fairing
