@@ -115,8 +115,7 @@ EaseResult eased(const Mending& mending, const EaseOptions& wanted, Monitor& mon
   for (std::size_t i = 0, f = 0; i < held.size(); ++i)
     if (f < free.size() && free[f] == held[i])
       all_moves.row(Eigen::Index(i)) = found.moves.row(Eigen::Index(f++));
-  const Columns change =
-      Moved(solver, mesh, context.basis().working_curves, held)(all_moves);
+  const Columns change = Moved(solver, mesh, context.basis().working_curves, held)(all_moves);
   for (std::size_t i = 0; i < held.size(); ++i) {
     const auto v = std::size_t(held[i]);
     out.moves[v] = unit * all_moves.row(Eigen::Index(i)).transpose();

@@ -11,8 +11,8 @@
 namespace fairing {
 
 struct EaseOptions {
-  std::span<const double> tolerance{};  // the bound of each move, one an input vertex; or empty
-  int most = 0;                         // how many may move, the worst first; 0: as many as like
+  std::span<const double> tolerance{};    // the bound of each move, one an input vertex; or empty
+  int most = 0;                           // how many may move, the worst first; 0: as many as like
   std::span<const std::uint8_t> fixed{};  // one an input vertex, over zero: stays; or empty
 };
 

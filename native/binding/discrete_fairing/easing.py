@@ -143,7 +143,9 @@ def _most(most: int | None, tolerance: ArrayLike | None) -> int:
     if most is None:
         return 0
     if tolerance is not None:
-        raise fairing_error("BAD_OPTION", "most and tolerance exclude each other. Give one of them.")
+        raise fairing_error(
+            "BAD_OPTION", "most and tolerance exclude each other. Give one of them."
+        )
     if isinstance(most, bool) or not isinstance(most, (int, np.integer)) or most < 1:
         raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer from 1 on.")
     return min(int(most), 2**31 - 1)
