@@ -234,13 +234,14 @@ def tolerance(settings: Any, edge_length: float) -> float:
 
 
 def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
-    """How many vertices are as far from the surface as they may be, and how many may be off at all;
-    `surface` (N, 3): its points, the vertices' first.
+    """How many vertices are as far from the surface as they may be, and how many are off at all: those
+    on curves stay. `surface` (N, 3): its points, the vertices' first.
     """
     points = arguments["vertices"]
     allowed = np.broadcast_to(arguments["tolerance"], len(points))
     may = (allowed > 0) & _occurs(np.asarray(arguments["faces"][0]), len(points))
     off = np.linalg.norm(surface[: len(points)] - points, axis=1)
+    may &= off > 0
     return [int((off[may] >= _AT * allowed[may]).sum()), int(may.sum())]
 
 

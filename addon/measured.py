@@ -67,8 +67,9 @@ def smoothed(arguments: Mapping[str, Any], free: np.ndarray, weight: float, **wa
     """
     fit = _Fit(arguments, free, watchers)
     result = fit.run(weight)
-    off = _along(result.vertices - fit.points, fit.normals(result.vertices))
-    result.vertices = np.where(free[:, None], fit.points + off, fit.points)
+    surface = fit.own(result.vertices)
+    off = _along(surface - fit.points, fit.normals(surface))
+    surface[:] = np.where(free[:, None], fit.points + off, fit.points)
     return result
 
 
@@ -88,6 +89,10 @@ class _Fit:
         weights = np.where(self._free, weight, np.inf)
         return core.module().fair(**self._arguments, **more, **self._watchers, weights=weights)
 
+    def own(self, points: np.ndarray) -> np.ndarray:
+        """Those of the vertices, without the centres of polygons that the core has split."""
+        return points[: len(self.points)]
+
     def normals(self, points: np.ndarray) -> np.ndarray:
         a, b, c = points[self._triangles].swapaxes(0, 1)
         of_faces = np.cross(b - a, c - a)
@@ -102,7 +107,7 @@ class _Trial:
     """What a weight leaves of the noise."""
 
     def __init__(self, fit: _Fit, free: np.ndarray):
-        first = fit.run(_FIRST).vertices
+        first = fit.own(fit.run(_FIRST).vertices)
         self._fit, self._normals = fit, fit.normals(first)
         self._free = free & (first != fit.points).any(axis=1)  # those on creases stay
         signs = np.random.default_rng(0).choice([-1.0, 1.0], len(free)) * self._free
@@ -117,7 +122,7 @@ class _Trial:
         """
         if weight not in self._known:
             found = self._fit.run(weight, shapes=(self._fit.points + self._probe)[None])
-            surface, probed = found.vertices, found.shapes[0]
+            surface, probed = self._fit.own(found.vertices), self._fit.own(found.shapes[0])
             off = np.einsum("ij,ij->i", surface - self._fit.points, self._normals)[self._free]
             answer = np.einsum("ij,ij->", probed - surface, self._probe)
             whole = float((self._probe**2).sum())

@@ -23,6 +23,7 @@ import limits
 import live
 import memory
 import million
+import offsets
 import pads
 import paper
 import peers
@@ -54,6 +55,7 @@ BENCHMARKS = {
     "jobs": jobs.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
+    "offsets": offsets.run,
     "bevels": bevels.run,
     "energies": energies.run,
     "exact": exactness.run,

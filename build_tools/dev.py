@@ -5,6 +5,7 @@
 python3 build_tools/dev.py demo           the main job on real meshes; results and a picture under out/
 python3 build_tools/dev.py test           all tests; the last line counts them
 python3 build_tools/dev.py test windows arm   the tests as programs for other machines, under Wine and qemu
+python3 build_tools/dev.py test quick     what a change needs daily: form, the core, a few files of each other suite
 python3 build_tools/dev.py test nightly   races between threads, and half an hour of new random calls
 python3 build_tools/dev.py setup          system packages, .venv and the native build
 python3 build_tools/dev.py fuzz --minutes N   random meshes and options until time is up; failures under out/fuzz/
@@ -12,6 +13,7 @@ python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench
 python3 build_tools/dev.py extension      the extension's zips under out/extension/
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
+python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -95,6 +97,15 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
     return 0
 
 
+def docs() -> int:
+    """The site, of the documents and docstrings."""
+    import site_pages
+
+    setup_tools()
+    say(f"{site_pages.build().relative_to(ROOT)}/index.html is ready")
+    return 0
+
+
 def format_sources() -> int:
     """Rewrites the sources in the project's style."""
     import style
@@ -109,7 +120,7 @@ def arguments() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "command", choices=["setup", "test", "demo", "fuzz", "bench", "extension", "format"]
+        "command", choices=["setup", "test", "demo", "fuzz", "bench", "extension", "docs", "format"]
     )
     parser.add_argument(
         "names",
@@ -140,6 +151,7 @@ def main() -> int:
         "fuzz": lambda: fuzz(given.minutes),
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
+        "docs": docs,
         "format": format_sources,
     }
     return commands[given.command]() or 0

@@ -8,7 +8,7 @@ from pathlib import Path
 from layout import BUILD
 
 REPORTS = BUILD / "reports"
-SHOWN = 30
+SHOWN, WORTH_SHOWING = 30, 1.0  # tests, seconds
 
 
 def write_report(path: Path, seconds: Iterable[tuple[str, float]]) -> None:
@@ -31,7 +31,8 @@ def of_report(path: Path) -> list[tuple[float, str]]:
 def slowest(since: float) -> list[str]:
     """Lines of a table: the slowest tests of all reports written since then (seconds of the epoch)."""
     recent = [path for path in REPORTS.glob("*.xml") if path.stat().st_mtime >= since]
-    timed = sorted((row for path in recent for row in of_report(path)), reverse=True)
+    rows = (row for path in recent for row in of_report(path))
+    timed = sorted((row for row in rows if row[0] >= WORTH_SHOWING), reverse=True)
     if not timed:
         return []
     return [

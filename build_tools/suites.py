@@ -13,10 +13,12 @@ import blender_suite
 import fuzzing
 import native_wheel
 import style
+import system_packages
 from durations import REPORTS, slowest
 from layout import VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
+from stamp import alone
 from tally import Tally, with_exit_code
 
 # tests of one label alone, or all others
@@ -97,6 +99,13 @@ def addon_suite() -> Tally:
     return pytest_suite("addon", *ON_ALL_CORES)
 
 
+def site_suite() -> Tally:
+    """The site, built, and looked at in a browser."""
+    with alone("tools"):
+        system_packages.install(system_packages.SITE)
+    return pytest_suite("site")
+
+
 def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
     """One line of the table at the end."""
     counts = f"{tally.passed:5} passed {tally.failed:4} failed {tally.skipped:4} skipped"
@@ -114,6 +123,7 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "fuzz": fuzz_suite,
     "addon": addon_suite,
     "build_tools": lambda: pytest_suite("build_tools"),
+    "site": site_suite,
     "blender": blender_suite.run_suite,
 }
 

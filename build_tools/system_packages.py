@@ -34,6 +34,8 @@ REAL_BLENDER = ["mmdebstrap"]
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
 # for the benchmarks alone: what we are measured against, and the BLAS that does CHOLMOD justice
 BENCHMARKS = ["libcgal-dev", "libopenblas0-pthread"]
+# for the tests of the site alone: the browser that looks at it
+SITE = ["chromium", "fonts-dejavu-core"]
 
 
 def missing(packages: list[str]) -> list[str]:

@@ -107,6 +107,15 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
     bpy.app.timers.register(begin, first_interval=0.01)
 
 
+def repeat_soon(context: Context, operator: Any, call: Any) -> None:
+    """Lets `operator`, which Adjust Last Operation has called and which would take too long there,
+    begin anew by `call`, its function of bpy.ops, with the same properties.
+    """
+    invoke_soon(
+        context, call, {name: getattr(operator, name) for name in type(operator).__annotations__}
+    )
+
+
 def give_way() -> None:
     """Ends what fills a surface, before a run that somebody has asked for."""
     _due.clear()

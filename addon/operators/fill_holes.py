@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fill Hole Fair: holes of the mesh itself, closed so that nobody sees where they were."""
 
-from typing import cast
+from collections.abc import Sequence
+from typing import Any, cast
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty
@@ -9,18 +10,20 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from ..blender import Answer, Context, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, Wish, fill_holes
+from ..holes import Filling, HoleJob, Wish
 from ..mesh.read import source_objects
-from ..poll import ExplainedPoll, mesh_poll_reason
-from .fair import poll_reason
+from ..poll import mesh_poll_reason
+from . import fill
+from .fair import Fairing, poll_reason
 
 
-class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
     """Close holes with the fairest surface that goes on from the faces around. In Edit Mode: the holes whose border edges are selected, or in Face Mode what the selected faces leave"""
 
     bl_idname = "object.fairing_fill"
     bl_label = "Fill Hole Fair"
     bl_options = {"REGISTER", "UNDO"}
+    cancelled_text = "Filling was cancelled: nothing has changed"
 
     joint: EnumProperty(
         name="Joint",
@@ -64,22 +67,41 @@ class OBJECT_OT_fairing_fill(ExplainedPoll, bpy.types.Operator):
         if context.mode == "OBJECT":
             layout.prop(self, "largest")
 
-    def execute(self, context: Context) -> Answer:
+    def make_jobs(self, context: Context) -> list[Any]:
         replaces = bool(context.tool_settings.mesh_select_mode[2])
         wish = Wish(self.joint, self.energy, self.density, self.largest, replaces)
-        done: list[Filling] = []
-        reasons: list[str] = []
+        jobs: list[Any] = []
+        self._reasons: list[str] = []
         for target in source_objects(context):
             try:
-                done.append(fill_holes(target, wish))
+                jobs.append(HoleJob(context, target, wish))
             except JobError as error:
-                reasons.append(str(error))
+                self._reasons.append(str(error))
+        if not jobs:
+            raise JobError(" ".join(self._reasons))
+        return jobs
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        """Changes the meshes that can be filled, and says why others cannot."""
+        done: list[Filling] = []
+        reasons = list(self._reasons)
+        for job in jobs:
+            reason = job.reason or job.why_outdated(context)
+            if reason:
+                reasons.append(reason)
+            else:
+                done.append(job.apply())
         if not done:
-            self.report({"ERROR"}, reasons[0])
+            self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}
         self.report({"INFO"}, _said(done))
-        for sentence in _doubts(done):
+        for sentence in reasons + _doubts(done):
             self.report({"WARNING"}, sentence)
+        return {"FINISHED"}
+
+    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
+        """From Adjust Last Operation: the holes stay open for now, and the same run begins anew."""
+        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_fill)
         return {"FINISHED"}
 
 

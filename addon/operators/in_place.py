@@ -163,8 +163,7 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
         """From Adjust Last Operation, which cannot wait: the mesh stays for now as it was before,
         and the same run begins anew by itself.
         """
-        asked = {name: getattr(self, name) for name in type(self).__annotations__}
-        fill.invoke_soon(context, cast(Any, bpy.ops.object).fairing_in_place, asked)
+        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_in_place)
         return {"FINISHED"}
 
 

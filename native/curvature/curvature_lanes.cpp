@@ -10,8 +10,6 @@
 namespace fairing {
 namespace {
 
-constexpr double root_half = std::numbers::sqrt2 / 2;
-
 // What point_curvature() and linearize() do for one point with a regular ring, lane by lane. The
 // angles' series (stencil/angle.h), the fit (stencil/round_fit.h) and the point's own term are the
 // same code for both. The rest is not, for the two round differently, and either's bits would
@@ -133,7 +131,7 @@ struct ShapeLoop {
 
   // From the turns between neighbours to their directions in the chart.
   DF_INLINE static void lay_out(int size, Ring& ring, const Pack& total, Mask& done) {
-    const Pack excess = T(2 * std::numbers::pi) / total - T(1);
+    const Pack excess = T(full_turn) / total - T(1);
     ring.turn[0] = {Pack{} + T(1), Pack{}};
     for (int j = 1; j < size; ++j) {
       const Pack angle = excess * ring.angle[j];

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "parallel/reductions.h"
+#include "stencil/fit.h"
 
 namespace fairing {
 namespace {
@@ -26,7 +26,6 @@ constexpr float insistence = 3;
 constexpr double near_the_end = 0.03;
 
 Eigen::Matrix3d tensor(const float* m, const Linearization& surface, std::size_t point) {
-  constexpr double root_half = std::numbers::sqrt2 / 2;
   const Vec3 u = Eigen::Map<const Eigen::Vector3f>(surface.axis.data() + 3 * point).cast<double>();
   const Vec3 v = Eigen::Map<const Vec3>(surface.normal.data() + 3 * point).cross(u);
   const Eigen::Matrix3d uu = u * u.transpose(), vv = v * v.transpose(), uv = u * v.transpose();

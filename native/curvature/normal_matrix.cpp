@@ -9,9 +9,6 @@
 namespace fairing {
 namespace {
 
-// Products a point, on average, up to which the matrix is worth its pattern: a vertex of valence v
-// has (v + 1)^2 of them. Regular rings have 49 or 81.
-constexpr std::size_t most_products = 128;
 // Room that is reserved a row: inside a quad, the ring's rings.
 constexpr std::size_t regular_columns = 25;
 constexpr std::uint16_t none = 0xffff;
@@ -32,7 +29,7 @@ bool NormalMatrix::is_linear(const RingJacobian& rows) {
     const auto slots = std::size_t(rows.of(vertex_run(v)).slots);
     products += slots * slots;
   }
-  return products < most_products * grid.size();
+  return worth_products(products, grid.size());
 }
 
 NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)

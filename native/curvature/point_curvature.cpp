@@ -12,9 +12,6 @@
 namespace fairing {
 namespace {
 
-constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double root_half = std::numbers::sqrt2 / 2;
-
 // A neighbour with the reciprocal of its squared distance.
 struct Neighbour {
   Vec3 p;

@@ -28,6 +28,7 @@
 #include "base/simd.h"
 #include "curvature/options.h"
 #include "stencil/chart.h"
+#include "stencil/fit.h"
 
 namespace fairing {
 
@@ -126,7 +127,6 @@ struct ShapeRows {
 template <class N>
 DF_INLINE void own_term(CurvatureEnergy energy, const N& trace, const N& a, const N& b,
                         const N& square, N& sum, N& difference, N& mixed) {
-  constexpr double root_half = std::numbers::sqrt2 / 2;
   if (energy == CurvatureEnergy::total_curvature) {
     sum = root_half * square;
     difference = 0.5 * trace * a;

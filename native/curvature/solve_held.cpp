@@ -81,8 +81,8 @@ struct GaussNewtonSystem::HeldSolve {
   NormalLoads forces{};  // left at the vertices on pads
   Multipliers<1> correction{};
   double first_force = 0, first_residual = 0, first_gap = 0;
+  Array<double> r = Array<double>(h.size());  // the residual of h
 
-  Array<double>& r() { return system.hierarchy_.state().residual; }
   const double* normal(std::size_t v) const { return about.linearization.normal.data() + 3 * v; }
 
   // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.
@@ -122,7 +122,7 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   LevelSolve solve(bool last) {
-    const double now = norm(system.workers(), h.size(), r().data());
+    const double now = norm(system.workers(), h.size(), r.data());
     if (first_residual == 0) first_residual = now;
     PcgLimits goal = system.limits();
     goal.tolerance =
@@ -130,7 +130,7 @@ struct GaussNewtonSystem::HeldSolve {
              : solve_gain;
     const LevelSolve solved = system.hierarchy_.solve(
         std::size_t(level - system.base_), goal,
-        [this](const double* x, double* out) { residual(x, out); }, h.data(),
+        {[this](const double* x, double* out) { residual(x, out); }, h.data(), r.data()},
         [](const PcgResult&) {});
     report.iterations += solved.iterations;
     return solved;
@@ -213,11 +213,11 @@ struct GaussNewtonSystem::HeldSolve {
     bool last = !pads && !bounds;
     int corrections = 0;  // with these ends
     load();
-    residual(h.data(), r().data());
+    residual(h.data(), r.data());
     for (;;) {
       const LevelSolve solved = solve(last);
       if (last) return end(solved);
-      residual(h.data(), r().data());
+      residual(h.data(), r.data());
       const bool loads = loads_settled(), tells = loads || ++corrections >= telling,
                  turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
       if (turned) corrections = 0;
@@ -227,7 +227,7 @@ struct GaussNewtonSystem::HeldSolve {
       correct(steps);
       if (turned) steps.forget();
       load();
-      residual(h.data(), r().data());
+      residual(h.data(), r.data());
     }
   }
 };

@@ -129,12 +129,13 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   if (is_held) {
     solved = solve_held(level, about, h, held, with_loads, report);
   } else {
-    std::copy(force.begin(), force.end(), hierarchy_.state().residual.begin());
-    const Residual residual = [&](const double* x, double* r) {
+    Array<double> left = force;
+    const auto residual = [&](const double* x, double* r) {
       op(level).apply(x, r);
       for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
     };
-    solved = hierarchy_.solve(index, limits(), residual, h.data(), [](const PcgResult&) {});
+    solved = hierarchy_.solve(index, limits(), {residual, h.data(), left.data()},
+                              [](const PcgResult&) {});
     report.iterations = solved.iterations;
   }
   report.residual = solved.residual;

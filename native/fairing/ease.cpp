@@ -5,10 +5,10 @@
 #include <limits>
 #include <new>
 
-#include "fairing/context.h"
 #include "fairing/fair.h"
 #include "fairing/mending.h"
 #include "fairing/strain.h"
+#include "fairing/systems.h"
 #include "parallel/cancel.h"
 #include "strain/ease.h"
 #include "strain/own_loads.h"
@@ -23,22 +23,16 @@ constexpr std::int64_t on_second_level = 2000;
 // The loads that moves of some control vertices alone ask for, while it exists.
 class Moved {
  public:
-  Moved(ThinPlateSolver& solver, const ControlMesh& mesh, const FeatureCurves& curves,
-        std::vector<Index> free)
+  Moved(ThinPlateSolver& solver, const FeatureCurves& curves, std::vector<Index> free)
       : solver_(solver),
-        mesh_(mesh),
-        curves_(curves),
+        mesh_(solver.levels().shared().mesh),
         none_(curves),
-        weights_(solver.shared().weights),
         free_(std::move(free)),
-        targets_(std::size_t(mesh.vertex_count())),
-        x_(3 * solver.grid(solver.top()).size()) {
+        targets_(std::size_t(mesh_.vertex_count())),
+        x_(3 * solver.levels().grid(solver.levels().top()).size()) {
     for (Vec3& p : none_.points) p.setZero();
-    solver_.take_shape(none_, weights_, false);
+    solver_.keep_smoother();
   }
-  ~Moved() { solver_.take_shape(curves_, weights_, false); }
-  Moved(const Moved&) = delete;
-  Moved& operator=(const Moved&) = delete;
 
   Columns operator()(const Columns& moves) {
     std::fill(targets_.begin(), targets_.end(), Vec3::Zero());
@@ -47,24 +41,23 @@ class Moved {
       mesh_.for_each_copy(free_[i], [&](Index u) {
         targets_[std::size_t(u)] = moves.row(Eigen::Index(i)).transpose();
       });
-    solver_.loads().assign(targets_.size(), Vec3::Zero());
-    solver_.solve_again(solver_.top(), targets_, x_, solve_tolerance);
-    return solver_loads();
+    PlateState state = solver_.unheld();
+    state.loads.assign(targets_.size(), Vec3::Zero());
+    solver_.solve_again({targets_, none_}, solve_tolerance, state, x_);
+    return rows_of(state.loads);
   }
 
  private:
-  Columns solver_loads() const {
+  Columns rows_of(const Loads& loads) const {
     Columns out(Eigen::Index(free_.size()), 3);
     for (std::size_t i = 0; i < free_.size(); ++i)
-      out.row(Eigen::Index(i)) = solver_.loads()[std::size_t(free_[i])].transpose();
+      out.row(Eigen::Index(i)) = loads[std::size_t(free_[i])].transpose();
     return out;
   }
 
   ThinPlateSolver& solver_;
   const ControlMesh& mesh_;
-  const FeatureCurves& curves_;
   FeatureCurves none_;
-  VertexWeights weights_;
   std::vector<Index> free_;
   std::vector<Vec3> targets_;
   Array<double> x_;
@@ -73,20 +66,22 @@ class Moved {
 EaseResult eased(const Mending& mending, const EaseOptions& wanted, Monitor& monitor) {
   Report report;
   Stopwatch watch(report, monitor);
-  FairingContext context(mending.mesh(), mending.options(), monitor, watch, report);
-  ThinPlateSolver& solver = context.system();
-  const ControlMesh& mesh = context.mesh();
+  const std::unique_ptr<const FairingProblem> problem =
+      make_problem(mending.mesh(), mending.options(), watch, report);
+  FairingSystems systems(*problem, monitor);
+  ThinPlateSolver& solver = systems.plate();
+  const ControlMesh& mesh = problem->mesh;
+  const FeatureCurves& curves = problem->basis.working_curves;
   const auto n = std::size_t(mesh.input_vertices);
-  const double unit = context.scale();
+  const double unit = problem->frame.scale;
   EaseResult out;
   out.moves.assign(n, Vec3::Zero());
   out.strain_before.assign(n, std::numeric_limits<double>::quiet_NaN());
   out.strain_after = out.strain_before;
   Array<double> surface;
-  context.solve(context.basis(), false, watch, report, surface);
+  const Loads loads = systems.solve(problem->basis, false, watch, report, surface).loads;
   if (!solver.pads()) return out;
-  const Loads loads = solver.loads();
-  const std::vector<double> own = own_loads(solver, mesh, context.basis().working_curves);
+  const std::vector<double> own = own_loads(solver, curves);
 
   std::vector<Index> held, free;
   for (std::size_t v = 0; v < n; ++v) {
@@ -106,7 +101,7 @@ EaseResult eased(const Mending& mending, const EaseOptions& wanted, Monitor& mon
   }
   Eased found;
   {
-    Moved moved(solver, mesh, context.basis().working_curves, free);
+    Moved moved(solver, curves, free);
     const LoadsOfMoves loads_of = [&](const Columns& moves) { return moved(moves); };
     found = wanted.most > 0 ? ease_worst(loads_of, free_loads, free_own, wanted.most)
                             : ease(loads_of, free_loads, bounds);
@@ -115,7 +110,7 @@ EaseResult eased(const Mending& mending, const EaseOptions& wanted, Monitor& mon
   for (std::size_t i = 0, f = 0; i < held.size(); ++i)
     if (f < free.size() && free[f] == held[i])
       all_moves.row(Eigen::Index(i)) = found.moves.row(Eigen::Index(f++));
-  const Columns change = Moved(solver, mesh, context.basis().working_curves, held)(all_moves);
+  const Columns change = Moved(solver, curves, held)(all_moves);
   for (std::size_t i = 0; i < held.size(); ++i) {
     const auto v = std::size_t(held[i]);
     out.moves[v] = unit * all_moves.row(Eigen::Index(i)).transpose();

@@ -13,7 +13,7 @@ namespace {
 
 // In sizes of the mesh that charts were made from: with the requested accuracy relative to the
 // farthest vertex, six digits are left to the others.
-constexpr double farthest = 1e3;
+constexpr double far_out = 1e3;
 // Likewise; single precision, too, holds the squares.
 constexpr double out_of_reach = 1e15;
 // A vertex lies far away that is so many times as far from the middle as most are.
@@ -60,7 +60,7 @@ std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
 }  // namespace
 
 bool lies_far_out(const ControlMesh& mesh, const ControlPositions& control) {
-  return !vertices_beyond(farthest, mesh, control).empty();
+  return !vertices_beyond(far_out, mesh, control).empty();
 }
 
 void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fair() and FairSolver take the same steps, all of them FairingContext's: solve, release, write.
+// fair() and FairSolver take the same steps, all of them FairingSystems': solve, release, write.
 // fair() gives each surface away; FairSolver keeps it for the next start.
 #include "fairing/fair.h"
 
@@ -35,24 +35,24 @@ std::ptrdiff_t same_before(const PolygonMesh& input, std::span<const double> sha
 }
 
 // points <- one surface from nothing, in world coordinates, its sheets joined.
-void fair_once(FairingContext& context, const ControlPositions& control, bool measured,
+void fair_once(FairingSystems& systems, const ControlPositions& control, bool measured,
                Stopwatch& watch, Report& report, Array<double>& points) {
-  context.solve(control, measured, watch, report, points);
-  context.move_surface(points);
-  context.release(control, watch, report, points);
-  context.write(control, measured, watch, report, points.data(), points.data());
-  const Weld weld(context.finest());
+  PlateState state = systems.solve(control, measured, watch, report, points);
+  systems.move_surface(points);
+  systems.release(control, std::move(state), watch, report, points);
+  systems.write(control, measured, watch, report, points.data(), points.data());
+  const Weld weld(systems.finest());
   if (!weld.needed()) return;
   weld.join(points.data(), points.data());
   points.resize(3 * weld.size());
 }
 
-void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& watch,
-                 Monitor& monitor, FairResult& result) {
+void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const PolygonMesh& input,
+                 Stopwatch& watch, Monitor& monitor, FairResult& result) {
   Report& report = result.report;
   const std::size_t size = input.coordinates.size();
-  const std::span<const double> shapes = context.options().shapes;
-  const std::size_t count = context.options().shape_count(size);
+  const std::span<const double> shapes = problem.options.shapes;
+  const std::size_t count = problem.options.shape_count(size);
   for (std::size_t s = 0; s < count; ++s) {
     monitor.enter_part(double(s + 1) / double(count + 1), double(s + 2) / double(count + 1));
     const std::ptrdiff_t same = same_before(input, shapes, s);
@@ -68,11 +68,11 @@ void fair_shapes(FairingContext& context, const PolygonMesh& input, Stopwatch& w
       continue;
     }
     watch.enter(Phase::curves, 0);
-    const ControlPositions control = context.control_positions(shapes.subspan(s * size, size));
-    require_in_reach(context.mesh(), control);
+    const ControlPositions control = problem.control_positions(shapes.subspan(s * size, size));
+    require_in_reach(problem.mesh, control);
     Report own;
-    fair_once(context, control, false, watch, own, result.shapes.emplace_back());
-    warn_unconverged(own, context.options(), "Shape " + std::to_string(s) + ": ", report);
+    fair_once(systems, control, false, watch, own, result.shapes.emplace_back());
+    warn_unconverged(own, problem.options, "Shape " + std::to_string(s) + ": ", report);
     report.shapes.push_back({std::move(own.levels.back()), own.converged(), own.largest_deviation,
                              own.constraint_rounds, own.normals.largest_angle});
   }
@@ -86,15 +86,17 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
   Stopwatch watch(report, monitor);
   const std::size_t shapes = options.shape_count(input.coordinates.size());
   monitor.enter_part(0, 1 / double(shapes + 1));
-  FairingContext context(input, options, monitor, watch, report);
-  fair_once(context, context.basis(), true, watch, report, result.vertices);
+  const std::unique_ptr<const FairingProblem> problem = make_problem(input, options, watch, report);
+  FairingSystems systems(*problem, monitor);
+  fair_once(systems, problem->basis, true, watch, report, result.vertices);
   warn_unconverged(report, options, "", report);
-  fair_shapes(context, input, watch, monitor, result);
+  systems.plate().keep_smoother();
+  fair_shapes(*problem, systems, input, watch, monitor, result);
 
   monitor.enter_part(0, 1);
-  context.drop_systems();
-  result.faces = make_faces(GridLevel(context.mesh(), options.levels), context.workers());
-  result.crease_edges = crease_edges(context.mesh());
+  systems.drop();
+  result.faces = make_faces(GridLevel(problem->mesh, options.levels), *problem->workers);
+  result.crease_edges = crease_edges(problem->mesh);
   warn_of_memory(ledger, report);
   watch.leave();
   monitor.report(Phase::done, 1);
@@ -108,7 +110,7 @@ Mending mending_of(const PolygonMesh& input, const FairOptions& options, Monitor
 }
 
 const FairOptions& without_back_leg(const FairOptions& options) {
-  if (options.method == Method::back_leg)
+  if (options.paper.method == Method::back_leg)
     throw FairingError(
         ErrorCode::bad_option,
         "method=\"back_leg\" keeps nothing to solve again with; use multigrid for a solver.");
@@ -157,11 +159,16 @@ FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Mon
       monitor_(monitor),
       build_watch_(built_, monitor_),
       mending_(mending_of(input, without_back_leg(options), monitor_)),
-      context_(mending_.in_input_ids([&] {
-        return FairingContext(mending_.mesh(), mending_.options(), monitor_, build_watch_, built_);
+      problem_(mending_.in_input_ids([&] {
+        const CancelScope scope(&monitor_);
+        return make_problem(mending_.mesh(), mending_.options(), build_watch_, built_);
       })),
-      control_(context_.basis()),
-      recent_(context_.workers()) {
+      systems_(mending_.in_input_ids([&] {
+        const CancelScope scope(&monitor_);
+        return std::make_unique<FairingSystems>(*problem_, monitor_);
+      })),
+      control_(problem_->basis),
+      recent_(*problem_->workers) {
   built_.seconds.clear();
 } catch (const std::bad_alloc&) {
   throw out_of_memory();
@@ -169,7 +176,7 @@ FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Mon
 
 void FairSolver::forget_surfaces() {
   recent_.forget();
-  context_.drop_systems();
+  systems_->drop();
 }
 
 // Whatever goes wrong on the way leaves nothing half done behind.
@@ -190,20 +197,20 @@ auto FairSolver::guarded(Call&& call) {
 // The basis' own positions give the basis itself: its centres of split polygons and its curves, to
 // the last bit.
 void FairSolver::set_control(std::span<const double> coordinates) {
-  const std::vector<Vec3>& basis = context_.basis().cage;
+  const std::vector<Vec3>& basis = problem_->basis.cage;
   bool is_basis = true;
   for (std::size_t i = 0; i < coordinates.size() && is_basis; ++i)
     is_basis = coordinates[i] == basis[i / 3][Eigen::Index(i % 3)];
   const ControlPositions next =
-      is_basis ? context_.basis() : context_.control_positions(coordinates);
-  require_in_reach(context_.mesh(), next);
+      is_basis ? problem_->basis : problem_->control_positions(coordinates);
+  require_in_reach(problem_->mesh, next);
   control_ = next;  // copied, not moved: solvers hold on to the arrays that are there
 }
 
 Report FairSolver::solve(std::span<const double> coordinates, double* out) {
   return with_named_errors([&] {
     std::vector<double> placed;
-    if (mended() && coordinates.size() == 3 * std::size_t(context_.mesh().input_vertices)) {
+    if (mended() && coordinates.size() == 3 * std::size_t(problem_->mesh.input_vertices)) {
       placed = mending_.placed(coordinates);
       coordinates = placed;
     }
@@ -216,24 +223,25 @@ Report FairSolver::solve(std::span<const double> coordinates, double* out) {
 
 Report FairSolver::solve_mended(std::span<const double> coordinates, double* out) {
   if (!coordinates.empty())
-    check_positions(std::size_t(context_.mesh().input_vertices), coordinates);
+    check_positions(std::size_t(problem_->mesh.input_vertices), coordinates);
   return guarded([&] {
-    const FairOptions& options = context_.options();
+    const FairOptions& options = problem_->options;
     if (std::exchange(was_far_out_, false)) forget_surfaces();
     Report report = built_;
     expect_memory(report);
     Stopwatch watch(report, monitor_);
     watch.enter(Phase::hierarchy, 0);
-    context_.system();
+    systems_->plate();
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
     if (report.warm)
-      context_.report_held(report);
+      systems_->report_held(report);
     else
       solve_from_nothing(watch, report);
     write(watch, report, out);
-    was_far_out_ = lies_far_out(context_.mesh(), control_);
+    systems_->plate().keep_smoother();
+    was_far_out_ = lies_far_out(problem_->mesh, control_);
     warn_of_memory(ledger_, report);
     watch.leave();
     monitor_.report(Phase::done, 1);
@@ -243,33 +251,31 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
 
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
   recent_.forget();
-  context_.solve(control_, context_.options().measure, watch, report, recent_.surface());
-  recent_.loads() = context_.system().loads();
+  recent_.state() =
+      systems_->solve(control_, problem_->options.measure, watch, report, recent_.surface());
   recent_.remember(control_.working);
 }
 
 // False where that does not go well: the report is as before then.
 bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
-  const FairOptions& options = context_.options();
+  const FairOptions& options = problem_->options;
   watch.enter(Phase::solve, 0);
-  GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
+  GaussNewtonSolver* const gauss_newton = systems_->gauss_newton();
   if (gauss_newton && !gauss_newton->can_move()) return false;
-  context_.use_curves_of(control_);
   if (gauss_newton) gauss_newton->leave_plate(recent_.surface());
   recent_.extrapolate(control_.working);
-  context_.system().loads() = recent_.loads();
   const double tolerance = gauss_newton ? std::max(options.relative_residual, start_tolerance)
                                         : options.relative_residual;
-  context_.system().solve_moved(recent_.extrapolated(), control_.working, tolerance,
-                                recent_.surface(), report.levels, [&](const double* start) {
+  systems_->plate().solve_moved(recent_.extrapolated(), data_of(control_), tolerance,
+                                recent_.state(), recent_.surface(), report.levels,
+                                [&](const double* start) {
                                   if (options.measure)
-                                    context_.measure_prediction(start, watch, report);
+                                    systems_->measure_prediction(start, watch, report);
                                 });
-  recent_.loads() = context_.system().loads();
   recent_.remember(control_.working);
   if (!gauss_newton) return true;
   CurvatureLevelReport& steps = report.curvature.emplace_back();
-  if (gauss_newton->solve_moved(recent_.surface(), context_.mirrors_of(control_), steps))
+  if (gauss_newton->solve_moved(recent_.surface(), problem_->mirrors_of(control_), steps))
     return true;
   report.levels.clear();
   report.curvature.clear();
@@ -277,25 +283,25 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
 }
 
 void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
-  const FairOptions& options = context_.options();
+  const FairOptions& options = problem_->options;
   warn_unconverged(report, options, "", report);
-  GaussNewtonSolver* const gauss_newton = context_.gauss_newton();
+  GaussNewtonSolver* const gauss_newton = systems_->gauss_newton();
   const Array<double>* x = gauss_newton ? &gauss_newton->surface() : &recent_.surface();
-  if (options.epsilon > 0 && !gauss_newton) {
+  if (options.paper.epsilon > 0 && !gauss_newton) {
     released_ = recent_.surface();
-    context_.release(control_, watch, report, released_);
+    systems_->release(control_, recent_.state(), watch, report, released_);
     x = &released_;
   }
-  const Weld weld(context_.finest());
-  if (weld.needed()) apart_.resize(3 * context_.finest().size());
+  const Weld weld(systems_->finest());
+  if (weld.needed()) apart_.resize(3 * systems_->finest().size());
   double* const world = weld.needed() ? apart_.data() : out;
-  context_.write(control_, options.measure, watch, report, x->data(), world);
+  systems_->write(control_, options.measure, watch, report, x->data(), world);
   if (weld.needed()) weld.join(world, out);
 }
 
 OutputFaces FairSolver::faces() {
   return with_named_errors([&] {
-    OutputFaces faces = make_faces(context_.finest(), context_.workers());
+    OutputFaces faces = make_faces(systems_->finest(), *problem_->workers);
     mending_.restore(faces);
     return faces;
   });
@@ -314,11 +320,16 @@ void FairSolver::rebase_mended(const PolygonMesh& input) {
   Report report = built_;
   {
     Stopwatch watch(report, monitor_);
-    check_positions(std::size_t(context_.mesh().input_vertices), input.coordinates);
-    context_.check(input, watch, report);
+    check_positions(std::size_t(problem_->mesh.input_vertices), input.coordinates);
+    check_input(input, problem_->options, watch, report);
     guarded([&] {
-      recent_.forget();
-      context_.rebase(input.coordinates, watch, control_);
+      forget_surfaces();
+      auto problem = make_problem_about(input.coordinates, *problem_, watch);
+      auto systems = std::make_unique<FairingSystems>(*problem, monitor_);
+      ControlPositions control = problem->basis;
+      control_ = std::move(control);
+      systems_ = std::move(systems);
+      problem_ = std::move(problem);
     });
   }
   report.seconds.clear();
@@ -326,7 +337,7 @@ void FairSolver::rebase_mended(const PolygonMesh& input) {
 }
 
 Array<std::int32_t> FairSolver::creases() const {
-  return with_named_errors([&] { return crease_edges(context_.mesh()); });
+  return with_named_errors([&] { return crease_edges(problem_->mesh); });
 }
 
 }  // namespace fairing

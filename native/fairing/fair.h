@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "fairing/context.h"
 #include "fairing/mending.h"
 #include "fairing/output.h"
 #include "fairing/recent_surfaces.h"
+#include "fairing/systems.h"
 #include "fairing/weld.h"
 
 namespace fairing {
@@ -41,7 +41,7 @@ class FairSolver {
   FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
 
   // Of a surface, its sheets joined.
-  std::size_t points() { return Weld(context_.finest()).size(); }
+  std::size_t points() { return Weld(systems_->finest()).size(); }
 
   // out <- the surface of these positions, 3 numbers an input vertex (empty: as last), with charts,
   // stencils and parameters of curves as built: 3 numbers a point. The first is that of fair().
@@ -75,7 +75,8 @@ class FairSolver {
   Report built_;  // what building reports goes into every surface's report
   Stopwatch build_watch_;
   Mending mending_;
-  FairingContext context_;
+  std::unique_ptr<const FairingProblem> problem_;
+  std::unique_ptr<FairingSystems> systems_;
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;
   bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)

@@ -10,7 +10,8 @@
 namespace fairing {
 namespace {
 
-constexpr double farthest = 80 * degree;
+// Between a fixed normal and that of the faces around; more is refused.
+constexpr double steepest = 80 * degree;
 
 Vec3 normal_given(const FairOptions& options, std::size_t v) {
   const Eigen::Map<const Vec3> given(options.normals.data() + 3 * v);
@@ -62,7 +63,7 @@ void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& norma
   for (const FixedNormal& fixed : normals) {
     const Vec3 own = control_normal(mesh, fixed.vertex);
     const double angle = std::atan2(own.cross(fixed.normal).norm(), own.dot(fixed.normal));
-    if (own.norm() > 0 && angle > farthest && !mesh.second_vertex(fixed.vertex))
+    if (own.norm() > 0 && angle > steepest && !mesh.second_vertex(fixed.vertex))
       far.push_back(mesh.original_vertex(fixed.vertex));
   }
   if (!far.empty())

@@ -9,12 +9,10 @@
 #include "mesh/mend/merge.h"
 #include "mesh/sheets.h"
 #include "mesh/validate/check.h"
+#include "transfer/quadratic_matrix.h"
 
 namespace fairing {
 namespace {
-
-// Neighbours of a vertex from which on the rows about it are more than a few per cent of all.
-constexpr std::int64_t large_ring = 64;
 
 // Thin: of triangles alone more than a fifth, otherwise more than a fortieth of the faces are longer
 // than 16 times their area by length, as quads of 1 to 16 are: of 130 meshes these took blocks. Even:
@@ -140,7 +138,7 @@ Counts count_elements(const ControlMesh& mesh, const Unknowns& unknowns) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const auto ring = std::int64_t(mesh.ring(v).size());
     c.lone += ring == 0;
-    if (ring > large_ring) c.in_large_rings += ring * ring;
+    if (ring > std::int64_t(large_ring)) c.in_large_rings += ring * ring;
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const bool quad = mesh.faces[f].quad();

@@ -55,13 +55,31 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
     refuse(
         "normals are for the thin plate, whose couples they need; use energy=\"thin_plate\", or "
         "free the normals.");
-  if (o.method == Method::back_leg)
-    refuse("method=\"back_leg\" solves without couples; use multigrid to fix normals.");
 }
 
 // The strength at which swelling is gone on the meshes that tension is for, and cusps at control
 // vertices begin to cost more than it gains.
 constexpr double tautest = 30;
+
+void check_paper(const FairOptions& o) {
+  const PaperOptions& paper = o.paper;
+  in_range("chart_blend", paper.chart_blend, 0, 1);
+  in_range("epsilon", paper.epsilon, 0, 1e300);
+  if (paper.epsilon > 0 && o.energy != Energy::thin_plate)
+    refuse(
+        "epsilon is for the thin plate; under another energy use interpolation=\"approximate\" "
+        "with a tolerance.");
+  if (paper.sweeps < 0 || paper.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
+  if (paper.method != Method::back_leg) return;
+  if (o.energy != Energy::thin_plate)
+    refuse("method=\"back_leg\" is for the thin plate only; use multigrid for other energies.");
+  if (o.interpolation == Interpolation::approximate || paper.epsilon > 0)
+    refuse(
+        "method=\"back_leg\" interpolates exactly; use multigrid for tolerance, weights or "
+        "epsilon.");
+  if (o.has_normals())
+    refuse("method=\"back_leg\" solves without couples; use multigrid to fix normals.");
+}
 
 }  // namespace
 
@@ -94,21 +112,20 @@ bool FairOptions::has_normals() const {
   return false;
 }
 
-// Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
-// the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two animals). So
-// with c = 10 every equal step of `tension` takes about the same.
 std::size_t FairOptions::bytes_allowed() const {
   return memory_limit ? memory_limit : physical_memory() / 4 * 3;
 }
 
+// Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
+// the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two animals). So
+// with c = 10 every equal step of `tension` takes about the same.
 double membrane_strength(double tension) { return tautest * tension / (4 - 3 * tension); }
 
 void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (o.levels < 0 || o.levels > most_levels)
     refuse("levels is " + std::to_string(o.levels) + "; it must be from 0 to " +
            std::to_string(most_levels) + ".");
-  in_range("metric_exponent", o.chart.exponent, 0, 1);
-  in_range("chart_blend", o.chart.blend, 0, 1);
+  in_range("metric_exponent", o.metric_exponent, 0, 1);
   if (o.tolerance.size() == 1)
     in_range("tolerance", o.tolerance[0], 0, 1e300);
   else
@@ -118,24 +135,11 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
   in_range("limit", o.limit, 0, 1);
   check_sharpness(mesh.vertex_count(), o.sharpness);
-  in_range("epsilon", o.epsilon, 0, 1e300);
-  if (o.epsilon > 0 && o.energy != Energy::thin_plate)
-    refuse(
-        "epsilon is for the thin plate; under another energy use interpolation=\"approximate\" "
-        "with a "
-        "tolerance.");
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");
-  if (o.method == Method::back_leg && o.energy != Energy::thin_plate)
-    refuse("method=\"back_leg\" is for the thin plate only; use multigrid for other energies.");
   if (o.max_iterations < 1) refuse("max_iterations must be at least 1.");
   if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
-  if (o.method == Method::back_leg &&
-      (o.interpolation == Interpolation::approximate || o.epsilon > 0))
-    refuse(
-        "method=\"back_leg\" interpolates exactly; use multigrid for tolerance, weights or "
-        "epsilon.");
   in_range("pad_size", o.pad_size, 0, 1);
   in_range("tension", o.tension, 0, 1);
   check_normals(mesh, o);
@@ -145,7 +149,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
         "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
   if (o.smoother_degree < 0 || o.smoother_degree > 1000)
     refuse("smoother_degree must be from 0 to 1000.");
-  if (o.sweeps < 0 || o.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
+  check_paper(o);
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)
     refuse("weights are for interpolation=\"approximate\"; other interpolations have none.");

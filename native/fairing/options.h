@@ -12,6 +12,7 @@
 #include "mesh/control_mesh.h"
 #include "mesh/limit_positions.h"
 #include "mesh/polygon_mesh.h"
+#include "paper/options.h"
 #include "stencil/chart.h"
 
 namespace fairing {
@@ -29,14 +30,6 @@ enum class Energy {
   total_curvature,
   // The change of curvature along the surface [Moreton, Sequin 1992]: likewise.
   minimum_variation,
-};
-
-// How the thin plate's linear system is solved.
-enum class Method {
-  // Full multigrid, V-cycles inside conjugate gradients, to `relative_residual`.
-  multigrid,
-  // The paper's own [Kobbelt 1997a, §5]: refine, then a few Gauss-Seidel sweeps, level by level.
-  back_leg,
 };
 
 // What happens to a mesh with defects.
@@ -58,7 +51,8 @@ struct FairOptions {
   double step_tolerance_wanted() const;
   // The most Gauss-Newton steps on the finest level; at least 1.
   int max_steps = 20;
-  ChartOptions chart;
+  // Charts are made from control edge lengths to this power, 0 to 1.
+  double metric_exponent = centripetal;
   FeatureOptions features;
   Repair repair = Repair::refuse;
   // Mending: vertices no farther apart than this become one, mesh units; 0: those at one point;
@@ -76,18 +70,11 @@ struct FairOptions {
   // vertices are semi-sharp on the way.
   double limit = 1;
   Sharpness sharpness;
-  // Afterwards interpolated control vertices are released by so much, which takes off cusps; mesh
-  // units. For the thin plate.
-  double epsilon = 0;
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
   // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
   double pad_size = 1;
-  // The paper's own methods are about point forces, whatever the size: epsilon takes their cusps
-  // off, back_leg solves without loads.
-  double width_of_pads() const {
-    return epsilon > 0 || method == Method::back_leg ? 0.0 : pad_size;
-  }
+  double width_of_pads() const { return paper.needs_point_forces() ? 0.0 : pad_size; }
 
   // Which normal the surface has at each input vertex, 3 numbers each, of any length; none where they
   // are zero or one is NaN. Empty: nowhere. For the thin plate, off curves and inside the region; the
@@ -115,15 +102,12 @@ struct FairOptions {
   // Whether any vertex may move, and only so far.
   bool has_tolerance() const;
 
-  Method method = Method::multigrid;
   // Where conjugate gradients end: the residual relative to the control polyhedron's, and the
   // estimated error relative to the solution in the energy norm; 1e-13 to 0.5.
   double relative_residual = 1e-4;
   int max_iterations = 200;
   // Of the Chebyshev smoother; 0: chosen from how the coarse levels converge.
   int smoother_degree = 0;
-  // back_leg: Gauss-Seidel sweeps a level.
-  int sweeps = 10;
 
   // 0: one a core. The result is the same for any number.
   int threads = 0;
@@ -132,6 +116,8 @@ struct FairOptions {
   std::size_t bytes_allowed() const;
   // Whether to measure the energies of result, control polyhedron and prediction.
   bool measure = false;
+
+  PaperOptions paper;
 };
 
 // What the membrane's energy is multiplied by, relative to bending over the length of a control edge

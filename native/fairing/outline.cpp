@@ -84,7 +84,7 @@ Outline outline_of(const Mending& mending) {
   }
   take_faces(mesh, out);
   take_edges(mesh, out);
-  const double exponent = options.chart.kind == ChartKind::tangent ? 1.0 : options.chart.exponent;
+  const double exponent = options.paper.metric_exponent(options.metric_exponent);
   take_curves(mesh, 1 << options.levels, exponent, out);
   out.units = measure_units(mesh, exponent);
   mending.restore(out.report);

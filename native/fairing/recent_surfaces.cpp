@@ -79,12 +79,13 @@ void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
     positions_ = earlier_positions_;
     has_earlier_ = true;
   }
-  earlier_loads_.resize(loads_.size(), Vec3::Zero());
-  for (std::size_t v = 0; v < loads_.size(); ++v) {
-    const Vec3 last = loads_[v];
-    loads_[v] += coefficients.middleRows<3>(1).transpose() * last;
+  Loads& loads = state_.loads;
+  earlier_loads_.resize(loads.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < loads.size(); ++v) {
+    const Vec3 last = loads[v];
+    loads[v] += coefficients.middleRows<3>(1).transpose() * last;
     if (had_earlier)
-      loads_[v] += coefficients.bottomRows<3>().transpose() * (last - earlier_loads_[v]);
+      loads[v] += coefficients.bottomRows<3>().transpose() * (last - earlier_loads_[v]);
     if (another_kind) earlier_loads_[v] = last;
   }
   if (earlier_surface_.size() != surface_.size()) earlier_surface_.resize(surface_.size());

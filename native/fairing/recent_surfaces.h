@@ -9,6 +9,7 @@
 #include "base/types.h"
 #include "parallel/memory.h"
 #include "parallel/workers.h"
+#include "thin_plate/plate_state.h"
 
 namespace fairing {
 
@@ -34,9 +35,8 @@ class RecentSurfaces {
 
   // The last surface, 3 numbers a point; to be overwritten by the next one before remember().
   Array<double>& surface() { return surface_; }
-  // The loads on its pads (hold/pads.h), which change as it does but for translations; empty
-  // without pads.
-  std::vector<Vec3>& loads() { return loads_; }
+  // What holds it. Loads on pads (hold/pads.h) change as the surface does, but for translations.
+  PlateState& state() { return state_; }
   // surface() is that of these control positions.
   void remember(std::span<const Vec3> positions);
 
@@ -56,7 +56,8 @@ class RecentSurfaces {
   std::vector<Vec3> positions_, earlier_positions_, extrapolated_;
   // The earlier surface is from before the present kind of change: p - p* grows while that lasts.
   Array<double> surface_, earlier_surface_;
-  std::vector<Vec3> loads_, earlier_loads_;
+  PlateState state_;
+  Loads earlier_loads_;
 };
 
 }  // namespace fairing

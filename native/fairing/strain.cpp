@@ -6,9 +6,9 @@
 #include <limits>
 #include <new>
 
-#include "fairing/context.h"
 #include "fairing/fair.h"
 #include "fairing/mending.h"
+#include "fairing/systems.h"
 #include "parallel/cancel.h"
 #include "strain/own_loads.h"
 
@@ -54,18 +54,20 @@ namespace {
 Strain strain_of(const Mending& mending, Monitor& monitor) {
   Report report;
   Stopwatch watch(report, monitor);
-  FairingContext context(mending.mesh(), mending.options(), monitor, watch, report);
-  ThinPlateSolver& solver = context.system();
-  const ControlMesh& mesh = context.mesh();
+  const std::unique_ptr<const FairingProblem> problem =
+      make_problem(mending.mesh(), mending.options(), watch, report);
+  FairingSystems systems(*problem, monitor);
+  ThinPlateSolver& solver = systems.plate();
+  const ControlMesh& mesh = problem->mesh;
   Array<double> surface;
-  context.solve(context.basis(), false, watch, report, surface);
-  const Loads loads = solver.loads();
-  const std::vector<double> own = own_loads(solver, mesh, context.basis().working_curves);
+  const Loads loads = systems.solve(problem->basis, false, watch, report, surface).loads;
+  const std::vector<double> own = own_loads(solver, problem->basis.working_curves);
   Strain out;
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
     const bool has = solver.pads() && solver.pads()->under(v) && own[v] > 0;
-    out.ways.push_back(has ? Vec3(-context.scale() / own[v] * loads[v]) : Vec3::Constant(none));
+    out.ways.push_back(has ? Vec3(-problem->frame.scale / own[v] * loads[v])
+                           : Vec3::Constant(none));
     out.lengths.push_back(has ? out.ways[v].dot(normal_of(mesh, Index(v))) : none);
   }
   return out;

@@ -19,12 +19,6 @@ constexpr std::size_t grain = 16;
 // in its weak direction.
 constexpr double least_determinant = 1e-3;
 
-double mean_radius(const std::vector<Vec2>& ring) {
-  double sum = 0;
-  for (const Vec2& p : ring) sum += p.norm();
-  return sum / double(ring.size());
-}
-
 Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
   return mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
 }
@@ -40,7 +34,7 @@ std::size_t Couples::bytes(const ControlMesh& mesh, const std::vector<FixedNorma
   return arms * sizeof(Arm) + neighbours * sizeof(Vec2);
 }
 
-Couples::Couples(const ControlMesh& mesh, const ChartOptions& charts,
+Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
                  std::vector<FixedNormal> normals, Workers& workers)
     : mesh_(mesh), workers_(workers), normals_(std::move(normals)) {
   first_arm_.assign(1, 0);
@@ -53,15 +47,12 @@ Couples::Couples(const ControlMesh& mesh, const ChartOptions& charts,
   rows_.resize(first_row_.back());
   total_.assign(size(), 0.0);
   mass_.assign(size(), Vec2::Zero());
-  const ChartMaker maker(mesh, charts);
-  const std::vector<FlatFace> flat =
-      flatten(mesh, charts.kind == ChartKind::tangent ? 1.0 : charts.exponent);
   workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      Chart chart = maker.vertex(normals_[c].vertex);
-      const double radius = mean_radius(chart.ring);
+      Chart chart = charts.vertex(normals_[c].vertex);
+      const double radius = mean_radius(chart);
       for (Vec2& p : chart.ring) p /= radius;
-      fill_arms(c, chart, flat);
+      fill_arms(c, chart, charts.flat());
       const FitRows rows = fit(chart);
       for (std::size_t k = first_row_[c]; k < first_row_[c + 1]; ++k)
         rows_[k] = rows.col(Eigen::Index(k - first_row_[c])).head<2>();

@@ -33,7 +33,7 @@ class Couples {
   static constexpr int first_level = 2;
 
   // Positions of `mesh` in working coordinates.
-  Couples(const ControlMesh& mesh, const ChartOptions& charts, std::vector<FixedNormal> normals,
+  Couples(const ControlMesh& mesh, const ChartMaker& charts, std::vector<FixedNormal> normals,
           Workers& workers);
   // Of the long arrays, for normals at vertices of this mesh.
   static std::size_t bytes(const ControlMesh& mesh, const std::vector<FixedNormal>& normals);

@@ -23,11 +23,10 @@ constexpr double least_reach = 1.0 / (1 << 16);
 
 }  // namespace
 
-Pads::Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns,
-           double size, Workers& workers, const VertexWeights& weights)
+Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
+           Workers& workers, const VertexWeights& weights)
     : mesh_(&mesh), workers_(&workers), size_(size), unknowns_(unknowns), rows_(unknowns) {
-  const double exponent = charts.kind == ChartKind::tangent ? 1.0 : charts.exponent;
-  for (const FlatFace& flat : flatten(mesh, exponent)) area_.push_back(flat.area);
+  for (const FlatFace& flat : charts.flat()) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
   share_.assign(vertices, 0.0);
   for (const auto& [ahead, back] : pad_reaches(mesh))

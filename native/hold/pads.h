@@ -40,7 +40,7 @@ class Pads {
   // `size` in (0, 1] is what all reaches are multiplied by. A pad is under every control vertex
   // that is fixed or has a weight, off all curves and inside the region. Positions of `mesh` in
   // working coordinates.
-  Pads(const ControlMesh& mesh, const ChartOptions& charts, const Unknowns& unknowns, double size,
+  Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
        Workers& workers, const VertexWeights& weights = {});
 
   // False where no control vertex stands on a pad.

@@ -16,9 +16,6 @@ constexpr int most_with_old_factor = 20;
 // Unknowns up to which a level is factored whenever its K is another: iterations cost as much.
 constexpr std::size_t most_refactored = 4 * tiny_level;
 
-// Of the products' terms: what rounding may leave of the residual.
-constexpr double rounding = 2e-15;
-
 // On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
 constexpr double settled_margin = 1.03;
 
@@ -47,7 +44,6 @@ void Hierarchy::complete() {
   cycle_.coarse = coarse_.get();
   cycle_.base = end;
   factors_ += coarse_->direct();
-  pcg_.residual.resize(cycle_.levels.back().op->size());
 }
 
 void Hierarchy::refresh(std::size_t top, bool spectrum) {
@@ -71,27 +67,27 @@ void Hierarchy::refactor() {
   ++factors_;
 }
 
-LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Residual& residual,
-                            double* x, const std::function<void(const PcgResult&)>& each) {
+LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
+                            const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
-    solve_direct(solver, limits, residual, x, out);
+    solve_direct(solver, limits, system, out);
     return out;
   }
   if (index == cycle_.base && coarse_->direct()) {
-    if (is_factor_old_ && solve_by_old_factor(limits, residual, x, out)) return out;
+    if (is_factor_old_ && solve_by_old_factor(limits, system, out)) return out;
     if (is_factor_old_) refactor();
-    solve_direct(*coarse_, limits, residual, x, out);
+    solve_direct(*coarse_, limits, system, out);
     if (out.converged) return out;
   }
-  PcgResult result = iterate(index, limits, residual, x, each, out);
-  if (!result.converged && adapts(out.direct) &&
+  PcgResult result = iterate(index, limits, system, each, out);
+  if (!result.converged && limits.may_adapt && adapts(out.direct) &&
       (is_too_hard(index) || (result.broke_down && fits_factor(index)))) {
     promote_to_coarsest(index);
-    solve_direct(*coarse_, limits, residual, x, out);
+    solve_direct(*coarse_, limits, system, out);
     if (out.converged) return out;
-    result = conjugate_gradients(cycle_, index, workers_, limits, residual, pcg_, x,
+    result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
                                  [](const PcgResult&) { return true; });
     out.iterations += result.iterations;
   }
@@ -107,16 +103,15 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Re
 
 // Conjugate gradients, once more where the smoother takes blocks on the way; to the end, or until
 // the level is too hard.
-PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const Residual& residual,
-                             double* x, const std::function<void(const PcgResult&)>& each,
-                             LevelSolve& out) {
-  const bool adapt = adapts(out.direct);
+PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
+                             const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
+  const bool adapt = limits.may_adapt && adapts(out.direct);
   PcgLimits rest = limits;
   if (options_.operators_change) pace_[index] = {};
   for (;;) {
     if (adapt && wants_blocks(index, pace_[index])) take_blocks(index);
-    estimate_eigenvalues(index);
-    PcgResult result = conjugate_gradients(cycle_, index, workers_, rest, residual, pcg_, x,
+    estimate_eigenvalues(index, system.r);
+    PcgResult result = conjugate_gradients(cycle_, index, workers_, rest, system, pcg_,
                                            [&](const PcgResult& so_far) {
                                              each(so_far);
                                              return !adapt || goes_on(index, so_far, rest);
@@ -135,12 +130,12 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const R
   }
 }
 
-bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,
+bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system,
                                     LevelSolve& out) {
   PcgLimits few = limits;
   few.max_iterations = std::min(limits.max_iterations, most_with_old_factor);
-  const PcgResult result = conjugate_gradients(cycle_, cycle_.base, workers_, few, residual, pcg_,
-                                               x, [](const PcgResult&) { return true; });
+  const PcgResult result = conjugate_gradients(cycle_, cycle_.base, workers_, few, system, pcg_,
+                                               [](const PcgResult&) { return true; });
   out.direct = true;
   out.smoother_degree = 0;
   out.iterations = result.iterations;
@@ -152,21 +147,21 @@ bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const Residual& res
 // Where the factor's trace keeps it from K, once more with less of one. What is then left in spite of
 // a factor may be rounding, of which iterations make no less.
 void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
-                             const Residual& residual, double* x, LevelSolve& out) {
+                             const LinearSystem& system, LevelSolve& out) {
   const std::size_t size = solver.size();
-  Array<double>& r = pcg_.residual;
+  double *const x = system.x, *const r = system.r;
   Array<double> step(size);
   out.direct = true;
   out.smoother_degree = 0;
-  const double begun = norm(workers_, size, r.data());
+  const double begun = norm(workers_, size, r);
   const double scale = limits.from_start ? begun : limits.residual_scale;
   out.converged = begun <= limits.noise;
   const auto refine = [&] {
     for (int k = 0; k < refinement_steps && !out.converged; ++k) {
-      solver.solve(r.data(), step.data());
+      solver.solve(r, step.data());
       for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
-      residual(x, r.data());
-      const double now = norm(workers_, size, r.data());
+      system.residual(x, r);
+      const double now = norm(workers_, size, r);
       out.residual = limits.relative(now, scale);
       out.converged = out.residual <= limits.tolerance || now <= limits.noise;
     }
@@ -174,13 +169,13 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
   refine();
   if (!out.converged && solver.lessen_trace()) refine();
   if (!out.converged)
-    out.converged = norm(workers_, size, r.data()) <= rounding * solver.norm_of_terms(x);
+    out.converged = norm(workers_, size, r) <= rounding_of_terms * solver.norm_of_terms(x);
 }
 
 // Stencils hardly change from level to level, and from some fineness on the spectrum's upper end
 // neither. Each level's Lanczos iteration starts from the residual, restricted: that turns and
 // renumbers with the mesh.
-void Hierarchy::estimate_eigenvalues(std::size_t top) {
+void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   const auto unknown = [&](std::size_t l) { return cycle_.levels[l].largest_eigenvalue == 0; };
   std::size_t lowest = top + 1;
   while (lowest > cycle_.base && unknown(lowest - 1)) --lowest;
@@ -188,7 +183,7 @@ void Hierarchy::estimate_eigenvalues(std::size_t top) {
     Array<float>& start = cycle_.levels[l].state.residual;
     if (l == top)
       for_each_index(workers_, cycle_.levels[l].op->size(),
-                     [&](std::size_t i) { start[i] = float(pcg_.residual[i]); });
+                     [&](std::size_t i) { start[i] = float(residual[i]); });
     else
       cycle_.levels[l + 1].transfer->restrict_to(cycle_.levels[l + 1].state.residual.data(),
                                                  start.data());

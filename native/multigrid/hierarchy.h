@@ -52,14 +52,11 @@ class Hierarchy {
   // After the last add().
   void complete();
 
-  // The work vectors, for the finest level: state().residual is what solve() starts from.
-  PcgState& state() { return pcg_; }
   const Array<float>& inverse_diagonal(std::size_t index) const {
     return cycle_.levels[index].op->inverse_diagonal();
   }
-  // Whether the smoother adapts.
-  void set_adapting(bool adapts) { adapts_ = adapts; }
-  bool is_adapting() const { return adapts_; }
+  // From here on the smoother adapts to nothing.
+  void keep_smoother() { adapts_ = false; }
 
   // Whether the smoother may work on blocks from here on; if not, those that are there go.
   void allow_blocks(bool allowed);
@@ -78,10 +75,9 @@ class Hierarchy {
   // How often a level has been factored.
   int factors() const { return factors_; }
 
-  // Solves K x = b on a level, to the limits given; state().residual is b - K x at the start.
-  // `each` is called after every iteration. Throws where the run has been cancelled, and
+  // Solves a level's system, to the limits given. `each` is called after every iteration. Throws where the run has been cancelled, and
   // FairingError(underdetermined) where a factor finds the level singular.
-  LevelSolve solve(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
+  LevelSolve solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                    const std::function<void(const PcgResult&)>& each);
 
   // Before a level's first solve: from how the last one went, and how far both are to be solved.
@@ -98,13 +94,12 @@ class Hierarchy {
   };
 
   void refactor();
-  PcgResult iterate(std::size_t index, const PcgLimits& limits, const Residual& residual, double* x,
+  PcgResult iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                     const std::function<void(const PcgResult&)>& each, LevelSolve& out);
-  bool solve_by_old_factor(const PcgLimits& limits, const Residual& residual, double* x,
-                           LevelSolve& out);
-  void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const Residual& residual,
-                    double* x, LevelSolve& out);
-  void estimate_eigenvalues(std::size_t top);
+  bool solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system, LevelSolve& out);
+  void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const LinearSystem& system,
+                    LevelSolve& out);
+  void estimate_eigenvalues(std::size_t top, const double* residual);
 
   // adaptation.cpp
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }

@@ -51,33 +51,31 @@ class Iteration {
   static constexpr bool is_single = std::is_same_v<T, float>;
 
   Iteration(VCycle& cycle, std::size_t top, Workers& workers, const PcgLimits& limits,
-            const Residual& residual, PcgState& state, double* x)
+            const LinearSystem& system, PcgState& state)
       : cycle_(cycle),
         level_(cycle.levels[top]),
         top_(top),
         workers_(workers),
         limits_(limits),
-        residual_(residual),
-        size_(level_.op->size()),
-        true_r_(state.residual.data()),
-        x_(x) {
+        system_(system),
+        size_(level_.op->size()) {
     const std::size_t size = size_ + vector_room;
     if constexpr (is_single) {
-      r_ = room(state.rest, size);
-      p_ = room(state.fast_direction, size);
-      q_ = room(state.fast_product, size);
-      e_ = room(state.correction, size);
+      v_.r = room(state.rest, size);
+      v_.p = room(state.fast_direction, size);
+      v_.q = room(state.fast_product, size);
+      v_.e = room(state.correction, size);
     } else {
-      r_ = true_r_;
-      p_ = room(state.direction, size);
-      q_ = room(state.product, size);
+      v_.r = system.r;
+      v_.p = room(state.direction, size);
+      v_.q = room(state.product, size);
     }
   }
 
   PcgResult run(const std::function<bool(const PcgResult&)>& each) {
-    length_ = norm(workers_, size_, true_r_);
-    residual_scale_ = limits_.from_start ? length_ : limits_.residual_scale;
-    energy_scale_ = limits_.from_start ? 0 : limits_.energy_scale;
+    length_ = norm(workers_, size_, system_.r);
+    result_.residual_scale = limits_.from_start ? length_ : limits_.residual_scale;
+    result_.energy_scale = limits_.from_start ? 0 : limits_.energy_scale;
     result_.residual = relative(length_);
     result_.history.push_back(result_.residual);
     if (length_ <= limits_.noise) {
@@ -90,18 +88,16 @@ class Iteration {
     }
     if (is_single && drifted_) replace();
     result_.residual = relative(length_);
-    result_.residual_scale = residual_scale_;
-    result_.energy_scale = energy_scale_;
     return result_;
   }
 
  private:
-  double relative(double length) const { return limits_.relative(length, residual_scale_); }
+  double relative(double length) const { return limits_.relative(length, result_.residual_scale); }
 
   bool small_enough() {
     const double error = error_left_.estimate();
     result_.residual = relative(length_);
-    result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
+    result_.energy_error = result_.energy_scale > 0 ? error / result_.energy_scale : 0.0;
     return length_ <= limits_.noise || is_enough(error) ||
            (residual_will_do() && result_.energy_error <= limits_.tolerance);
   }
@@ -118,8 +114,8 @@ class Iteration {
 
   // From the error that the preconditioner sees at the start.
   bool is_done_before(double error) {
-    if (limits_.from_start) energy_scale_ = error;
-    result_.energy_error = energy_scale_ > 0 ? error / energy_scale_ : 0.0;
+    if (limits_.from_start) result_.energy_scale = error;
+    result_.energy_error = result_.energy_scale > 0 ? error / result_.energy_scale : 0.0;
     result_.converged =
         is_enough(error) || (residual_will_do() && result_.energy_error <= limits_.tolerance);
     return result_.converged;
@@ -130,7 +126,7 @@ class Iteration {
     // The preconditioner works on a residual of order one.
     z_unit_ = is_single ? 1 : length_;
     float* to = level_.state.residual.data();
-    for_each_index(workers_, size_, [&](std::size_t i) { to[i] = float(r_[i] / z_unit_); });
+    for_each_index(workers_, size_, [&](std::size_t i) { to[i] = float(v_.r[i] / z_unit_); });
     cycle_.run(top_);
     return level_.state.x.data();  // only now: the smoother swaps its vectors
   }
@@ -138,32 +134,33 @@ class Iteration {
   bool step() {
     const float* z = precondition();
     const double rz =
-        z_unit_ * sum(workers_, size_, [&](std::size_t i) { return double(r_[i]) * z[i]; });
+        z_unit_ * sum(workers_, size_, [&](std::size_t i) { return double(v_.r[i]) * z[i]; });
     if (result_.iterations == 0 && is_done_before(unit_ * std::sqrt(std::max(0.0, rz))))
       return false;
     // A new preconditioner starts a new sequence of conjugate directions.
-    const bool fresh = result_.iterations == 0 || cycle_.degree != degree_;
-    degree_ = cycle_.degree;
+    const bool fresh = result_.iterations == 0 || cycle_.degree != last_.degree;
+    last_.degree = cycle_.degree;
     // Flexible beta: z.(r - r_old) / (z_old.r_old), and r - r_old is -step q.
     const double beta =
-        fresh ? 0.0 : -length_of_step_ * z_unit_ * sum(workers_, size_, [&](std::size_t i) {
-          return double(z[i]) * q_[i];
-        }) / rz_;
-    rz_ = rz;
+        fresh ? 0.0 : -last_.length * z_unit_ * sum(workers_, size_, [&](std::size_t i) {
+          return double(z[i]) * v_.q[i];
+        }) / last_.rz;
+    last_.rz = rz;
     const T momentum = T(beta), unit = T(z_unit_);
     const double pr = sum(workers_, size_, [&](std::size_t i) {
-      p_[i] = fresh ? unit * T(z[i]) : unit * T(z[i]) + momentum * p_[i];
-      return double(p_[i]) * r_[i];
+      v_.p[i] = fresh ? unit * T(z[i]) : unit * T(z[i]) + momentum * v_.p[i];
+      return double(v_.p[i]) * v_.r[i];
     });
-    level_.op->apply(p_, q_);
-    const double pq = sum(workers_, size_, [&](std::size_t i) { return double(p_[i]) * q_[i]; });
+    level_.op->apply(v_.p, v_.q);
+    const double pq =
+        sum(workers_, size_, [&](std::size_t i) { return double(v_.p[i]) * v_.q[i]; });
     if (!(pq > 0) || !std::isfinite(pq)) {  // rounding leaves nothing to gain
       result_.broke_down = true;
       return false;
     }
-    length_of_step_ = pr / pq;
-    go(T(length_of_step_));
-    error_left_.gained(unit_ * unit_ * length_of_step_ * pr);
+    last_.length = pr / pq;
+    go(T(last_.length));
+    error_left_.gained(unit_ * unit_ * last_.length * pr);
     ++result_.iterations;
     result_.converged = small_enough();
     if (is_single && (result_.converged || length_ < replaced_below * unit_)) {
@@ -177,11 +174,11 @@ class Iteration {
   void go(T step) {
     const double square = sum(workers_, size_, [&](std::size_t i) {
       if constexpr (is_single)
-        e_[i] += step * p_[i];
+        v_.e[i] += step * v_.p[i];
       else
-        x_[i] += step * p_[i];
-      r_[i] -= step * q_[i];
-      return double(r_[i]) * r_[i];
+        system_.x[i] += step * v_.p[i];
+      v_.r[i] -= step * v_.q[i];
+      return double(v_.r[i]) * v_.r[i];
     });
     length_ = unit_ * std::sqrt(square);
     drifted_ = true;
@@ -190,24 +187,25 @@ class Iteration {
   void take_residual() {
     unit_ = length_ > 0 ? length_ : 1;
     for_each_index(workers_, size_, [&](std::size_t i) {
-      r_[i] = T(true_r_[i] / unit_);
-      e_[i] = 0;
+      v_.r[i] = T(system_.r[i] / unit_);
+      v_.e[i] = 0;
     });
   }
 
   // x takes the correction, and all vectors change to the unit of the residual that is left.
   void replace() {
-    for_each_index(workers_, size_, [&](std::size_t i) { x_[i] += unit_ * double(e_[i]); });
-    residual_(x_, true_r_);
-    length_ = norm(workers_, size_, true_r_);
+    for_each_index(workers_, size_,
+                   [&](std::size_t i) { system_.x[i] += unit_ * double(v_.e[i]); });
+    system_.residual(system_.x, system_.r);
+    length_ = norm(workers_, size_, system_.r);
     const double last = unit_;
     take_residual();
     const double change = last / unit_;
     for_each_index(workers_, size_, [&](std::size_t i) {
-      p_[i] = T(change * p_[i]);
-      q_[i] = T(change * q_[i]);
+      v_.p[i] = T(change * v_.p[i]);
+      v_.q[i] = T(change * v_.q[i]);
     });
-    rz_ *= change * change;
+    last_.rz *= change * change;
     drifted_ = false;
   }
 
@@ -216,28 +214,31 @@ class Iteration {
   std::size_t top_;
   Workers& workers_;
   const PcgLimits& limits_;
-  const Residual& residual_;
+  const LinearSystem& system_;
   std::size_t size_;
-  double *true_r_, *x_;
-  T *r_, *p_, *q_, *e_ = nullptr;  // e: what x still has to take
+  // The residual, the direction, K times it, and what x still has to take.
+  struct {
+    T *r, *p, *q, *e = nullptr;
+  } v_;
+  struct {
+    double rz = 0, length = 0;
+    int degree = 0;  // of the smoother
+  } last_;           // of the step before
 
   PcgResult result_;
-  double residual_scale_ = 0, energy_scale_ = 0;
   double length_ = 0, unit_ = 1, z_unit_ = 1;  // length: of the residual, in the caller's unit
-  double rz_ = 0, length_of_step_ = 0;
   ErrorLeft error_left_;
-  int degree_ = 0;
   bool drifted_ = false;  // since the residual was computed from x
 };
 
 }  // namespace
 
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers,
-                              const PcgLimits& limits, const Residual& residual, PcgState& state,
-                              double* x, const std::function<bool(const PcgResult&)>& each) {
+                              const PcgLimits& limits, const LinearSystem& system, PcgState& state,
+                              const std::function<bool(const PcgResult&)>& each) {
   if (cycle.levels[top].op->single_precision_suffices())
-    return Iteration<float>(cycle, top, workers, limits, residual, state, x).run(each);
-  return Iteration<double>(cycle, top, workers, limits, residual, state, x).run(each);
+    return Iteration<float>(cycle, top, workers, limits, system, state).run(each);
+  return Iteration<double>(cycle, top, workers, limits, system, state).run(each);
 }
 
 }  // namespace fairing

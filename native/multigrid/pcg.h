@@ -9,6 +9,10 @@
 
 namespace fairing {
 
+// Of the norm of a residual's terms: what is left of it below is rounding, some 20 units in the last
+// place.
+constexpr double rounding_of_terms = 2e-15;
+
 struct PcgLimits {
   // Of the residual, relative to `residual_scale`, and of the error in the energy norm, relative to
   // `energy_scale`: residuals of fourth order hide the smooth part of an error.
@@ -23,6 +27,8 @@ struct PcgLimits {
   bool by_error = false;
   // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
   double enough = 0;
+  // Whether the smoother may change on the way: not where how it goes says nothing of later solves.
+  bool may_adapt = true;
 
   // A residual's norm as it is reported.
   double relative(double length, double scale) const {
@@ -41,12 +47,15 @@ struct PcgResult {
   std::vector<double> history;                  // relative residual, the start's first
 };
 
-// The linear system of a level: r = b - K x, in double.
-using Residual = std::function<void(const double* x, double* r)>;
+// A level's linear system K x = b, and how far it is solved.
+struct LinearSystem {
+  std::function<void(const double* x, double* r)> residual;  // r <- b - K x, in double
+  double* x;                                                 // is improved in place
+  double* r;  // b - K x of x as it is, which is overwritten
+};
 
 // Work vectors of the conjugate gradients, kept between levels.
 struct PcgState {
-  Array<double> residual;
   Array<double> direction, product;                             // of iterations in double
   Array<float> rest, fast_direction, fast_product, correction;  // of those in single precision
 };
@@ -56,11 +65,10 @@ struct PcgState {
 // is computed anew in double, from x, each time it has become a hundred times smaller [residual
 // replacement: van der Vorst and Ye 2000]; so the limits hold in double. The flexible beta allows
 // for a preconditioner of single precision, and for one that changes on the way: `each` may raise
-// cycle.degree after an iteration; it returns false to stop. On entry state.residual is b - K x; x
-// is updated in place. Ends unconverged at max_iterations, or where rounding leaves nothing to
-// gain. Throws where the run has been cancelled.
+// cycle.degree after an iteration; it returns false to stop. Ends unconverged at max_iterations, or
+// where rounding leaves nothing to gain. Throws where the run has been cancelled.
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers,
-                              const PcgLimits& limits, const Residual& residual, PcgState& state,
-                              double* x, const std::function<bool(const PcgResult&)>& each);
+                              const PcgLimits& limits, const LinearSystem& system, PcgState& state,
+                              const std::function<bool(const PcgResult&)>& each);
 
 }  // namespace fairing

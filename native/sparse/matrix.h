@@ -30,6 +30,13 @@ constexpr bool has_rows(int n, std::size_t points) {
   return n > 1 && n <= 16 && points <= std::size_t(1) << 22;
 }
 
+// Whether rows summed from `products` terms, over all points, are worth their pattern: on average a
+// point's ring times itself, 49 or 81 where rings are regular.
+constexpr bool worth_products(std::size_t products, std::size_t points) {
+  constexpr std::size_t most_products = 128;
+  return products < most_products * points;
+}
+
 // Rows of a chunk: enough to share columns and numbers, few enough that what a chunk reads of a
 // vector, and its product, stay in a near cache.
 constexpr std::size_t chunk_rows = 256;

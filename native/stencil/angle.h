@@ -11,6 +11,8 @@
 
 namespace fairing {
 
+constexpr double full_turn = 2 * std::numbers::pi;
+
 // The series below are for numbers and for packs of them alike (base/simd.h).
 
 // Half an angle is an arctangent in [0, pi/2]: folded to [0, pi/4], turned to [-pi/8, pi/8], then a

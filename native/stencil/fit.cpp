@@ -13,7 +13,6 @@ namespace fairing {
 namespace {
 
 constexpr double half_root_half = std::numbers::sqrt2 / 4;  // 1 / (2 sqrt 2)
-constexpr double root_half = std::numbers::sqrt2 / 2;
 
 // Whether the Cholesky factor of the scaled normal equations leaves nothing undetermined. The last two
 // columns turn into each other with the chart: what is left for them is judged by its eigenvalues, so

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace fairing {
 // its trace-free part), so their squares add up to f_uu^2 + 2 f_uv^2 + f_vv^2.
 using Coefficients = Eigen::Matrix<double, 5, 1>;
 using FitRows = Eigen::Matrix<double, 5, Eigen::Dynamic>;  // one column a neighbour
+constexpr double root_half = std::numbers::sqrt2 / 2;      // of that basis
 
 Coefficients basis(const Vec2& p);
 

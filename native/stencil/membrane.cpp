@@ -113,23 +113,14 @@ double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
   return count > 0 ? sum / double(count) : 1;
 }
 
-Membrane make_membrane(const ControlMesh& mesh, const ChartOptions& options,
+Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
                        const std::vector<Index>& ring_offset, double t) {
   Membrane out;
   if (!(t > 0)) return out;
-  const std::vector<FlatFace> flat =
-      flatten(mesh, options.kind == ChartKind::tangent ? 1.0 : options.exponent);
-  std::vector<FaceWeights> faces = weigh(mesh, flat);
-  const double length = mean_edge(mesh, flat), factor = 0.5 * t / (length * length);
-  // The blend of charts keeps their size.
-  std::vector<FaceWeights> uniform;
-  if (options.blend != 1) uniform = weigh(mesh, flatten(mesh, 0));
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t a = 0; a < 4; ++a) {
-      double& w = faces[f].direction[a];
-      if (!uniform.empty()) w = options.blend * w + (1 - options.blend) * uniform[f].direction[a];
-      w *= factor;
-    }
+  std::vector<FaceWeights> faces = weigh(mesh, charts.flat());
+  const double length = mean_edge(mesh, charts.flat()), factor = 0.5 * t / (length * length);
+  for (FaceWeights& face : faces)
+    for (double& w : face.direction) w *= factor;
   out.vertex.resize(std::size_t(ring_offset.back()));
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     fill_vertex(mesh, faces, v, out.vertex.data() + ring_offset[std::size_t(v)]);

@@ -33,7 +33,7 @@ double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 
 // tau = t / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled surface.
 // Throws where the run has been cancelled.
-Membrane make_membrane(const ControlMesh& mesh, const ChartOptions& options,
+Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
                        const std::vector<Index>& ring_offset, double t);
 
 }  // namespace fairing

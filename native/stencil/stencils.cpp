@@ -150,9 +150,8 @@ MembraneWeights::MembraneWeights(const ControlMesh& mesh, const Stencils& s, Ind
   }
 }
 
-Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers,
+Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,
                        double tension) {
-  const ChartMaker charts(mesh, options);
   const auto vertices = std::size_t(mesh.vertex_count()), edges = mesh.edges.size(),
              faces = mesh.faces.size();
   Stencils s;
@@ -182,7 +181,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Wor
   workers.for_parts(faces, 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) fill_face(mesh, charts, Index(f), s);
   });
-  s.membrane = make_membrane(mesh, options, s.ring_offset, tension);
+  s.membrane = make_membrane(mesh, charts, s.ring_offset, tension);
   return s;
 }
 

@@ -99,7 +99,7 @@ class MembraneWeights {
 };
 
 // Makes all of them, with `tension` as in make_membrane(). Throws where the run has been cancelled.
-Stencils make_stencils(const ControlMesh& mesh, const ChartOptions& options, Workers& workers,
+Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,
                        double tension = 0);
 
 }  // namespace fairing

@@ -76,17 +76,16 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
   return sets;
 }
 
-std::vector<double> own_loads(ThinPlateSolver& solver, const ControlMesh& mesh,
-                              const FeatureCurves& curves) {
+std::vector<double> own_loads(ThinPlateSolver& solver, const FeatureCurves& curves) {
+  const ControlMesh& mesh = solver.levels().shared().mesh;
   std::vector<double> own(std::size_t(mesh.vertex_count()), 0.0);
   if (!solver.pads()) return own;
   FeatureCurves none = curves;
   for (Vec3& p : none.points) p.setZero();
-  const VertexWeights weights = solver.shared().weights;
-  solver.take_shape(none, weights, false);
+  solver.keep_smoother();
   const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
   std::vector<Vec3> targets(own.size());
-  Array<double> x(3 * solver.grid(solver.top()).size());
+  Array<double> x(3 * solver.levels().grid(solver.levels().top()).size());
   for (std::size_t first = 0; first < sets.size(); first += 3) {
     const std::size_t end = std::min(first + 3, sets.size());
     std::fill(targets.begin(), targets.end(), Vec3::Zero());
@@ -95,13 +94,13 @@ std::vector<double> own_loads(ThinPlateSolver& solver, const ControlMesh& mesh,
       for (const Index v : sets[s])
         mesh.for_each_copy(v,
                            [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
-    solver.loads().assign(own.size(), Vec3::Zero());
-    solver.solve_again(solver.top(), targets, x, probe_tolerance);
+    PlateState state = solver.unheld();
+    state.loads.assign(own.size(), Vec3::Zero());
+    solver.solve_again({targets, none}, probe_tolerance, state, x);
     for (std::size_t s = first; s < end; ++s)
       for (const Index v : sets[s])
-        own[std::size_t(v)] = solver.loads()[std::size_t(v)][Eigen::Index(s - first)];
+        own[std::size_t(v)] = state.loads[std::size_t(v)][Eigen::Index(s - first)];
   }
-  solver.take_shape(curves, weights, false);
   return own;
 }
 

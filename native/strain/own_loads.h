@@ -13,11 +13,9 @@
 namespace fairing {
 
 // G_vv of each control vertex on the finest level; 0 where no pad is. (On the first level hats have so
-// few points that it is half of that.) `curves` are the solver's own, to which it returns; its loads
-// are those of the last probe then. Pads must be those of a surface that has been solved for. May
-// throw what solves do.
-std::vector<double> own_loads(ThinPlateSolver& solver, const ControlMesh& mesh,
-                              const FeatureCurves& curves);
+// few points that it is half of that.) `curves`: the solver's, whose points do not move. Pads must be
+// those of a surface that has been solved for. May throw what solves do.
+std::vector<double> own_loads(ThinPlateSolver& solver, const FeatureCurves& curves);
 
 // Sets of vertices on pads, those of a set at least so many rings apart; copies of a vertex count as
 // one. Deterministic.

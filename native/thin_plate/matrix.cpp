@@ -98,17 +98,13 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
                      [&](RingTable::Member m, double number) { row.add(m, number); });
 }
 
-// Products that a row is summed from, at the most on average: a point's rings by their sizes, 81 in
-// a quad's grid.
-constexpr std::size_t most_products = 128;
-
 bool suits(const GridLevel& grid, const Stencils& stencils) {
   std::size_t products = 81 * grid.size();
   for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
     const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);
     products += size * size;
   }
-  return products < most_products * grid.size();
+  return worth_products(products, grid.size());
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "grid/grid_level.h"
 #include "hold/couples.h"
 #include "multigrid/hierarchy.h"
-#include "stencil/chart.h"
 
 namespace fairing {
 
@@ -19,7 +18,6 @@ struct ThinPlateOptions {
   int max_iterations = 200;          // a level
   int smoother_degree = 0;           // 0: chosen from how the coarse levels converge
   double pad_size = 0;               // of the pads under control vertices (pads.h); 0: point forces
-  ChartOptions chart;                // the metric that pads are measured in
   std::vector<FixedNormal> normals;  // held on all levels but the coarsest
   bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
 };

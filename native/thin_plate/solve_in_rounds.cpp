@@ -16,10 +16,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "hold/hold_in_space.h"
 #include "hold/load_steps.h"
 #include "parallel/reductions.h"
-#include "thin_plate/solver.h"
+#include "thin_plate/run.h"
 
 namespace fairing {
 namespace {
@@ -32,8 +31,9 @@ constexpr double solve_gain = 0.15, solve_gain_of_bounds = 0.2, first_gain_of_fi
 constexpr double solve_gain_of_few = 0.3, first_gain_of_few = 0.007;
 // Pieces of an edge from which on a level is fine.
 constexpr int fine_pieces = 16;
-// What a correction leaves of the forces, before two of them have said it.
-constexpr double first_ratio = 0.3;
+// What a correction leaves of the forces, before two of them have said it; and the least of it that
+// is believed.
+constexpr double first_ratio = 0.3, least_ratio = 0.05;
 // Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
 constexpr double left_by_iteration = 0.9;
 // Of what loads carry, relative: what the forces left may be below the finest level, where loads are
@@ -66,45 +66,98 @@ double force_tolerance(double relative_residual) {
 // Of fixed normals, radians: a twentieth of a degree where forces are as rough as they may be.
 constexpr double angle_per_force = 0.4, coarse_angle = 2e-2;
 
+// Of the forces and slopes that corrections are to take off, how much is left.
+struct LoadsLeft {
+  double now = 0, before = 0;  // forces and slopes together, in the norm of M
+  double ratio = first_ratio;  // what a correction leaves of it
+  // Of a tangent plane from a fixed one, radians: a normal may look to the wrong side.
+  double tilt = 0;
+
+  void compare() {
+    if (before > 0 && now > 0) ratio = std::clamp(now / before, least_ratio, 1.0);
+    before = now;
+  }
+};
+
 }  // namespace
 
 // One level's rounds.
 struct ThinPlateSolver::Rounds {
-  ThinPlateSolver& solver;
+  Run& run;
   int level;
-  std::span<const Vec3> targets;
   const PcgLimits& limits;
   HoldInSpace* constraint;  // or null
-  HeldState& held;
-  double* x;
 
-  Pads* pads = solver.pads_.get();
-  const Couples* couples = solver.has_couples(level) ? solver.couples_.get() : nullptr;
+  Pads* pads = run.solver.supports_.pads();
+  Couples* couples = run.solver.supports_.couples(level);
+  std::span<const Vec3> targets = run.data.targets;
   LoadSteps<3> steps =
       load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{},
                     couples ? couples->mass() : Moments{});
+  Loads forces = Loads(run.state.loads.size(), Vec3::Zero());  // left at control vertices on pads
+  std::vector<Vec3> pulls{};  // that hold vertices placed on their balls; empty: none is placed
   Multipliers<3> correction{};
-  LevelReport report{};
+  LoadsLeft left{};
+  Run::Solved solved{run.report_of(level), {}};
+  double gain = 0;     // of all solves, as a logarithm of residuals
   bool whole = false;  // whether the solve goes as far as is asked
-  double left = 0, left_before = 0, ratio = first_ratio, gain = 0;
-  double tilt = 0;  // of a tangent plane from a fixed one; a normal may look to the wrong side
 
-  double* residual() { return solver.hierarchy_.state().residual.data(); }
-  bool top() const { return level == solver.top(); }
+  ThinPlateLevels& levels() { return run.levels(); }
+  const ThinPlateShared& shared() { return levels().shared(); }
+  const ThinPlateOptions& options() const { return run.solver.options_; }
+  LevelReport& report() { return solved.report; }
+  double* x() { return run.x.data(); }
+  bool top() const { return level == run.top(); }
+  bool places() const { return !pulls.empty(); }
   double wanted_gap() const { return top() ? gap_wanted : coarse_plate_gap; }
 
-  double gain_wanted() const {
-    if (constraint && !held.placed) return solve_gain_of_bounds;
+  double gain_wanted() {
+    if (constraint && !places()) return solve_gain_of_bounds;
     const bool few = expects_few();
-    if (report.pad_corrections > 0) return few ? solve_gain_of_few : solve_gain;
-    if (solver.grid(level).n() < fine_pieces) return solve_gain;
+    if (report().pad_corrections > 0) return few ? solve_gain_of_few : solve_gain;
+    if (levels().grid(level).n() < fine_pieces) return solve_gain;
     return few ? first_gain_of_few : first_gain_of_fine;
   }
   // Where no more is asked than can be seen; not where the way of steps hangs on it.
   bool expects_few() const {
-    return level > level_of_first_loads && !constraint && !solver.options_.starts_steps &&
-           force_tolerance(solver.options_.relative_residual) == coarsest_force_tolerance;
+    return level > level_of_first_loads && !constraint && !options().starts_steps &&
+           force_tolerance(options().relative_residual) == coarsest_force_tolerance;
   }
+
+  // r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
+  void residual(const double* x, double* r) {
+    if (!pads && !places()) {
+      levels().residual(level, targets, x, r);
+    } else {
+      apply_thin_plate(levels().grid(level), shared().double_rows,
+                       pads ? pads->rows() : shared().unknowns, {}, levels().workers(),
+                       levels().shared().double_slots, x, r);
+      for_each_index(levels().workers(), run.size(level), [&](std::size_t i) { r[i] = -r[i]; });
+      if (pads) pads->add_loads(run.state.loads, r);
+      if (places()) take_pulls(r);
+      take_point_forces<3>(
+          shared().unknowns, shared().weights, pads, run.state.loads,
+          [&](std::size_t v) -> Vec3 {
+            return places() && constraint->placed(v)
+                       ? Vec3(pulls[v] / shared().weights[v])
+                       : Vec3(targets[v] - Eigen::Map<const Vec3>(x + 3 * v));
+          },
+          forces, r);
+    }
+    if (couples) couples->add(run.state.moments, r);
+  }
+
+  // Placed vertices do not give way: what their rows ask for is the force that holds them there.
+  void take_pulls(const double* r) {
+    std::fill(pulls.begin(), pulls.end(), Vec3::Zero());
+    for (std::size_t v = 0; v < pulls.size(); ++v) {
+      if (!constraint->placed(v)) continue;
+      pulls[v] = -Eigen::Map<const Vec3>(r + 3 * v);
+      if (pads && pads->under(v)) pulls[v] += pads->total(v) * run.state.loads[v];
+    }
+  }
+
+  void take_residual() { residual(x(), run.r.data()); }
 
   void solve() {
     PcgLimits now = limits;
@@ -112,36 +165,33 @@ struct ThinPlateSolver::Rounds {
       now.from_start = true;
       now.tolerance = std::max(limits.tolerance, gain_wanted());
       // Afterwards something has to move: forces that are read again say nothing.
-      if (!constraint && report.pad_corrections == 0) now.enough = limits.tolerance;
+      if (!constraint && report().pad_corrections == 0) now.enough = limits.tolerance;
     }
-    const double begun = norm(solver.workers_, 3 * solver.grid(level).size(), residual());
-    const LevelSolve solve = solver.hierarchy_.solve(
-        std::size_t(level - solver.base_), now,
-        [&](const double* y, double* r) { solver.residual_on_pads(level, targets, y, held, r); }, x,
+    const double begun = norm(levels().workers(), run.size(level), run.r.data());
+    const int before = report().iterations;
+    const LevelSolve solve = levels().solve(
+        level, now, {[&](const double* y, double* r) { residual(y, r); }, x(), run.r.data()},
         [&](const PcgResult& so_far) {
-          solver.report_done(
-              level, 1 - std::pow(left_by_iteration, report.iterations + so_far.iterations));
+          run.report_done(level, 1 - std::pow(left_by_iteration, before + so_far.iterations));
         });
-    const int iterations = report.iterations + solve.iterations;
-    static_cast<LevelSolve&>(report) = solve;
-    report.iterations = iterations;
+    static_cast<LevelSolve&>(report()) = solve;
+    report().iterations += before;
     if (now.from_start && !limits.from_start)
       take_scale(limits.residual_scale > 0 ? begun / limits.residual_scale : 0.0);
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
-    const LevelOperator& op = *solver.operators_[std::size_t(level - solver.base_)];
-    if (pads && !held.placed && !solve.direct && !op.single_precision_suffices())
-      solver.residual_on_pads(level, targets, x, held, residual());
+    if (pads && !places() && !solve.direct && !levels().op(level).single_precision_suffices())
+      take_residual();
   }
 
   // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
   void take_scale(double scale) {
-    report.residual *= scale;
-    for (double& r : report.residuals) r *= scale;
+    report().residual *= scale;
+    for (double& r : report().residuals) r *= scale;
   }
 
   double wanted_force() const {
-    return top() ? force_tolerance(solver.options_.relative_residual) : coarse_force_tolerance;
+    return top() ? force_tolerance(options().relative_residual) : coarse_force_tolerance;
   }
   double wanted_tilt() const { return top() ? angle_per_force * wanted_force() : coarse_angle; }
 
@@ -150,10 +200,10 @@ struct ThinPlateSolver::Rounds {
     double left = 0, loads = 0;
   };
   Sizes correct_loads() {
-    const Loads &loads = held.loads, &forces = held.forces;
+    const Loads& loads = run.state.loads;
     Loads product;
-    const std::vector<double> give =
-        give_of_springs(solver.shared_.unknowns, solver.shared_.weights, solver.stiffness_, *pads);
+    const std::vector<double> give = give_of_springs(shared().unknowns, shared().weights,
+                                                     run.solver.supports_.stiffness(), *pads);
     pads->divide_by_mass<3>(forces, correction.loads, give);
     pads->multiply_mass<3>(loads, product);
     return {dot<3>(correction.loads, forces), dot<3>(loads, product)};
@@ -161,16 +211,17 @@ struct ThinPlateSolver::Rounds {
 
   // Couples are tried out after a solve: the smoother is to know the whole of the surface first.
   Sizes correct_couples() {
-    if (!couples->knows_compliance()) solver.measure_couples(level);
-    correction.moments = couples->correction(x);
-    report.normal_angle = tilt = 0;
+    if (!couples->knows_compliance())
+      run.solver.supports_.measure_couples(level, options().max_iterations);
+    correction.moments = couples->correction(x());
+    report().normal_angle = left.tilt = 0;
     Sizes out;
     for (std::size_t c = 0; c < couples->size(); ++c) {
-      const double angle = couples->angle(c, x);
-      report.normal_angle = std::max(report.normal_angle, angle);
-      tilt = std::max(tilt, std::min(angle, std::numbers::pi - angle));
+      const double angle = couples->angle(c, x());
+      report().normal_angle = std::max(report().normal_angle, angle);
+      left.tilt = std::max(left.tilt, std::min(angle, std::numbers::pi - angle));
       out.left += couples->mass()[c].dot(correction.moments[c].cwiseAbs2());
-      out.loads += couples->mass()[c].dot(held.moments[c].cwiseAbs2());
+      out.loads += couples->mass()[c].dot(run.state.moments[c].cwiseAbs2());
     }
     return out;
   }
@@ -181,48 +232,48 @@ struct ThinPlateSolver::Rounds {
     if (!pads && !couples) return true;
     const Sizes of_loads = pads ? correct_loads() : Sizes{},
                 of_couples = couples ? correct_couples() : Sizes{};
-    left = std::sqrt(std::max(0.0, of_loads.left + of_couples.left));
     const double size = std::sqrt(std::max(0.0, of_loads.loads + of_couples.loads));
-    report.pad_force = size > 0 ? left / size : left > 0 ? 1.0 : 0.0;
+    left.now = std::sqrt(std::max(0.0, of_loads.left + of_couples.left));
+    report().pad_force = size > 0 ? left.now / size : left.now > 0 ? 1.0 : 0.0;
     double force_norm = 0;
-    for (const Vec3& f : held.forces) force_norm += f.squaredNorm();
-    return tilt <= wanted_tilt() &&
-           (report.pad_force <= wanted_force() || std::sqrt(force_norm) <= limits.noise);
+    for (const Vec3& f : forces) force_norm += f.squaredNorm();
+    return left.tilt <= wanted_tilt() &&
+           (report().pad_force <= wanted_force() || std::sqrt(force_norm) <= limits.noise);
   }
 
   // Whether one more correction will settle the loads, as the last ones did, or must do.
   bool loads_nearly_settled() {
-    if (left_before > 0 && left > 0) ratio = std::clamp(left / left_before, 0.05, 1.0);
-    left_before = left;
-    return (ratio * report.pad_force <= last_correction_aim * wanted_force() &&
-            ratio * tilt <= last_correction_aim * wanted_tilt()) ||
+    left.compare();
+    return (left.ratio * report().pad_force <= last_correction_aim * wanted_force() &&
+            left.ratio * left.tilt <= last_correction_aim * wanted_tilt()) ||
            corrections_left() <= 1;
   }
-  int corrections_left() const {
-    return (couples ? most_corrections_with_couples : most_corrections) + report.constraint_rounds -
-           report.pad_corrections;
+  int corrections_left() {
+    return (couples ? most_corrections_with_couples : most_corrections) +
+           report().constraint_rounds - report().pad_corrections;
   }
 
   // Below the finest level what a solve leaves is less than what the next level changes.
   bool is_start_only() const { return (pads || couples) && !constraint && !top(); }
 
   bool bounds_settled() {
-    return !constraint || constraint->settled(solver.energy(level, x), wanted_gap(), x);
+    return !constraint || constraint->settled(levels().energy(level, x()), wanted_gap(), x());
   }
-  int rounds_left() const {
-    return (top() && !report.direct ? most_rounds : most_cheap_rounds) - report.constraint_rounds;
+  int rounds_left() {
+    return (top() && !report().direct ? most_rounds : most_cheap_rounds) -
+           report().constraint_rounds;
   }
 
   void change(bool loads, bool bounds) {
     correction.bounds.clear();
     if (constraint) correction.bounds.assign(constraint->size(), 0.0);
-    if (bounds) correction.bounds = constraint->correction(x);
+    if (bounds) correction.bounds = constraint->correction(x());
     const bool guesses = bounds && constraint->far();
     if (guesses) steps.forget();
     Multipliers<3> step = guesses ? correction : steps.change(correction);
-    for (std::size_t v = 0; v < step.loads.size(); ++v) held.loads[v] += step.loads[v];
-    for (std::size_t c = 0; c < step.moments.size(); ++c) held.moments[c] += step.moments[c];
-    report.pad_corrections += loads;
+    for (std::size_t v = 0; v < step.loads.size(); ++v) run.state.loads[v] += step.loads[v];
+    for (std::size_t c = 0; c < step.moments.size(); ++c) run.state.moments[c] += step.moments[c];
+    report().pad_corrections += loads;
     if (bounds) {
       constraint->change(step.bounds);
       take_weights();
@@ -231,17 +282,17 @@ struct ThinPlateSolver::Rounds {
   }
 
   void take_weights() {
-    ++report.constraint_rounds;
-    solver.set_weights(constraint->weights(), level);
+    ++report().constraint_rounds;
+    levels().set_weights(constraint->weights(), level);
   }
 
   void run_rounds() {
     for (;;) {
-      solver.residual_on_pads(level, targets, x, held, residual());
+      take_residual();
       solve();
       const bool loads = loads_settled();
-      if ((whole || report.enough) && (loads || corrections_left() <= 0)) {
-        report.converged = report.converged && loads;
+      if ((whole || report().enough) && (loads || corrections_left() <= 0)) {
+        report().converged = report().converged && loads;
         return;
       }
       if (loads && is_start_only()) return;
@@ -253,12 +304,12 @@ struct ThinPlateSolver::Rounds {
       // and forces be read that say nothing. Loads go on with solves that gain.
       whole = (was_whole && constraint) || ((bounds || !may_adapt) && (loads || nearly));
       const bool adapts = may_adapt && !whole;
-      if (adapts && constraint->begin(x))
+      if (adapts && constraint->begin(x()))
         take_weights();
       else if (!loads || adapts)
         change(!loads, adapts);
       if (constraint && whole && !was_whole && top()) {
-        constraint->pin(x);
+        constraint->pin(x());
         targets = constraint->aims();
         take_weights();
       }
@@ -268,31 +319,31 @@ struct ThinPlateSolver::Rounds {
   // With vertices placed on their balls, as if they were fixed, but for where. False where the gap
   // does not close.
   bool run_placed() {
-    constraint->place(x);
+    constraint->place(x());
     targets = constraint->aims();
-    held.placed = constraint;
+    pulls.assign(std::size_t(shared().mesh.vertex_count()), Vec3::Zero());
     take_weights();
     bool settled = false;  // where vertices are; from then on loads alone change
     for (int turns = 0;; ++turns) {
-      solver.residual_on_pads(level, targets, x, held, residual());
+      take_residual();
       solve();
-      constraint->put_placed(x);
-      solver.residual_on_pads(level, targets, x, held, residual());
-      constraint->take_pulls(held.pulls);
-      const double energy = solver.energy(level, x);
+      constraint->put_placed(x());
+      take_residual();
+      constraint->take_pulls(pulls);
+      const double energy = levels().energy(level, x());
       const bool loads = loads_settled();
       if (whole && (loads || corrections_left() <= 0)) {
-        report.converged = report.converged && loads;
-        constraint->finish(energy, x);
+        report().converged = report().converged && loads;
+        constraint->finish(energy, x());
         return loads && constraint->gap() <= gap_wanted;
       }
       const bool nearly = loads_nearly_settled();
       settled = settled || (constraint->turn(energy, last_correction_aim * gap_wanted) &&
-                            (loads || report.pad_force < settled_force));
+                            (loads || report().pad_force < settled_force));
       if (turns > 0 && constraint->gap() > largest_placed_gap) return false;
       if (turns >= most_placed_rounds && !whole) return false;
       whole = settled && (loads || nearly);
-      constraint->put_placed(x);
+      constraint->put_placed(x());
       if (!settled) steps.forget();
       if (!loads) change(true, false);
     }
@@ -302,47 +353,38 @@ struct ThinPlateSolver::Rounds {
   void leave_places() {
     constraint->leave_places();
     targets = constraint->aims();
-    held.placed = nullptr;
+    pulls.clear();
     whole = false;
     take_weights();
     steps.forget();
   }
 
-  LevelReport run() {
-    const bool places = constraint && top() && constraint->is_stiff();
-    if (!places || !run_placed()) {
-      if (places) leave_places();
+  Run::Solved solve_all() {
+    const bool tries_places = constraint && top() && constraint->is_stiff();
+    if (!tries_places || !run_placed()) {
+      if (tries_places) leave_places();
       run_rounds();
-      if (constraint && top()) constraint->finish(solver.energy(level, x), x);
+      if (constraint && top()) constraint->finish(levels().energy(level, x()), x());
     }
-    held.placed = nullptr;
     if (constraint) {
-      report.constraint_gap = constraint->gap();
-      report.converged = report.converged && report.constraint_gap <= wanted_gap();
+      report().constraint_gap = constraint->gap();
+      report().converged = report().converged && report().constraint_gap <= wanted_gap();
     }
     // Couples hold a tangent plane, whichever of its sides the surface turns up.
     if (couples && top())
-      report.converged = report.converged && report.normal_angle <= largest_angle_left;
-    return report;
+      report().converged = report().converged && report().normal_angle <= largest_angle_left;
+    solved.equivalent = report();
+    if (gain > 0)
+      solved.equivalent.iterations = int(-report().iterations * std::log(limits.tolerance) / gain);
+    return solved;
   }
 };
 
-LevelReport ThinPlateSolver::solve_in_rounds(int level, std::span<const Vec3> targets,
-                                             const PcgLimits& limits, HoldInSpace* constraint,
-                                             HeldState& held, double* x) {
-  if (pads_) pads_->set_level(grid(level));
-  if (has_couples(level)) couples_->set_level(grid(level));
-  held.forces.assign(held.loads.size(), Vec3::Zero());
-  Rounds rounds{*this, level, targets, limits, constraint, held, x};
-  LevelReport report = rounds.run();
-  equivalent_solve_ = report;
-  if (rounds.gain > 0)
-    equivalent_solve_.iterations =
-        int(-report.iterations * std::log(limits.tolerance) / rounds.gain);
-  report.level = level;
-  report.points = grid(level).size();
-  report.unknowns = count_unknowns(grid(level), shared_.unknowns);
-  return report;
+ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve_in_rounds(int level,
+                                                                   const PcgLimits& limits,
+                                                                   HoldInSpace* constraint) {
+  solver.supports_.set_level(level);
+  return Rounds{*this, level, limits, constraint}.solve_all();
 }
 
 }  // namespace fairing

@@ -176,7 +176,7 @@ class FineRows {
 
 // Numbers in rows about control vertices whose rings are large, at the most and on average over all
 // points: each of a ring's points has a row with all others.
-constexpr std::size_t large_ring = 64, most_in_large_rings = 16;
+constexpr std::size_t most_in_large_rings = 16;
 
 bool suits(const GridLevel& fine, const Stencils& stencils) {
   if (!has_rows(fine.n(), fine.size())) return false;

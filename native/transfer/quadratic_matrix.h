@@ -11,6 +11,9 @@
 
 namespace fairing {
 
+// Neighbours of a vertex from which on the rows about it are more than a few per cent of all.
+constexpr std::size_t large_ring = 64;
+
 class AssembledTransfer {
  public:
   // Null where the passes are better (has_rows()), or columns are too many for 16 bits in one

@@ -15,7 +15,10 @@ from addon.settings import FairingSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
-DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted(DOCS.glob("*.md"))]
+DOCUMENTS = [
+    *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")),
+    *sorted(DOCS.glob("*.md")),
+]
 PICTURES = DOCS / "images" / "settings"
 PYTHON = ("scripting.md",)  # whose Python runs in Blender; the NumPy API's runs without it
 

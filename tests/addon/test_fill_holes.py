@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 from scenes import activate, add, positions
 
+from addon import core, holes
+from addon.errors import JobCancelled
+
 
 def ball(name="Ball"):
     """A unit sphere of 1,280 triangles."""
@@ -143,3 +146,65 @@ def test_shape_keys_have_the_new_vertices():
     places = np.array([p.co for p in keys["Wide"].data])
     assert len(places) == len(target.data.vertices)
     assert np.abs(np.linalg.norm(places, axis=1) - 1).max() < 1e-3
+
+
+def place_of_corners(target, layer):
+    """Corner by corner: where its vertex is, and its UV."""
+    mesh = target.data
+    at = np.array([mesh.vertices[loop.vertex_index].co for loop in mesh.loops])
+    return at, np.array([corner.uv for corner in mesh.uv_layers[layer].data])
+
+
+def test_uv_maps_and_weights_are_blended_from_the_rim():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    map_, group = target.data.uv_layers.new(name="Map"), target.vertex_groups.new(name="Ramp")
+    for loop in target.data.loops:
+        map_.data[loop.index].uv = target.data.vertices[loop.vertex_index].co[:2]
+    for vertex in target.data.vertices:
+        group.add([vertex.index], 0.5 + 0.5 * vertex.co[0], "REPLACE")
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    at, uv = place_of_corners(target, "Map")
+    assert np.abs(uv - at[:, :2]).max() < 0.1  # nearest: 0.6, in the middle
+    weights = np.array([v.groups[0].weight for v in target.data.vertices])
+    assert np.abs(weights - 0.5 - 0.5 * positions(target.data)[:, 0]).max() < 0.05
+
+
+def test_a_seam_at_the_rim_is_not_blended_across():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    map_ = target.data.uv_layers.new(name="Map")
+    for face in target.data.polygons:
+        for corner in face.loop_indices:
+            map_.data[corner].uv = (float(face.center[0] > 0), 0.0)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    _, uv = place_of_corners(target, "Map")
+    assert set(uv[:, 0].tolist()) == {0.0, 1.0}
+
+
+def test_why_one_of_several_cannot_be_filled_is_said(capfd):
+    whole = ball("Whole")
+    target = without(ball("Open"), lambda c: c[2] > 0.7)
+    whole.select_set(True)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert is_closed(target.data)
+    assert "Whole: there is no hole" in capfd.readouterr().out
+
+
+def test_edits_during_a_run_stay():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 100, False)
+    job = holes.HoleJob(bpy.context, target, wish)
+    job.compute()
+    assert job.why_outdated(bpy.context) == ""
+    target.data.vertices[0].co[0] += 0.1
+    assert "edited during the run" in job.why_outdated(bpy.context)
+
+
+def test_a_cancelled_run_changes_nothing():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 100, False)
+    job = holes.HoleJob(bpy.context, target, wish)
+    monitor = core.module().Monitor()
+    monitor.cancel()
+    with pytest.raises(JobCancelled):
+        job.compute(monitor=monitor)
+    assert job.result is None and job.reason == ""

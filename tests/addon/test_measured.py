@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A measured patch in place: its vertices are data, the noise comes off, and what is around stays."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -132,3 +133,24 @@ def test_refined_too():
     assert len(scan.data.polygons) > faces + 3 * 2188
     points = positions(scan.data)
     assert off(points) < 0.0005 and len(points) > count
+
+
+def test_polygons_that_are_split_on_the_way():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=30, y_subdivisions=30)
+    scan = bpy.context.object
+    points = positions(scan.data).astype(float)
+    points[:, 2] += 0.02 * np.random.default_rng(5).standard_normal(len(points))
+    move(scan, points)
+    edited = bmesh.new()
+    edited.from_mesh(scan.data)
+    edited.verts.ensure_lookup_table()
+    bmesh.ops.dissolve_verts(edited, verts=[edited.verts[465]])  # one face of eight corners
+    edited.to_mesh(scan.data)
+    edited.free()
+    count = len(scan.data.polygons)
+    points = positions(scan.data)
+    select(scan, np.ones(len(scan.data.polygons), bool))
+    before, after = fair_measured(scan)
+    inside = (np.abs(before[:, :2]) < 0.99).all(axis=1)
+    assert np.sqrt((after[inside, 2] ** 2).mean()) < 0.5 * np.sqrt((before[inside, 2] ** 2).mean())
+    assert len(scan.data.polygons) == count

@@ -23,7 +23,7 @@ ROOMS = (
     ("transfer",),
     ("multigrid",),
     ("thin_plate", "curvature"),
-    ("strain",),
+    ("strain", "paper"),
     ("fairing",),
     ("binding",),
 )

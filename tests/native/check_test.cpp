@@ -127,27 +127,26 @@ TEST(Check, SheetsMayTouchAtVertices) {
   OwnedPolygonMesh turned = fan(6);
   std::swap(turned.corners[1], turned.corners[2]);
   std::swap(turned.corners[7], turned.corners[8]);
-  EXPECT_EQ(check(turned.view(), {.repair_orientation = true}).flipped_faces, (Ids{0, 2}));
+  EXPECT_EQ(check(turned.view(), {.repair = true}).flipped_faces, (Ids{0, 2}));
 }
 
 TEST(Check, Orientation) {
   expect_refused(flipped_cube_face(), ErrorCode::inconsistent_orientation, {2});
-  EXPECT_EQ(check(flipped_cube_face().view(), {.repair_orientation = true}).flipped_faces,
-            (Ids{2}));
+  EXPECT_EQ(check(flipped_cube_face().view(), {.repair = true}).flipped_faces, (Ids{2}));
 
   OwnedPolygonMesh mesh = two_tetrahedra();  // the fewest faces turn, in each component
   for (const std::size_t f : {0, 1, 3, 5})
     std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]);
-  EXPECT_EQ(check(mesh.view(), {.repair_orientation = true}).flipped_faces, (Ids{2, 5}));
+  EXPECT_EQ(check(mesh.view(), {.repair = true}).flipped_faces, (Ids{2, 5}));
 
   mesh = grid(2, 1);  // where both parties are equal, the first face stays
   std::reverse(mesh.corners.begin() + 5, mesh.corners.end());
-  EXPECT_EQ(check(mesh.view(), {.repair_orientation = true}).flipped_faces, (Ids{1}));
+  EXPECT_EQ(check(mesh.view(), {.repair = true}).flipped_faces, (Ids{1}));
 }
 
 TEST(Check, AMobiusStripIsToldOfAndHasNoFacesToFlip) {
   expect_warned(mobius(5), "NON_ORIENTABLE", {0, 1, 2, 3, 4});
-  EXPECT_TRUE(check(mobius(5).view(), {.repair_orientation = true}).flipped_faces.empty());
+  EXPECT_TRUE(check(mobius(5).view(), {.repair = true}).flipped_faces.empty());
 }
 
 TEST(Check, DegenerateFaces) {

@@ -89,7 +89,7 @@ TEST(ControlMesh, KeepsIsolatedVertices) {
 
 TEST(ControlMesh, TurnsTheFacesThatTheCheckHasFound) {
   const OwnedPolygonMesh mesh = flipped_cube_face();
-  const CheckResult result = check(mesh.view(), {.repair_orientation = true});
+  const CheckResult result = check(mesh.view(), {.repair = true});
   const ControlMesh control = make_control_mesh(mesh.view(), {}, result.flipped_faces);
   expect_consistent(control);
   EXPECT_EQ(euler_characteristic(control), 2);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fairing/context.h"
+#include "fairing/systems.h"
 #include "grid/linear.h"
 #include "meshes.h"
 
@@ -28,7 +28,7 @@ std::vector<double> coupled(const Couples& couples, const GridLevel& grid, const
 TEST(Couples, PushNothing) {
   const ControlMesh mesh = make_control_mesh(grid(4, 4).view(), {});
   Workers workers(2);
-  Couples couples(mesh, {}, upright(mesh), workers);
+  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   ASSERT_EQ(couples.size(), 9u);
   for (const int level : {1, 2, 4}) {
     const GridLevel grid(mesh, level);
@@ -52,7 +52,7 @@ TEST(Couples, PushNothing) {
 TEST(Couples, ActOnHalfTheFacesAround) {
   const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   Workers workers(1);
-  Couples couples(mesh, {}, upright(mesh), workers);
+  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   const GridLevel grid(mesh, 4);
   couples.set_level(grid);
   Moments one(couples.size(), Vec2::Zero());
@@ -81,7 +81,7 @@ TEST(Couples, SeeTheSlopesOfAPlane) {
   std::vector<FixedNormal> normals = upright(mesh);
   normals[0].normal = normal;
   normals[1].normal = -normal;
-  const Couples level_free(mesh, {}, normals, workers);
+  const Couples level_free(mesh, ChartMaker(mesh), normals, workers);
   for (const int level : {1, 3}) {
     Couples couples = level_free;
     const GridLevel grid(mesh, level);
@@ -99,7 +99,7 @@ TEST(Couples, SeeTheSlopesOfAPlane) {
 TEST(Couples, OfOneSetAreNotNeighbours) {
   const ControlMesh mesh = make_control_mesh(torus(8, 7).view(), {});
   Workers workers(1);
-  const Couples couples(mesh, {}, upright(mesh), workers);
+  const Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   std::vector<int> seen(couples.size(), 0);
   for (const std::vector<std::size_t>& set : couples.sets_apart()) {
     for (const std::size_t c : set) ++seen[c];
@@ -140,10 +140,13 @@ TEST(Couples, HoldTheNormals) {
       Monitor monitor;
       Report report;
       Stopwatch watch(report, monitor);
-      FairingContext run(bent.view(), options, monitor, watch, report);
+      const std::unique_ptr<const FairingProblem> problem =
+          make_problem(bent.view(), options, watch, report);
+      FairingSystems run(*problem, monitor);
       Array<double> x;
-      run.solve(run.basis(), false, watch, report, x);
-      ThinPlateSolver& system = run.system();
+      const PlateState state = run.solve(problem->basis, false, watch, report, x);
+      ThinPlateSolver& system = run.plate();
+      ThinPlateShared& shared = system.levels().shared();
       ASSERT_NE(system.couples(), nullptr);
       EXPECT_TRUE(report.levels.back().converged);
       EXPECT_EQ(report.normals.fixed, 1u);
@@ -151,12 +154,12 @@ TEST(Couples, HoldTheNormals) {
       EXPECT_LT(system.couples()->angle(0, x.data()), 1e-4);
 
       const GridLevel& grid = run.finest();
-      const Unknowns& rows = system.pads() ? system.pads()->rows() : system.shared().unknowns;
+      const Unknowns& rows = system.pads() ? system.pads()->rows() : shared.unknowns;
       std::vector<double> forces(3 * grid.size()), held(3 * grid.size(), 0.0);
-      apply_thin_plate(grid, system.shared().double_rows, rows, {}, run.workers(),
-                       system.shared().double_slots, x.data(), forces.data());
-      if (system.pads()) system.pads()->add_loads(system.loads(), held.data());
-      system.couples()->add(system.moments(), held.data());
+      apply_thin_plate(grid, shared.double_rows, rows, {}, *problem->workers, shared.double_slots,
+                       x.data(), forces.data());
+      if (system.pads()) system.pads()->add_loads(state.loads, held.data());
+      system.couples()->add(state.moments, held.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < held.size(); ++i) {
         largest = std::max(largest, std::abs(held[i]));

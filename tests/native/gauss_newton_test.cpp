@@ -149,7 +149,7 @@ struct Levels {
   ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   Workers workers{2};
   Monitor monitor;
-  Stencils stencils = make_stencils(mesh, {}, workers);
+  Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers);
   std::vector<GridLevel> grids;
   GaussNewtonOptions options;
   std::unique_ptr<GaussNewtonSystem> system;

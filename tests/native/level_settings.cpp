@@ -142,15 +142,18 @@ Points of_room(const FloatPoints& x, std::size_t size) {
   return x.topRows(Eigen::Index(size)).cast<double>();
 }
 
+MakeCharts charts_of(double exponent, const PaperOptions& options) {
+  return [=](const ControlMesh& mesh) { return make_charts(mesh, exponent, options); };
+}
+
 void on_all(int most_levels, const std::function<void(const Setting&, Workers&)>& body,
-            const ChartOptions& options) {
+            const MakeCharts& make) {
   Workers workers(1);
   for (const auto& [name, mesh] : all_meshes())
     for (int level = 0; level <= most_levels; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
-      body({mesh, GridLevel(mesh, level), ChartMaker(mesh, options),
-            make_stencils(mesh, options, workers)},
-           workers);
+      const std::unique_ptr<ChartMaker> charts = make(mesh);
+      body({mesh, GridLevel(mesh, level), *charts, make_stencils(mesh, *charts, workers)}, workers);
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "meshes.h"
 #include "multigrid/level_operator.h"
+#include "paper/charts.h"
 #include "reference_rings.h"
 #include "sparse/unknown_points.h"
 #include "stencil/stencils.h"
@@ -58,12 +59,15 @@ ElementSlots<T> poisoned(const GridLevel& grid) {
 struct Setting {
   const ControlMesh& mesh;
   GridLevel grid;
-  ChartMaker charts;
+  const ChartMaker& charts;
   Stencils stencils;
 };
 
+using MakeCharts = std::function<std::unique_ptr<ChartMaker>(const ControlMesh&)>;
+MakeCharts charts_of(double exponent = centripetal, const PaperOptions& options = {});
+
 // Calls body(setting, workers) for every mesh at every level up to `most_levels`.
 void on_all(int most_levels, const std::function<void(const Setting&, Workers&)>& body,
-            const ChartOptions& options = {});
+            const MakeCharts& make = charts_of());
 
 }  // namespace fairing::test

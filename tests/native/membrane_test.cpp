@@ -22,14 +22,15 @@ struct Stretched {
   Stencils plain, tense;
 };
 
-void on_all_stretched(int most_levels, const ChartOptions& options,
+void on_all_stretched(int most_levels, double exponent, const PaperOptions& options,
                       const std::function<void(const Stretched&, Workers&)>& body) {
   Workers workers(1);
   for (const auto& [name, mesh] : all_meshes())
     for (int level = 0; level <= most_levels; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
-      body({mesh, GridLevel(mesh, level), make_stencils(mesh, options, workers),
-            make_stencils(mesh, options, workers, tau)},
+      const std::unique_ptr<ChartMaker> charts = make_charts(mesh, exponent, options);
+      body({mesh, GridLevel(mesh, level), make_stencils(mesh, *charts, options, workers, 0),
+            make_stencils(mesh, *charts, options, workers, tau)},
            workers);
     }
 }
@@ -100,7 +101,7 @@ Dense assembled(const Stretched& s, const Stencils& stencils, const Unknowns& un
 
 TEST(Membrane, IsThatOfLinearElements) {
   for (const double exponent : {0.0, 0.5, 1.0})
-    on_all_stretched(2, {.exponent = exponent}, [&](const Stretched& s, Workers&) {
+    on_all_stretched(2, exponent, {}, [&](const Stretched& s, Workers&) {
       const Unknowns all = all_points(s.mesh);
       const Dense with = assembled(s, s.tense, all), l = with - assembled(s, s.plain, all),
                   expected = reference(s.grid, exponent);
@@ -110,7 +111,7 @@ TEST(Membrane, IsThatOfLinearElements) {
 }
 
 TEST(Membrane, BlendsTheChartsWeights) {
-  on_all_stretched(1, {.exponent = 0.5, .blend = 0.4}, [](const Stretched& s, Workers&) {
+  on_all_stretched(1, 0.5, {.chart_blend = 0.4}, [](const Stretched& s, Workers&) {
     const std::vector<FlatFace> flat = flatten(s.mesh, 0.5), uniform = flatten(s.mesh, 0);
     const double scale = metric_edge(s.mesh, uniform) / metric_edge(s.mesh, flat);
     const Unknowns all = all_points(s.mesh);
@@ -122,7 +123,7 @@ TEST(Membrane, BlendsTheChartsWeights) {
 }
 
 TEST(Membrane, IsPositive) {
-  on_all_stretched(1, {.exponent = 1}, [](const Stretched& s, Workers&) {
+  on_all_stretched(1, 1, {}, [](const Stretched& s, Workers&) {
     const Dense l = reference(s.grid, 1);
     const Eigen::SelfAdjointEigenSolver<Dense> eigen(l);
     EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12 * l.norm());
@@ -130,7 +131,7 @@ TEST(Membrane, IsPositive) {
 }
 
 TEST(Membrane, IsAppliedByPassesAsItIsAssembled) {
-  on_all_stretched(3, {}, [](const Stretched& s, Workers& workers) {
+  on_all_stretched(3, centripetal, {}, [](const Stretched& s, Workers& workers) {
     const Dense all = assembled(s, s.tense, all_points(s.mesh));
     const ThinPlateRows<double> rows(s.mesh, s.tense);
     const ThinPlateRows<float> narrow(s.mesh, s.tense);
@@ -152,7 +153,7 @@ TEST(Membrane, IsAppliedByPassesAsItIsAssembled) {
 }
 
 TEST(Membrane, HasItsDiagonalRowsAndEnergy) {
-  on_all_stretched(3, {}, [](const Stretched& s, Workers& workers) {
+  on_all_stretched(3, centripetal, {}, [](const Stretched& s, Workers& workers) {
     const Unknowns unknowns = some_points(s.mesh, 1);
     ElementSlots<double> slots = poisoned<double>(s.grid);
     const AssembledSystem system = assemble_thin_plate(s.grid, s.tense, unknowns, {}, workers);
@@ -199,7 +200,7 @@ TEST(Membrane, HasItsDiagonalRowsAndEnergy) {
 TEST(Membrane, HasOneEnergyOnAllLevels) {
   Workers workers(1);
   const ControlMesh mesh = control(shaken(icosahedron()));
-  const Stencils stencils = make_stencils(mesh, {}, workers, tau);
+  const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers, tau);
   std::vector<double> energies;
   for (int level = 0; level <= 4; ++level) {
     const GridLevel grid(mesh, level);
@@ -218,7 +219,7 @@ TEST(Membrane, EndsAtARegionsJoint) {
     FeatureOptions features;
     features.region = {true, {0, 1, 2, 5}, joint};
     const ControlMesh mesh = control(shaken(mixed_grid(4, 3)), features);
-    const Stencils stencils = make_stencils(mesh, {}, workers, tau);
+    const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers, tau);
     const GridLevel grid(mesh, 2);
     Points x = random_points(grid.size());
     const double before = membrane_energy(grid, stencils, workers, x.data());
@@ -248,9 +249,9 @@ TEST(Membrane, EndsAtARegionsJoint) {
 TEST(Membrane, LeavesNoTraceWithoutTension) {
   Workers workers(1);
   const ControlMesh mesh = control(shaken(mixed_grid(4, 3)));
-  EXPECT_FALSE(make_stencils(mesh, {}, workers).membrane.any());
-  EXPECT_FALSE(make_stencils(mesh, {}, workers, 0).membrane.any());
-  EXPECT_TRUE(make_stencils(mesh, {}, workers, 1e-3).membrane.any());
+  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers).membrane.any());
+  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers, 0).membrane.any());
+  EXPECT_TRUE(make_stencils(mesh, ChartMaker(mesh), workers, 1e-3).membrane.any());
 }
 
 }  // namespace

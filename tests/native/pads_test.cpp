@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "curvature/total_curvature.h"
-#include "fairing/context.h"
+#include "fairing/systems.h"
 #include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "hold/load_steps.h"
@@ -34,7 +34,7 @@ std::vector<double> loaded(const Pads& pads, const GridLevel& grid, const Loads&
 
 double whole_area(const ControlMesh& mesh) {
   double area = 0;
-  for (const FlatFace& flat : flatten(mesh, ChartOptions().exponent)) area += flat.area;
+  for (const FlatFace& flat : flatten(mesh, centripetal)) area += flat.area;
   return area;
 }
 
@@ -42,7 +42,7 @@ TEST(Pads, WideHatsAddUpToOne) {
   for (const OwnedPolygonMesh& input : {octahedron(), cube(), icosahedron()}) {
     const ControlMesh mesh = make_control_mesh(input.view(), {});
     Workers workers(2);
-    Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+    Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
     for (const int level : {0, 1, 3}) {
       const GridLevel grid(mesh, level);
       pads.set_level(grid);
@@ -66,11 +66,11 @@ TEST(Pads, HatsFallOffOverTheirWidth) {
   const GridLevel grid(mesh, 3);
   const std::size_t count = std::size_t(mesh.vertex_count());
   const Loads even(count, Vec3::Ones());
-  Pads wide(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+  Pads wide(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
   wide.set_level(grid);
   const std::vector<double> share = loaded(wide, grid, even);
   for (const double size : {0.25, 0.5, 0.75}) {
-    Pads pads(mesh, {}, all_but_vertices(mesh), size, workers);
+    Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), size, workers);
     pads.set_level(grid);
     Loads one(count, Vec3::Zero());
     one[0] = Vec3::Ones();
@@ -93,7 +93,7 @@ TEST(Pads, MassIsThatOfTheHats) {
       const ControlMesh mesh = make_control_mesh(input.view(), {});
       Workers workers(2);
       const GridLevel grid(mesh, 2);
-      Pads pads(mesh, {}, all_but_vertices(mesh), size, workers);
+      Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), size, workers);
       pads.set_level(grid);
       const auto count = std::size_t(mesh.vertex_count());
       std::vector<std::vector<double>> column;
@@ -104,7 +104,7 @@ TEST(Pads, MassIsThatOfTheHats) {
       }
       // The points' areas from pads of size 1 on all vertices do not exist on open meshes: take
       // them from where a hat is known, as the closed face's share.
-      const std::vector<FlatFace> flat = flatten(mesh, ChartOptions().exponent);
+      const std::vector<FlatFace> flat = flatten(mesh, centripetal);
       std::vector<double> area(grid.size(), 0.0);
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const bool quad = mesh.faces[f].quad();
@@ -142,7 +142,7 @@ TEST(Pads, MassIsThatOfTheHats) {
 TEST(Pads, SpringsTakeLoadsByThemselves) {
   const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
   Workers workers(1);
-  Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers);
+  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
   const GridLevel grid(mesh, 2);
   pads.set_level(grid);
   const auto count = std::size_t(mesh.vertex_count());
@@ -194,7 +194,7 @@ TEST(Pads, NarrowToNothing) {
   const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
   Workers workers(1);
   const GridLevel grid(mesh, 3);
-  Pads pads(mesh, {}, all_but_vertices(mesh), 1.0, workers), wide = pads;
+  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers), wide = pads;
   pads.narrow(3, 1);
   pads.narrow(4, 2);
   pads.narrow(4, 2);
@@ -302,11 +302,11 @@ TEST(Pads, StandOffCurvesOnly) {
     features.crease_edges.push_back({plain.edges[e].vertex[0], plain.edges[e].vertex[1]});
   const ControlMesh mesh = make_control_mesh(cube().view(), features);
   Workers workers(1);
-  const Pads pads(mesh, {}, all_but_vertices(mesh), 0.5, workers);
+  const Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 0.5, workers);
   for (std::size_t v = 0; v < 8; ++v) EXPECT_EQ(pads.under(v), mesh.feature_vertex[v] == 0);
   EXPECT_TRUE(pads.any());
   const ControlMesh open = make_control_mesh(single_quad().view(), {});
-  EXPECT_FALSE(Pads(open, {}, all_but_vertices(open), 0.5, workers).any());
+  EXPECT_FALSE(Pads(open, ChartMaker(open), all_but_vertices(open), 0.5, workers).any());
 }
 
 // K x = Omega phi f on all points off curves, control vertices included.
@@ -320,21 +320,24 @@ TEST(Pads, HoldTheSurface) {
       Monitor monitor;
       Report report;
       Stopwatch watch(report, monitor);
-      FairingContext run(bent.view(), options, monitor, watch, report);
+      const std::unique_ptr<const FairingProblem> problem =
+          make_problem(bent.view(), options, watch, report);
+      FairingSystems run(*problem, monitor);
       Array<double> x;
-      run.solve(run.basis(), false, watch, report, x);
-      ThinPlateSolver& system = run.system();
+      const PlateState state = run.solve(problem->basis, false, watch, report, x);
+      ThinPlateSolver& system = run.plate();
+      ThinPlateShared& shared = system.levels().shared();
       const GridLevel& grid = run.finest();
-      for (Index v = 0; v < run.mesh().input_vertices; ++v)
+      for (Index v = 0; v < problem->mesh.input_vertices; ++v)
         for (std::size_t a = 0; a < 3; ++a)
           EXPECT_EQ(x[3 * std::size_t(v) + a],
-                    run.basis().working[std::size_t(v)][Eigen::Index(a)]);
+                    problem->basis.working[std::size_t(v)][Eigen::Index(a)]);
       Pads pads = *system.pads();
       pads.set_level(grid);
       std::vector<double> forces(3 * grid.size()), loads(3 * grid.size(), 0.0);
-      apply_thin_plate(grid, system.shared().double_rows, pads.rows(), {}, run.workers(),
-                       system.shared().double_slots, x.data(), forces.data());
-      pads.add_loads(system.loads(), loads.data());
+      apply_thin_plate(grid, shared.double_rows, pads.rows(), {}, *problem->workers,
+                       shared.double_slots, x.data(), forces.data());
+      pads.add_loads(state.loads, loads.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < loads.size(); ++i) {
         largest = std::max(largest, std::abs(loads[i]));

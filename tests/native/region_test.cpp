@@ -95,7 +95,7 @@ TEST(Region, PassesAreTheMatrix) {
   for (const RegionContinuity joint :
        {RegionContinuity::position, RegionContinuity::tangent, RegionContinuity::curvature})
     for (const ControlMesh& mesh : samples(joint)) {
-      const Stencils stencils = make_stencils(mesh, {}, workers);
+      const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers);
       for (int level = 0; level <= 4; ++level) {
         SCOPED_TRACE(level);
         const GridLevel lattice(mesh, level);

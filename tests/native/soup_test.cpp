@@ -90,7 +90,7 @@ std::map<std::string, int> outcomes(OwnedPolygonMesh (*make)(Dice&), int trials)
     SCOPED_TRACE(trial);
     const OwnedPolygonMesh mesh = make(dice);
     try {
-      const CheckResult result = check(mesh.view(), {.repair_orientation = dice(0, 1) == 1});
+      const CheckResult result = check(mesh.view(), {.repair = dice(0, 1) == 1});
       ++count["passed"];
       const ControlMesh control =
           make_control_mesh(mesh.view(), random_features(dice, mesh), result.flipped_faces);

@@ -46,16 +46,16 @@ Dense assembled(const Setting& s, const Unknowns& unknowns, const VertexWeights&
 }
 
 TEST(Assembly, IsTheMatrixOfChartsAndFits) {
-  for (const ChartOptions& options :
-       {ChartOptions{}, ChartOptions{.exponent = 1}, ChartOptions{.exponent = 0},
-        ChartOptions{.blend = 0.4}, ChartOptions{.kind = ChartKind::tangent, .exponent = 1}})
+  for (const MakeCharts& charts :
+       {charts_of(), charts_of(1), charts_of(0), charts_of(centripetal, {.chart_blend = 0.4}),
+        charts_of(1, {.chart = ChartKind::tangent})})
     on_all(
         2,
         [](const Setting& s, Workers&) {
           const Dense expected = reference_stiffness(s), actual = assembled(s, all_points(s.mesh));
           EXPECT_LT((actual - expected).norm(), 1e-11 * expected.norm() + 1e-300);
         },
-        options);
+        charts);
 }
 
 TEST(Assembly, KnowsConstants) {
@@ -204,9 +204,8 @@ TEST(Rows, AreTheAssembledSystemBesideJoints) {
       const ControlMesh mesh = control(owned, features);
       for (int level = 1; level <= 3; ++level) {
         SCOPED_TRACE(int(joint) * 10 + level);
-        const ChartOptions options;
-        const Setting s{mesh, GridLevel(mesh, level), ChartMaker(mesh, options),
-                        make_stencils(mesh, options, workers)};
+        const ChartMaker charts(mesh);
+        const Setting s{mesh, GridLevel(mesh, level), charts, make_stencils(mesh, charts, workers)};
         expect_rows_of(s, inside_region(mesh, some_points(mesh, 1)), workers);
       }
     }
@@ -245,7 +244,7 @@ TEST(Passes, AnyNumberOfThreadsGivesTheSameBits) {
   std::vector<std::vector<char>> results;
   for (const int threads : {1, 2, 4, 8}) {
     Workers workers(threads);
-    const Stencils stencils = make_stencils(big, {}, workers);
+    const Stencils stencils = make_stencils(big, ChartMaker(big), workers);
     const ThinPlateRows<double> rows(big, stencils);
     const ThinPlateRows<float> narrow(big, stencils);
     ElementSlots<double> slots;

@@ -95,7 +95,7 @@ Dense reference_prolongation(const Setting& coarse, const GridLevel& fine) {
 }
 
 TEST(Transfer, ProlongsByTheFitsOfCharts) {
-  for (const ChartOptions& options : {ChartOptions{}, ChartOptions{.exponent = 1}})
+  for (const double exponent : {centripetal, 1.0})
     on_all(
         2,
         [](const Setting& s, Workers& workers) {
@@ -108,7 +108,7 @@ TEST(Transfer, ProlongsByTheFitsOfCharts) {
           EXPECT_LT((y - p * x).norm(),
                     2e-7 * p.norm() * x.norm());  // the rows are stored in single precision
         },
-        options);
+        charts_of(exponent));
 }
 
 TEST(Transfer, RestrictionIsTheTranspose) {
@@ -163,7 +163,7 @@ TEST(Transfer, KeepsQuadraticsInThePlane) {
       mesh.coordinates[i] += 0.4 * mesh.coordinates[i + 1];
     if (cut) mesh = triangulated(mesh);
     const ControlMesh plane = control(mesh);
-    const Stencils stencils = make_stencils(plane, {.exponent = 1}, workers);
+    const Stencils stencils = make_stencils(plane, ChartMaker(plane, 1), workers);
     const auto values = [&](const GridLevel& grid) {
       Points x(Eigen::Index(grid.size()), 3);
       refine_linearly(grid, plane.positions, x.data());

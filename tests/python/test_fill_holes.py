@@ -6,6 +6,7 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing import filling
 from surface_measures import dihedrals
 
 
@@ -359,6 +360,44 @@ def test_what_is_no_hole_is_refused_in_words():
     fin[2:] = quads[quads[:, 0] == 0][0][:2]
     torn = refused(vertices, [*quads.tolist(), fin[:3], [hole[1], hole[0], fin[3]]], holes=[hole])
     assert (torn.code, torn.elements) == ("NONMANIFOLD_EDGE", sorted(hole[:2]))
+
+
+def test_only_the_faces_around_are_read(monkeypatch):
+    """The rest of the mesh makes no difference, not by a bit."""
+    vertices, faces = sphere(5)
+    height = vertices[faces].mean(axis=1)[:, 2]
+    vertices, faces = cut(vertices, faces, (height > 0.9) | (height < -0.95))
+    parts = []
+
+    def around(whole, holes, found=filling._around):
+        parts.append(found(whole, holes))
+        return parts[-1]
+
+    monkeypatch.setattr(filling, "_around", around)
+    near = df.fill_holes(vertices, faces)
+    assert 0 < len(parts[0].corners) < faces.size / 4
+    monkeypatch.setattr(filling, "_around", lambda whole, holes: whole)
+    whole = df.fill_holes(vertices, faces)
+    assert near.vertices.tobytes() == whole.vertices.tobytes()
+    assert near.faces.tobytes() == whole.faces.tobytes()
+
+
+def test_what_is_wrong_beside_a_hole_is_said_with_the_ids_of_the_mesh():
+    """Two vertices of one face, in the second ring, at the same place."""
+    at = np.arange(144).reshape(12, 12)
+    vertices = np.stack([np.arange(144) // 12, np.arange(144) % 12, np.zeros(144)], 1).astype(float)
+    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1)
+    gone = np.zeros((11, 11), bool)
+    gone[4:7, 4:7] = True
+    vertices[at[2, 4]] = vertices[at[2, 5]]
+    error = refused(
+        vertices,
+        quads[~gone],
+        holes=[at[[4, 4, 4, 4, 5, 6, 7, 7, 7, 7, 6, 5], [4, 5, 6, 7, 7, 7, 7, 6, 5, 4, 4, 4]]],
+    )
+    assert (error.code, error.kind) == ("COINCIDENT_VERTICES", "vertex")
+    assert error.elements == [at[2, 4], at[2, 5]]
+    assert "hole 0 (vertex 28, 29)" in str(error)
 
 
 def test_progress_and_cancel():

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +28,8 @@ _RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 # The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
 # the density wanted, and is faired again.
 _ROUNDS = 2
+
+_SHOWN = 8  # ids that a message lists
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +67,7 @@ class Filled:
     new_faces: (M - m,) int64
         Ids of the new ones, which are triangles.
     holes: list of FilledHole
+        What closed each hole, in the order of the holes.
     """
 
     vertices: np.ndarray
@@ -150,12 +154,24 @@ def fill_holes(
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
-    filler = _native.Filler(points, corners, offsets)
+    whole = _Mesh.of(points, corners, offsets)
     quiet = watched.run(0.0, 0.1)
     watchers = quiet["monitor"], quiet["progress"]
-    loops = _asked(holes) if holes is not None else [[h] for h in filler.find(*watchers)]
-    found = filler.fill(loops, float(density), *watchers)
-    mesh = _Mesh(points, corners, offsets)
+    if holes is None:
+        asked = [[h] for h in _native.Filler(points, corners, offsets).find(*watchers)]
+    else:
+        asked = _asked(holes)
+    mesh = _around(whole, asked)
+    loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
+    filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
+    try:
+        found = filler.fill(loops, float(density), *watchers)
+    except _native.FairingError as error:
+        if mesh is whole or error.code == "CANCELLED":
+            raise
+        # refused again, but with the ids that the caller knows
+        _native.Filler(points, corners, offsets).fill(asked, float(density), *watchers)
+        raise
     shares = np.linspace(0.1, 1.0, _ROUNDS * len(loops) + 1)
     states = [("none", True, 0)] * len(loops)
     seen: list[_Near] = []
@@ -164,17 +180,25 @@ def fill_holes(
             if not any(hole.grown > _GROWN for hole in seen):
                 break
             found = filler.refine(np.concatenate([own for own, _ in found]), *watchers)
-        first, seen = len(points), []
+        first, seen = len(mesh.points), []
         for row, (own, triangles) in enumerate(found):
             at = turn * len(loops) + row
             run = watched.run(shares[at], shares[at + 1])
             near = _Near(mesh, own, triangles, first, _RINGS[joint])
-            moved, states[row] = near.faired(energy, run)
+            try:
+                moved, states[row] = near.faired(energy, run)
+            except _native.FairingError as error:
+                if not error.elements:
+                    raise
+                raise _in_whole(error, row, near) from error
             seen.append(near)
             first += len(own)
             found[row] = moved, triangles
     watched.finish()
-    return _put_together(mesh, [list(map(np.array, h)) for h in loops], found, states)
+    fresh = len(points) + np.arange(sum(len(own) for own, _ in found))
+    places = np.concatenate([mesh.vertex_ids, fresh])
+    found = [(own, places[triangles]) for own, triangles in found]
+    return _put_together(whole, [list(map(np.array, h)) for h in asked], found, states)
 
 
 def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
@@ -189,9 +213,28 @@ def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
 
 @dataclass(frozen=True)
 class _Mesh:
+    """A mesh, or a part of one."""
+
     points: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,)
     offsets: np.ndarray  # (m + 1,)
+    vertex_ids: np.ndarray  # (n,) what the whole calls its vertices, rising
+    face_ids: np.ndarray  # (m,)
+
+    @classmethod
+    def of(cls, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> _Mesh:
+        return cls(points, corners, offsets, np.arange(len(points)), np.arange(len(offsets) - 1))
+
+    def part(self, faces: np.ndarray) -> _Mesh:
+        """Some faces, and the vertices that they have, in their old order."""
+        sizes = self.offsets[faces + 1] - self.offsets[faces]
+        ids, corners = np.unique(self.corners_at(faces), return_inverse=True)
+        offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+        return _Mesh(self.points[ids], corners.astype(np.int64), offsets, ids, faces)
+
+    def renumbered(self, loop: Sequence[int]) -> list[int]:
+        """A loop of the whole mesh, all of whose vertices are here."""
+        return np.searchsorted(self.vertex_ids, loop).tolist()
 
     def touching(self, vertices: np.ndarray) -> np.ndarray:
         """(f,) ids of the faces with one of these vertices."""
@@ -200,9 +243,50 @@ class _Mesh:
         at = np.flatnonzero(marked[self.corners])
         return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
 
+    def corners_at(self, faces: np.ndarray) -> np.ndarray:
+        """All corners of these faces, face after face."""
+        sizes = self.offsets[faces + 1] - self.offsets[faces]
+        return self.corners[_runs(self.offsets[faces], sizes)]
+
     def corners_of(self, faces: np.ndarray) -> list[list[int]]:
         starts, ends = self.offsets[faces].tolist(), self.offsets[faces + 1].tolist()
         return [self.corners[a:b].tolist() for a, b in zip(starts, ends, strict=True)]
+
+
+def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """start, start + 1, … of each, `size` of them, one after another."""
+    return np.arange(sizes.sum()) + np.repeat(starts - np.cumsum(sizes) + sizes, sizes)
+
+
+def _around(whole: _Mesh, holes: list[list[list[int]]]) -> _Mesh:
+    """The faces around these holes: as many rings as any joint reads. Two are also all that the
+    filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why.
+    """
+    flat = [v for hole in holes for loop in hole for v in loop]
+    count = len(whole.points)
+    if not flat or min(flat) < 0 or max(flat) >= count or not len(whole.corners):
+        return whole
+    if not (np.isfinite(whole.points).all() and np.diff(whole.offsets).min() >= 3):
+        return whole
+    if whole.corners.min() < 0 or whole.corners.max() >= count:
+        return whole
+    ids = np.array(flat)
+    for _ in range(max(_RINGS.values())):
+        faces = whole.touching(ids)
+        ids = np.unique(np.concatenate([ids, whole.corners_at(faces)]))
+    part = whole.part(faces)
+    return part if np.isin(flat, part.vertex_ids).all() else whole
+
+
+def _in_whole(error: _native.FairingError, hole: int, near: _Near) -> _native.FairingError:
+    """What fair() refused beside a hole, with the ids of the whole mesh; new elements have none."""
+    names = near.face_ids if error.kind == "face" else near.vertex_ids
+    ids = [int(names[i]) for i in error.elements if i < len(names)]
+    said = re.sub(r" \(\d[^)]*\)", "", str(error))
+    shown = ", ".join(map(str, ids[:_SHOWN])) + (", …" if len(ids) > _SHOWN else "")
+    where = f" ({error.kind} {shown})" if ids else ""
+    text = f"Around hole {hole}{where}: {said}"
+    return fairing_error(error.code, text, ids, error.kind if ids else "mesh")
 
 
 class _Near:
@@ -213,11 +297,12 @@ class _Near:
     ) -> None:
         self._own = own
         rim = np.unique(triangles[triangles < len(mesh.points)])
-        faces: list[list[int]] = []
+        touching = np.empty(0, np.int64)
         ids = rim
         for _ in range(rings):
-            faces = mesh.corners_of(mesh.touching(ids))
-            ids = np.unique(np.concatenate([rim, *faces]).astype(np.int64))
+            touching = mesh.touching(ids)
+            ids = np.unique(np.concatenate([rim, mesh.corners_at(touching)]))
+        faces = mesh.corners_of(touching)
         size = len(ids)
         fresh = np.arange(first, first + len(own))
         self._vertices = np.concatenate([mesh.points[ids], own])
@@ -225,6 +310,8 @@ class _Near:
         flat = [np.searchsorted(known, face).tolist() for face in faces]
         self._new = np.searchsorted(known, triangles)
         self._faces = flat + self._new.tolist()
+        self.vertex_ids = mesh.vertex_ids[ids]
+        self.face_ids = mesh.face_ids[touching]
         self.grown = 1.0  # the area of the filling, over that before it was faired
         self._weights = np.where(np.arange(len(known)) < size, np.inf, 0.0)
 

@@ -48,7 +48,7 @@ class SplinePatches:
     residual: (P,) float64, the farthest that a point of the refined surface is from its patch.
     turned: (P,) float64, the sharpest angle between the normals of patch and refined surface.
     edge_error: (E,) float64, how far the curve is from the refined surface at most: across the
-        surface; along it too where the edge is a crease or a border.
+    surface; along it too where the edge is a crease or a border.
     edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
     along creases and boundaries, and at the tips of sharp kinks, where borders or creases meet at a
     corner and the surface does not lie in their plane. At slight ones it is the angle of the kink.

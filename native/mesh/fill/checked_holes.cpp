@@ -95,7 +95,7 @@ std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_e
       std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
-        if (!used.insert(std::uint64_t(a) << 32 | std::uint64_t(b)).second)
+        if (!used.insert(Rims::side(a, b)).second)
           throw FairingError(ErrorCode::bad_option,
                              named(h) + " has the edge " + std::to_string(a) + "-" +
                                  std::to_string(b) + " of another hole. Name each hole once.",

@@ -19,7 +19,7 @@ Rims::Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const
     const std::int64_t a = half_edges.from(k), b = half_edges.from(half_edges.next(k));
     if (!marked[std::size_t(b)]) continue;
     edges_.insert(key(a, b));
-    if (half_edges.twin(k) < 0) border_[way(a, b)] = half_edges.face(k);
+    if (half_edges.twin(k) < 0) border_[side(a, b)] = half_edges.face(k);
   }
 }
 
@@ -29,7 +29,7 @@ Vec3 Rims::point(std::int64_t v) const {
 }
 
 Vec3 Rims::normal_beside(std::int64_t a, std::int64_t b) const {
-  const auto corners = mesh_.face(border_.at(way(a, b)));
+  const auto corners = mesh_.face(border_.at(side(a, b)));
   const Vec3 origin = point(corners[0]);
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)

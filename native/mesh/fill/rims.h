@@ -22,17 +22,20 @@ class Rims {
   void join(std::int64_t a, std::int64_t b) { edges_.insert(key(a, b)); }
 
   // Whether a face has the side from a to b, and it is on the border.
-  bool is_border(std::int64_t a, std::int64_t b) const { return border_.contains(way(a, b)); }
+  bool is_border(std::int64_t a, std::int64_t b) const { return border_.contains(side(a, b)); }
 
   // Of unit length, of the face with that side; zero for one without area.
   Vec3 normal_beside(std::int64_t a, std::int64_t b) const;
 
- private:
-  // Ids of vertices have 32 bits.
-  static std::uint64_t way(std::int64_t a, std::int64_t b) {
+  // One number for the side from a to b: ids of vertices have 32 bits.
+  static std::uint64_t side(std::int64_t a, std::int64_t b) {
     return std::uint64_t(a) << 32 | std::uint64_t(b);
   }
-  static std::uint64_t key(std::int64_t a, std::int64_t b) { return a < b ? way(a, b) : way(b, a); }
+
+ private:
+  static std::uint64_t key(std::int64_t a, std::int64_t b) {
+    return a < b ? side(a, b) : side(b, a);
+  }
 
   const PolygonMesh& mesh_;
   std::unordered_map<std::uint64_t, std::int32_t> border_;  // to the face

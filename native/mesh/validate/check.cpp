@@ -29,7 +29,7 @@ Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options) {
     check_nonmanifold_edges(half_edges, found);
     check_nonmanifold_vertices(mesh, half_edges, found);
     Orientation orientation = find_orientation(mesh, half_edges);
-    check_orientation(orientation, options.repair_orientation, found);
+    check_orientation(orientation, options.repair, found);
     result.flipped_faces = std::move(orientation.to_flip);
   }
   if (readable.coordinates) {

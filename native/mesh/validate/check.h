@@ -35,7 +35,7 @@ struct Defect {
         kind(elements.empty() ? ElementKind::mesh : usual_kind(what)),
         repairable(how == Severity::error ? mended(what, kind) : turns_faces(what)) {}
 
-  // CheckOptions::repair_orientation mends it.
+  // CheckOptions::repair mends it.
   static bool turns_faces(ErrorCode what) { return what == ErrorCode::inconsistent_orientation; }
 
   [[noreturn]] void raise() const { throw FairingError(code, message, elements, kind); }
@@ -47,13 +47,14 @@ struct Defect {
 using Defects = std::vector<Defect>;
 
 struct CheckOptions {
-  // Turn faces over to agree with their neighbours, where that is possible.
-  bool repair_orientation = false;
+  // Turn faces over to agree with their neighbours, where that is possible: what mending leaves to
+  // the check.
+  bool repair = false;
 };
 
 struct CheckResult {
   std::vector<Warning> warnings;
-  std::vector<std::int64_t> flipped_faces;  // what repair_orientation has turned over
+  std::vector<std::int64_t> flipped_faces;  // what repair has turned over
 };
 
 struct Findings {
@@ -65,7 +66,7 @@ struct Findings {
 // tests a meaning. Defects are returned, not thrown.
 Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options = {});
 
-// Throws the first error of find_defects as FairingError. With repair_orientation, the faces to be
+// Throws the first error of find_defects as FairingError. With repair, the faces to be
 // reversed come back in the result, for make_control_mesh. Linear time up to hashing and sorting.
 CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 

@@ -78,7 +78,7 @@ std::vector<Job> jobs() {
   taut.pad_size = 0;
   all.push_back({"tension", cube_triangles(), taut});
   FairOptions back_leg = options(2, Energy::thin_plate);
-  back_leg.method = Method::back_leg;
+  back_leg.paper.method = Method::back_leg;
   all.push_back({"back leg", cube(), back_leg});
   return all;
 }

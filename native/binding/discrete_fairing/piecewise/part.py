@@ -30,7 +30,7 @@ class Part(Record):
     points at control vertices, inside control edges and control faces, with vertex_id (a,) and
     edge_id (b,); those inside faces belong to face_id, triangles and quads each in its order.
     face, side_edge, side_reversed: (F, 4), quads_before, polygon: (F,): the owned control faces.
-    seam_...: what the piece makes of points that others own.
+    What begins with "seam" is what the piece makes of points that others own.
     report: of the run.
     surface: what all parts agree on.
     """

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "thin_plate/solver.h"
+#include <functional>
+#include <vector>
+
+#include "thin_plate/levels.h"
 
 namespace fairing {
 
 // The paper's own method [Kobbelt 1997a, §5], for comparison: topological refinement and
 // Gauss-Seidel smoothing in turn, from the coarsest level up, `sweeps` a level, never down again.
 // On one thread, and without a matrix.
-void solve_back_leg(ThinPlateSolver& system, std::span<const Vec3> targets, int sweeps,
-                    Array<double>& x, std::vector<LevelReport>& reports,
+void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
+                    const Monitor& monitor, Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction);
 
 }  // namespace fairing

@@ -7,8 +7,8 @@ namespace fairing {
 
 // The epsilon post-process of [Kobbelt 1997a, §5]: interpolated control vertices step to where the
 // energy wants them, at most epsilon (working units) away, and the surface follows; this takes the
-// cusps off. Returns the solves taken.
-int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
-                             std::span<const Vec3> given, double epsilon, Array<double>& x);
+// cusps off. `data` and `state` are those of x. Returns the solves taken.
+int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, double epsilon,
+                             PlateState& state, Array<double>& x);
 
 }  // namespace fairing

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thin_plate/back_leg.h"
+#include "paper/back_leg.h"
 
 #include <cmath>
+#include <utility>
 
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
@@ -99,32 +100,35 @@ class Sweeps {
 
 }  // namespace
 
-void solve_back_leg(ThinPlateSolver& system, std::span<const Vec3> targets, int sweeps,
-                    Array<double>& x, std::vector<LevelReport>& reports,
+void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
+                    const Monitor& monitor, Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction) {
-  for (int level = system.base(); level <= system.top(); ++level) {
-    system.start_level(level, targets, system.surface_below(level, x), x);
-    if (level == system.top() && on_prediction) on_prediction(x.data());
-    const ThinPlateShared& shared = system.shared();
-    Array<double> residual(3 * system.grid(level).size());
-    system.residual(level, targets, x.data(), residual.data());
-    Sweeps gauss_seidel(system.grid(level), shared, residual);
-    const double reference = system.reference_residual(level, targets);
+  const ThinPlateShared& shared = levels.shared();
+  for (int level = levels.base(); level <= levels.top(); ++level) {
+    const std::size_t size = 3 * levels.grid(level).size();
+    const Array<double> below = std::exchange(x, Array<double>(size));
+    levels.start(level, data, below, x);
+    if (level == levels.top() && on_prediction) on_prediction(x.data());
+    Array<double> residual(size), polyhedron(size);
+    const double reference =
+        levels.scales(level, data, polyhedron.data(), residual.data()).residual;
+    levels.residual(level, data.targets, x.data(), residual.data());
+    Sweeps gauss_seidel(levels.grid(level), shared, residual);
     LevelReport report;
     report.level = level;
-    report.points = system.grid(level).size();
-    report.unknowns = count_unknowns(system.grid(level), shared.unknowns);
+    report.points = levels.grid(level).size();
+    report.unknowns = levels.unknowns_of(level);
     report.iterations = sweeps;
     const auto note_residual = [&] {
       report.residuals.push_back(reference > 0 ? gauss_seidel.norm() / reference : 0.0);
     };
     note_residual();
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      system.monitor().check_cancelled();
+      monitor.check_cancelled();
       gauss_seidel.sweep();
       note_residual();
     }
-    for_each_index(shared.workers, residual.size(),
+    for_each_index(shared.workers, size,
                    [&](std::size_t i) { x[i] += gauss_seidel.correction()[i]; });
     report.residual = report.residuals.back();
     report.converged = true;  // it does what it promises: so many sweeps

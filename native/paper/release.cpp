@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "thin_plate/release.h"
+#include "paper/release.h"
 
 namespace fairing {
 namespace {
@@ -17,9 +17,12 @@ void put(Array<double>& x, std::size_t v, const Vec3& p) {
 
 }  // namespace
 
-int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
-                             std::span<const Vec3> given, double epsilon, Array<double>& x) {
-  Unknowns freed = system.shared().unknowns;
+int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, double epsilon,
+                             PlateState& state, Array<double>& x) {
+  ThinPlateShared& shared = solver.levels().shared();
+  const ControlMesh& mesh = shared.mesh;
+  const std::span<const Vec3> given = data.targets;
+  Unknowns freed = shared.unknowns;
   bool any = false;
   for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
     const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] &&
@@ -30,8 +33,7 @@ int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
   }
   if (!any) return 0;
   freed.any_vertex = true;
-  ThinPlateShared& shared = system.shared();
-  const GridLevel& grid = system.grid(system.top());
+  const GridLevel& grid = solver.levels().grid(solver.levels().top());
   const VertexWeights none;
   const Array<float> diagonal =
       thin_plate_diagonal(grid, shared.stencils, freed, none, shared.workers, shared.double_slots);
@@ -51,7 +53,7 @@ int release_control_vertices(ThinPlateSolver& system, const ControlMesh& mesh,
       targets[v] = given[v] + offset;
       put(x, v, targets[v]);
     }
-    system.solve_again(system.top(), targets, x, release_tolerance);
+    solver.solve_again({targets, data.curves}, release_tolerance, state, x);
   }
   return release_rounds;
 }

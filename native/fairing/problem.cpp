@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/problem.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "fairing/checked.h"
+#include "fairing/memory_plan.h"
+#include "fairing/unknowns.h"
+#include "fairing/warnings.h"
+#include "hold/hold_in_space.h"
+#include "mesh/validate/check.h"
+
+namespace fairing {
+namespace {
+
+bool goes_through_limits(const FairOptions& options) {
+  return options.interpolation == Interpolation::limit;
+}
+
+// Of a run, as far as it can be counted, `held` and what mending took included.
+RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::int64_t held) {
+  const FairOptions& options = problem.options;
+  RunSize size = predict_size(problem.mesh, problem.unknowns, options.levels,
+                              options.shape_count(input.coordinates.size()), options.energy,
+                              options.tension > 0, options.paper.method == Method::back_leg);
+  const auto add = [&](std::int64_t more) {
+    size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
+  };
+  add(held);
+  add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
+  if (goes_through_limits(options)) add(std::int64_t(LimitPositions::bytes(input)));
+  size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
+  return size;
+}
+
+// One a control vertex. Where they fall together the charts would have no shape.
+std::vector<Vec3> limits_of_input(const FairingProblem& problem, const PolygonMesh& input) {
+  const std::vector<double> moved = problem.limits.of(input.coordinates);
+  try {
+    check({moved, input.corners, input.offsets}, {problem.options.repair == Repair::mend});
+  } catch (const FairingError& error) {
+    throw FairingError(error.code,
+                       std::string("At the limit positions of the vertices: ") + error.what() +
+                           " Or use a lower limit, or interpolation=\"exact\".",
+                       error.elements, error.kind);
+  }
+  return all_positions(problem.mesh, problem.mesh.positions, moved);
+}
+
+// The whole's, where this is a piece of it.
+MeshUnits units_in_working(const FairingProblem& problem) {
+  const OfWhole& whole = problem.options.whole;
+  return whole.given ? in_lengths_of(whole.units, problem.frame.scale, problem.exponent)
+                     : measure_units(problem.mesh, problem.exponent);
+}
+
+// Stencils measure it in the mean edge of their own mesh.
+double strength_of_membrane(const FairingProblem& problem) {
+  const double strength = membrane_strength(problem.options.tension);
+  if (!problem.options.whole.given || !(strength > 0)) return strength;
+  const double ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
+  return strength * ratio * ratio;
+}
+
+// `world`: one position a control vertex; `cage`: the caller's. From here on the mesh itself is in
+// working coordinates.
+void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch,
+                FairingProblem& problem) {
+  const FairOptions& options = problem.options;
+  ControlMesh& mesh = problem.mesh;
+  watch.enter(Phase::curves, 0);
+  problem.frame = working_frame(mesh, world);
+  problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, 1 << options.levels,
+                                    problem.exponent, options.whole.curves);
+  problem.basis.cage = std::move(cage);
+
+  watch.enter(Phase::hierarchy, 0);
+  mesh.positions = problem.basis.working;
+  require_near(mesh, problem.normals.fixed);
+  problem.units = units_in_working(problem);
+  problem.stencils = make_stencils(mesh, *problem.charts(), options.paper, *problem.workers,
+                                   strength_of_membrane(problem));
+  if (options.energy != Energy::thin_plate)
+    problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
+  problem.start_weights =
+      problem.hold_of<HoldInSpace>(problem.basis, problem.units.weight).weights();
+  require_anchored(mesh, problem.unknowns, problem.start_weights);
+}
+
+}  // namespace
+
+void check_input(const PolygonMesh& input, const FairOptions& options, Stopwatch& watch,
+                 Report& report) {
+  watch.enter(Phase::check, 0);
+  check_mesh(input, options, report);
+}
+
+std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
+                                                   const FairOptions& options, Stopwatch& watch,
+                                                   Report& report) {
+  const auto held = std::int64_t(MemoryLedger::held());
+  watch.enter(Phase::check, 0);
+  check_options(input, options);
+  check_input(input, options, watch, report);
+  check_shapes(input, options.shapes);
+  require_fit(input, options);
+
+  watch.enter(Phase::hierarchy, 0);
+  auto workers = std::make_shared<Workers>(options.threads);
+  report.threads = workers->count();
+  auto problem = std::make_unique<FairingProblem>(
+      FairingProblem{options,
+                     std::move(workers),
+                     make_control_mesh(input, options.features, report.flipped_faces),
+                     options.paper.metric_exponent(options.metric_exponent),
+                     {},
+                     {}});
+  report.sheets = sheets_of(problem->mesh);
+  problem->unknowns = choose_unknowns(problem->mesh, options);
+  problem->normals = choose_normals(problem->mesh, options);
+  const RunSize size = size_of(*problem, input, held);
+  require_fit(size, options);
+  report.predicted_bytes = std::size_t(size.bytes);
+  expect_memory(report);
+  const auto& given = problem->mesh.positions;
+  std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
+  std::vector<Vec3> world = given;
+  if (goes_through_limits(options)) {
+    problem->limits = LimitPositions(input, problem->mesh, options.features.corner_vertices,
+                                     options.sharpness, options.limit);
+    world = limits_of_input(*problem, input);
+  }
+  make_about(std::move(world), std::move(cage), watch, *problem);
+  return problem;
+}
+
+std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double> coordinates,
+                                                         const FairingProblem& like,
+                                                         Stopwatch& watch) {
+  auto problem = std::make_unique<FairingProblem>(FairingProblem{
+      like.options, like.workers, like.mesh, like.exponent, like.unknowns, like.normals});
+  problem->limits = like.limits;
+  ControlPositions next = like.control_positions(coordinates);
+  make_about(std::move(next.world), std::move(next.cage), watch, *problem);
+  return problem;
+}
+
+ControlPositions FairingProblem::control_positions(std::span<const double> coordinates) const {
+  const auto positions = [&](std::span<const double> held) {
+    return positions_of_shape(mesh, basis.world, held, frame, 1 << options.levels, exponent);
+  };
+  if (!goes_through_limits(options)) return positions(coordinates);
+  ControlPositions control = positions(limits.of(coordinates));
+  for (std::size_t v = 0; v < control.cage.size(); ++v)
+    control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+  return control;
+}
+
+std::vector<double> FairingProblem::working_tolerances() const {
+  std::vector<double> out;
+  for (Index v = 0; v < mesh.first_centre(); ++v)
+    out.push_back(options.tolerance_of(std::size_t(mesh.original_vertex(v))) / frame.scale);
+  return out;
+}
+
+std::vector<double> FairingProblem::weights_with_copies() const {
+  std::vector<double> out = options.weights;
+  if (!out.empty())
+    for (const Index v : mesh.copied_vertex) out.push_back(out[std::size_t(v)]);
+  return out;
+}
+
+}  // namespace fairing

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What all surfaces of one control mesh have in common, and nothing changes once it is made: the
+// mesh, its positions, charts and stencils, what is unknown and what holds it, threads.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fairing/control_positions.h"
+#include "fairing/fixed_normals.h"
+#include "fairing/options.h"
+#include "fairing/report.h"
+#include "fairing/symmetry.h"
+#include "hold/control_hold.h"
+#include "paper/charts.h"
+#include "stencil/stencils.h"
+
+namespace fairing {
+
+struct FairingProblem {
+  FairOptions options;
+  std::shared_ptr<Workers> workers;
+  ControlMesh mesh;  // in working coordinates
+  double exponent;   // of the metric
+  Unknowns unknowns;
+  ChosenNormals normals;
+  LimitPositions limits{};  // where the surface passes through them
+
+  // Of the positions that charts and stencils are made about.
+  Frame frame{};
+  ControlPositions basis{};
+  MeshUnits units{};
+  Stencils stencils{};
+  std::vector<Mirror> mirrors{};
+  VertexWeights start_weights{};  // of control vertices
+
+  std::unique_ptr<ChartMaker> charts() const { return make_charts(mesh, exponent, options.paper); }
+
+  // Other positions of the input's vertices, 3 numbers each in world coordinates, with the basis'
+  // parameters of curves.
+  ControlPositions control_positions(std::span<const double> coordinates) const;
+  // The mirror symmetries that the mesh has with these positions too.
+  Mirrors mirrors_of(const ControlPositions& control) const {
+    return kept_by(control, mesh, frame, mirrors);
+  }
+  // What holds control vertices about these positions; weights in this unit. `control` must outlive
+  // it.
+  template <class Hold>
+  Hold hold_of(const ControlPositions& control, double unit) const {
+    if (options.interpolation != Interpolation::approximate)
+      return Hold(mesh, control.working, unknowns);
+    return Hold(mesh, control.working, unknowns, weights_with_copies(), unit, working_tolerances());
+  }
+
+ private:
+  // One an input vertex and copy: in working coordinates, infinity: none; the caller's, or empty.
+  std::vector<double> working_tolerances() const;
+  std::vector<double> weights_with_copies() const;
+};
+
+// The checks of fair() alone: throws what is wrong with a mesh, and puts warnings into `report`.
+void check_input(const PolygonMesh& input, const FairOptions& options, Stopwatch& watch,
+                 Report& report);
+
+// Checks all input, and makes the problem about its positions. Warnings and sizes go to `report`.
+// What the spans of `options` show must outlive the problem. Throws FairingError and bad_alloc.
+std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
+                                                   const FairOptions& options, Stopwatch& watch,
+                                                   Report& report);
+
+// The same about other positions, 3 numbers an input vertex in world coordinates: charts, stencils,
+// curves. Faces, splits and creases stay.
+std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double> coordinates,
+                                                         const FairingProblem& like,
+                                                         Stopwatch& watch);
+
+}  // namespace fairing

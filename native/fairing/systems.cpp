@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/systems.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "curvature/total_curvature.h"
+#include "fairing/extremes.h"
+#include "fairing/output.h"
+#include "grid/linear.h"
+#include "hold/hold_in_space.h"
+#include "paper/back_leg.h"
+#include "paper/release.h"
+
+namespace fairing {
+namespace {
+
+PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
+  PadReport out;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    out.widths.push_back(pads.under(v) ? unit * pads.reach(v) : 0.0);
+    out.narrower += pads.under(v) && !pads.is_whole(v);
+    out.gone += pads.began_under(v) && !pads.under(v);
+  }
+  return out;
+}
+
+}  // namespace
+
+PlateData data_of(const ControlPositions& control) {
+  return {control.working, control.working_curves};
+}
+
+FairingSystems::FairingSystems(const FairingProblem& problem, Monitor& monitor)
+    : problem_(problem), monitor_(monitor) {
+  plate();
+}
+
+ThinPlateSolver& FairingSystems::plate() {
+  if (!plate_) {
+    const FairOptions& options = problem_.options;
+    ThinPlateOptions own;
+    own.levels = options.levels;
+    own.relative_residual = options.relative_residual;
+    own.max_iterations = options.max_iterations;
+    own.smoother_degree = options.smoother_degree;
+    own.pad_size = options.width_of_pads();
+    own.normals = problem_.normals.fixed;
+    own.starts_steps = options.energy != Energy::thin_plate;
+    plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
+                                               problem_.unknowns, problem_.start_weights, own,
+                                               *problem_.workers, monitor_);
+  }
+  return *plate_;
+}
+
+void FairingSystems::drop() {
+  gauss_newton_.reset();
+  plate_.reset();
+}
+
+std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
+    const ControlPositions& control) {
+  ThinPlateLevels& levels = plate().levels();
+  if (problem_.options.energy == Energy::thin_plate || levels.base() > problem_.options.levels)
+    return nullptr;
+  std::vector<CurvatureGrid> grids;
+  for (int l = 0; l <= problem_.options.levels; ++l)
+    grids.push_back({&levels.grid(l), levels.transfer_matrix(l)});
+  GaussNewtonOptions options;
+  if (problem_.options.energy == Energy::minimum_variation)
+    options.energy = CurvatureEnergy::minimum_variation;
+  const double length = problem_.units.edge_in_space;
+  options.tension = membrane_strength(problem_.options.tension) / (length * length);
+  options.step_tolerance = problem_.options.step_tolerance_wanted();
+  options.load_tolerance = std::clamp(5 * problem_.options.relative_residual, 1e-4, 2e-3);
+  options.max_steps = problem_.options.max_steps;
+  options.max_iterations = problem_.options.max_iterations;
+  options.smoother_degree = problem_.options.smoother_degree;
+  return std::make_unique<GaussNewtonSolver>(
+      problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
+      problem_.hold_of<HoldAlongNormals>(control, weight_unit(problem_.mesh)), plate().pads(),
+      problem_.mirrors_of(control), *problem_.workers, monitor_);
+}
+
+PlateState FairingSystems::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
+                                 Report& report, Array<double>& x) {
+  watch.enter(Phase::solve, 0);
+  gauss_newton_.reset();
+  gauss_newton_ = make_gauss_newton(control);
+  const auto on_prediction = [&](const double* start) {
+    if (measured) measure_prediction(start, watch, report);
+  };
+  const auto on_level = [&](int level, Array<double>& points) {
+    if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
+  };
+  const PaperOptions& paper = problem_.options.paper;
+  HoldInSpace hold = problem_.hold_of<HoldInSpace>(control, problem_.units.weight);
+  PlateState state;
+  if (paper.method == Method::back_leg)
+    solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, x, report.levels,
+                   on_prediction);
+  else
+    state = plate().solve_nested(data_of(control), hold, x, report.levels, on_prediction, on_level);
+  for (const LevelReport& level : report.levels)
+    report.constraint_rounds += level.constraint_rounds;
+  report.constraint_gap = report.levels.back().constraint_gap;
+  for (const CurvatureLevelReport& level : report.curvature) {
+    for (const StepReport& step : level.steps) report.constraint_rounds += step.constraint_rounds;
+    report.constraint_gap = level.constraint_gap;
+  }
+  report_held(report);
+  return state;
+}
+
+void FairingSystems::report_held(Report& report) {
+  const Pads* const pads =
+      gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : plate().pads();
+  if (pads)
+    report.pads = report_of(*pads, std::size_t(problem_.mesh.input_vertices), problem_.frame.scale);
+  report_normals(problem_.normals, report.levels.back(), report);
+}
+
+void FairingSystems::move_surface(Array<double>& x) {
+  if (!gauss_newton_) return;
+  std::swap(x, gauss_newton_->surface());
+  gauss_newton_.reset();
+}
+
+void FairingSystems::release(const ControlPositions& control, PlateState state, Stopwatch& watch,
+                             Report& report, Array<double>& x) {
+  const double epsilon = problem_.options.paper.epsilon;
+  if (!(epsilon > 0) || problem_.options.energy != Energy::thin_plate) return;
+  watch.enter(Phase::constrain, 0.8);
+  report.constraint_rounds +=
+      release_control_vertices(plate(), data_of(control), epsilon / problem_.frame.scale, state, x);
+}
+
+// The energy of working coordinates in the unit of world ones.
+SurfaceEnergies FairingSystems::energies(const double* x) {
+  SurfaceEnergies e;
+  e.thin_plate = std::pow(problem_.frame.scale, 2 - 2 * problem_.exponent) *
+                 plate().levels().bending(problem_.options.levels, x);
+  e.total_curvature =
+      problem_.options.measure ? total_curvature(finest(), *problem_.workers, x) : NAN;
+  return e;
+}
+
+void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, Report& report) {
+  watch.enter(Phase::measure, 0.2);
+  report.prediction = energies(start);
+  watch.enter(Phase::solve, 0.25);
+}
+
+void FairingSystems::write(const ControlPositions& control, bool measured, Stopwatch& watch,
+                           Report& report, const double* x, double* world) {
+  if (measured) {
+    watch.enter(Phase::measure, 0.9);
+    report.result = energies(x);
+    Array<double> polyhedron(3 * finest().size());
+    refine_linearly(finest(), control.working, *problem_.workers, polyhedron.data());
+    report.polyhedron = energies(polyhedron.data());
+  } else {
+    report.result = report.polyhedron = report.prediction = {NAN, NAN};
+  }
+  watch.enter(Phase::output, 0.95);
+  to_world(control, finest(), problem_.frame, *problem_.workers, x, world);
+  require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
+  report.largest_deviation = largest_deviation(control.cage, world);
+}
+
+}  // namespace fairing

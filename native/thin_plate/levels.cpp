@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/linear.h"
+#include "parallel/reductions.h"
+#include "thin_plate/membrane.h"
+
+namespace fairing {
+namespace {
+
+// Where the control polyhedron's own residual is less than so many times its rounding, it measures
+// nothing: the polyhedron is the solution already.
+constexpr double least_over_noise = 1e8;
+
+// Edges in eight pieces below: from such levels on the largest eigenvalue hardly changes. (With four
+// it does: what the smoother then amplified took 14 iterations on a rough sphere in place of five.)
+// The hierarchy counts from the coarsest level that is solved on.
+constexpr std::size_t settled_from_level_0 = 4, settled_from_level_1 = 3;
+// A membrane's share of the diagonal falls to a quarter from level to level: what is hardly anything
+// on edges in 16 pieces was much of it on those in four.
+constexpr std::size_t settled_under_tension = 2;  // levels later
+
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
+                                   bool tense) {
+  HierarchyOptions out;
+  out.smoother_degree = options.smoother_degree;
+  out.always_factor = unknowns.any_vertex;
+  out.may_block = true;
+  out.settled = unknowns.any_vertex ? settled_from_level_0 : settled_from_level_1;
+  if (tense) out.settled += settled_under_tension;
+  return out;
+}
+
+}  // namespace
+
+ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stencils,
+                                 Unknowns unknowns, VertexWeights weights,
+                                 const ThinPlateOptions& options, Workers& workers,
+                                 const Monitor& monitor)
+    : shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers),
+      base_(shared_.unknowns.any_vertex ? 0 : std::min(1, options.levels)),
+      weighted_up_to_(options.levels),
+      hierarchy_(workers, hierarchy_options(shared_.unknowns, options, stencils.membrane.any())) {
+  for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
+  for (int l = base_; l <= top(); ++l) {
+    monitor.check_cancelled();
+    operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l)));
+    if (l > base_) {
+      transfer_matrices_.push_back(
+          AssembledTransfer::make(grid(l - 1), grid(l), stencils, shared_.unknowns, workers));
+      transfers_.push_back(std::make_unique<QuadraticTransfer<3>>(
+          grid(l - 1), grid(l), stencils, shared_.unknowns, transfer_matrices_.back().get(),
+          workers, shared_.float_slots));
+    }
+    hierarchy_.add(*operators_.back(), l > base_ ? transfers_.back().get() : nullptr,
+                   unknowns_of(l));
+  }
+  hierarchy_.complete();
+}
+
+void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {
+  shared_.weights = weights;
+  weighted_up_to_ = level;
+  for (int l = base_; l <= level; ++l) operators_[index(l)]->update();
+  hierarchy_.refresh(index(level), false);
+}
+
+void ThinPlateLevels::carry_weights(int level) {
+  if (level > weighted_up_to_) set_weights(VertexWeights(shared_.weights), level);
+}
+
+void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) const {
+  const GridLevel& lat = grid(level);
+  for (std::size_t v = 0; v < data.targets.size(); ++v)
+    if (!shared_.unknowns.vertex[v])
+      for (int a = 0; a < 3; ++a) x[3 * v + std::size_t(a)] = data.targets[v][a];
+  const int stride = grid(top()).n() / lat.n();
+  for (std::size_t e = 0; e < shared_.mesh.edges.size(); ++e) {
+    if (data.curves.run[e] < 0) continue;
+    const auto points = data.curves.of(Index(e));
+    for (int k = 1; k < lat.n(); ++k)
+      for (int a = 0; a < 3; ++a)
+        x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
+            points[std::size_t(k * stride - 1)][a];
+  }
+  refine_outside_linearly(lat, data.targets, x);
+}
+
+void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const double* x,
+                               double* r) {
+  op(level).apply(x, r);
+  for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
+  const VertexWeights& w = shared_.weights;
+  for (std::size_t v = 0; v < w.size(); ++v)
+    if (shared_.unknowns.vertex[v])
+      for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
+}
+
+double ThinPlateLevels::bending(int level, const double* x) {
+  return thin_plate_energy(grid(level), shared_.stencils, workers(), x);
+}
+
+double ThinPlateLevels::energy(int level, const double* x) {
+  return bending(level, x) + membrane_energy(grid(level), shared_.stencils, workers(), x);
+}
+
+void ThinPlateLevels::start(int level, const PlateData& data, const Array<double>& below,
+                            Array<double>& x) {
+  if (level == base_)
+    refine_linearly(grid(level), data.targets, workers(), x.data());
+  else
+    prolong(grid(level - 1), grid(level), shared_.stencils, nullptr, workers(),
+            shared_.double_slots, below.data(), x.data());
+  put_fixed(level, data, x.data());
+}
+
+ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data, double* x,
+                                                double* r) {
+  const std::size_t size = 3 * grid(level).size();
+  refine_linearly(grid(level), data.targets, workers(), x);
+  put_fixed(level, data, x);
+  residual(level, data.targets, x, r);
+  const Array<float>& inverse = op(level).inverse_diagonal();
+  const double terms = std::sqrt(sum(workers(), size, [&](std::size_t i) {
+    const double t = x[i] / double(inverse[i / 3]);
+    return t * t;
+  }));
+  const double noise = rounding_of_terms * terms;
+  return {std::max(norm(workers(), size, r), least_over_noise * noise), noise};
+}
+
+}  // namespace fairing

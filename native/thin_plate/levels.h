@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thin plate's linear system on all levels of a control mesh, in working coordinates: grids,
+// operators, transfers, and the hierarchy that solves on any of them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "curves/feature_curves.h"
+#include "parallel/monitor.h"
+#include "thin_plate/level.h"
+#include "thin_plate/options.h"
+#include "transfer/level_transfer.h"
+
+namespace fairing {
+
+// What a surface is to come up to.
+struct PlateData {
+  std::span<const Vec3> targets;  // control vertices: fixed ones stay there, others are drawn there
+  const FeatureCurves& curves;    // on the finest level
+};
+
+// Vectors hold 3 numbers a point of their level. Whatever solves throws FairingError: cancelled
+// where the run is, underdetermined where a factor finds that the surface is loose. Then only new
+// levels are of use.
+class ThinPlateLevels {
+ public:
+  // All references but to `options` must outlive the levels.
+  ThinPlateLevels(const ControlMesh& mesh, const Stencils& stencils, Unknowns unknowns,
+                  VertexWeights weights, const ThinPlateOptions& options, Workers& workers,
+                  const Monitor& monitor);
+  ThinPlateLevels(const ThinPlateLevels&) = delete;  // its parts refer to each other
+
+  int base() const { return base_; }  // the coarsest level with unknowns worth a solve
+  int top() const { return int(grids_.size()) - 1; }
+  const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
+  // Between a level and the one below; null where passes serve, and on the coarsest.
+  const AssembledTransfer* transfer_matrix(int level) const {
+    return level > base_ ? transfer_matrices_[std::size_t(level - base_ - 1)].get() : nullptr;
+  }
+  LevelOperator& op(int level) { return *operators_[index(level)]; }
+  ThinPlateShared& shared() { return shared_; }
+  const ThinPlateShared& shared() const { return shared_; }
+  Workers& workers() { return shared_.workers; }
+  Hierarchy& hierarchy() { return hierarchy_; }
+  std::size_t unknowns_of(int level) const { return count_unknowns(grid(level), shared_.unknowns); }
+
+  // New weights of control vertices, on all levels up to `level`.
+  void set_weights(const VertexWeights& weights, int level);
+  // The present weights on the levels up to this one.
+  void carry_weights(int level);
+
+  // r <- W c - (K + W) x on the level's unknowns, with c the targets.
+  void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
+  // Solves from x, of which system.r is the residual, to the limits given (Hierarchy::solve).
+  LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
+                   const std::function<void(const PcgResult&)>& each) {
+    return hierarchy_.solve(index(level), limits, system, each);
+  }
+
+  // The plate's own energy, and with tension's: what is minimized.
+  double bending(int level, const double* x);
+  double energy(int level, const double* x);
+
+  // x <- the start of a level: the control polyhedron on the coarsest, the prolongated surface
+  // `below` on others.
+  void start(int level, const PlateData& data, const Array<double>& below, Array<double>& x);
+  // Puts whatever is no unknown in its place: control vertices, points of curves, all outside a
+  // region.
+  void put_fixed(int level, const PlateData& data, double* x) const;
+
+  // The norm of the control polyhedron's residual, to which residuals are relative, and what
+  // rounding leaves of it. x and r: room for a surface of the level, and its residual.
+  struct Scales {
+    double residual, noise;
+  };
+  Scales scales(int level, const PlateData& data, double* x, double* r);
+
+ private:
+  std::size_t index(int level) const { return std::size_t(level - base_); }  // in the hierarchy
+
+  ThinPlateShared shared_;
+  int base_;
+  std::vector<std::unique_ptr<GridLevel>> grids_;
+  std::vector<std::unique_ptr<ThinPlateLevel>> operators_;             // from base_ on
+  std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from base_ + 1 on
+  std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
+  int weighted_up_to_;  // the finest level that knows the present weights
+  Hierarchy hierarchy_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One surface's way up the levels: what a nested solve, that of a difference, and one on the finest
+// level alone have in common.
+#pragma once
+
+#include "hold/hold_in_space.h"
+#include "thin_plate/solver.h"
+
+namespace fairing {
+
+struct ThinPlateSolver::Run {
+  ThinPlateSolver& solver;
+  const PlateData& data;
+  PlateState& state;
+  Array<double>& x;       // of the present level, with room for the finest
+  Array<double> r{};      // its residual
+  Array<double> below{};  // the surface of the level below
+  Loads forces_below{};   // of its hats, where they say how loads change; or empty
+
+  ThinPlateLevels& levels() const { return solver.levels_; }
+  int base() const { return levels().base(); }
+  int top() const { return levels().top(); }
+  std::size_t size(int level) const { return 3 * levels().grid(level).size(); }
+
+  // What x holds is of the level below: it is kept, and x gets room.
+  void keep_below(int level);
+  // State and x <- the start of a level. `foretells`: whether forces say how loads change.
+  void start(int level, bool foretells);
+
+  PcgLimits limits(int level, double tolerance, double energy, double* room);
+
+  struct Solved {
+    LevelReport report;
+    LevelSolve equivalent;  // what one solve in place of the level's many would have taken
+  };
+  // `constraint`, which may be null, chooses the weights.
+  Solved solve(int level, const PcgLimits& limits, HoldInSpace* constraint);
+  // On pads, within tolerances or with fixed normals (solve_in_rounds.cpp).
+  Solved solve_in_rounds(int level, const PcgLimits& limits, HoldInSpace* constraint);
+
+  // A report of a level that has not been solved yet.
+  LevelReport report_of(int level) const;
+  // Of the finest level's solve, from 0 to 1.
+  void report_done(int level, double done) const;
+};
+
+}  // namespace fairing

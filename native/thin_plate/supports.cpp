@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/supports.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grid/ring.h"
+#include "hold/strays.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// Loads converge as the square of the mesh width.
+constexpr double change_left_by_level = 0.25;
+
+// To what couples are tried out: slopes need no more to be corrected by.
+constexpr double trial_tolerance = 0.03;
+
+}  // namespace
+
+PlateSupports::PlateSupports(const ChartMaker& charts, const ThinPlateOptions& options,
+                             ThinPlateLevels& levels)
+    : levels_(levels) {
+  ThinPlateShared& shared = levels.shared();
+  const Unknowns& unknowns = shared.unknowns;
+  if (options.pad_size > 0)
+    pads_ = std::make_unique<Pads>(shared.mesh, charts, unknowns, options.pad_size, shared.workers,
+                                   shared.weights);
+  if (pads_ && !pads_->any()) pads_.reset();
+  if (!options.normals.empty() && levels.top() > 0)
+    couples_ = std::make_unique<Couples>(shared.mesh, charts, options.normals, shared.workers);
+  if (!unknowns.any_vertex) return;
+  const Array<float> diagonal = thin_plate_diagonal(levels.grid(0), shared.stencils, unknowns, {},
+                                                    shared.workers, shared.double_slots);
+  stiffness_.assign(diagonal.begin(), diagonal.begin() + shared.mesh.vertex_count());
+}
+
+PlateState PlateSupports::unheld() const {
+  PlateState out;
+  if (couples_) out.moments.assign(couples_->size(), Vec2::Zero());
+  return out;
+}
+
+void PlateSupports::set_level(int level) {
+  if (pads_) pads_->set_level(levels_.grid(level));
+  if (Couples* const here = couples(level)) here->set_level(levels_.grid(level));
+}
+
+void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& forces_below) {
+  if (pads_) start_loads(level, foretells, state.loads, forces_below);
+  if (couples_) start_couples(level, state.moments);
+}
+
+// Loads are densities and hardly change from level to level; what does is the hats' samples. The
+// coarsest level has so few that M f, what loads do, changes less than the whole of each. Finer
+// ones change by a quarter of what the level before has changed, which tells the next; but for loads
+// that go with weights.
+void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& forces_below) {
+  const int base = levels_.base();
+  loads.resize(std::size_t(levels_.shared().mesh.vertex_count()));
+  if (level <= base + 1) forces_below.clear();
+  if (level == base) {
+    std::fill(loads.begin(), loads.end(), Vec3::Zero());
+    return;
+  }
+  pads_->set_level(levels_.grid(level - 1));
+  if (level == base + 1) {
+    Loads effect;
+    pads_->multiply_mass<3>(loads, effect);
+    pads_->set_level(levels_.grid(level));
+    pads_->divide_by_mass<3>(effect, loads);
+    return;
+  }
+  for (std::size_t v = 0; v < loads.size(); ++v) loads[v] *= pads_->total(v);
+  if (level > level_of_first_loads && foretells) {
+    const Loads before = std::exchange(forces_below, loads);
+    for (std::size_t v = 0; v < before.size(); ++v)
+      loads[v] += change_left_by_level * (loads[v] - before[v]);
+  }
+  pads_->set_level(levels_.grid(level));
+  for (std::size_t v = 0; v < loads.size(); ++v)
+    if (pads_->under(v)) loads[v] /= pads_->total(v);
+}
+
+bool PlateSupports::leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x) {
+  if (!pads_) return false;
+  bool any = false;
+  const auto leave = [&](Index v) {
+    any |= pads_->under(std::size_t(v));
+    pads_->leave(std::size_t(v));
+  };
+  for (const Index v : thrown_stars(levels_.grid(level), levels_.workers(), targets, x)) {
+    leave(v);
+    visit_ring(levels_.grid(0), v, [&](Index u, std::size_t) { leave(u); });
+  }
+  return any;
+}
+
+// Couples stay what they are as a whole.
+void PlateSupports::start_couples(int level, Moments& moments) {
+  Couples *const here = couples(level), *const below =
+                                            level > levels_.base() ? couples(level - 1) : nullptr;
+  if (!below) std::fill(moments.begin(), moments.end(), Vec2::Zero());
+  if (!here) return;
+  if (below) below->set_level(levels_.grid(level - 1));
+  const std::vector<double> before = here->totals();
+  here->set_level(levels_.grid(level));
+  if (below) here->carry(before, moments);
+}
+
+// Couples far apart are tried out in one solve, and others along each axis. How well that goes says
+// nothing about the surface, which the smoother is to adapt to.
+void PlateSupports::measure_couples(int level, int max_iterations) {
+  const std::vector<std::vector<std::size_t>> sets = couples_->sets_apart();
+  std::vector<Eigen::Matrix2d> slopes(couples_->size(), Eigen::Matrix2d::Zero());
+  Workers& workers = levels_.workers();
+  Array<double> y(3 * levels_.grid(level).size()), r(y.size());
+  PcgLimits rough;
+  rough.tolerance = trial_tolerance;
+  rough.from_start = true;
+  rough.max_iterations = max_iterations;
+  rough.may_adapt = false;
+  const auto each_of = [&](std::size_t first, auto&& visit) {
+    for (std::size_t k = first; k < std::min(first + 3, 2 * sets.size()); ++k)
+      for (const std::size_t c : sets[k / 2])
+        visit(c, Eigen::Index(k - first), Eigen::Index(k % 2));
+  };
+  for (std::size_t first = 0; first < 2 * sets.size(); first += 3) {
+    std::vector<Couple> trials(couples_->size(), Couple::Zero());
+    each_of(first,
+            [&](std::size_t c, Eigen::Index axis, Eigen::Index k) { trials[c](axis, k) = 1; });
+    const auto residual = [&](const double* x, double* out) {
+      levels_.op(level).apply(x, out);
+      for_each_index(workers, y.size(), [&](std::size_t i) { out[i] = -out[i]; });
+      couples_->add(trials, out);
+    };
+    for_each_index(workers, y.size(), [&](std::size_t i) { y[i] = 0; });
+    residual(y.data(), r.data());
+    levels_.solve(level, rough, {residual, y.data(), r.data()}, [](const PcgResult&) {});
+    each_of(first, [&](std::size_t c, Eigen::Index axis, Eigen::Index k) {
+      slopes[c].col(k) = couples_->slopes(c, y.data()).row(axis).transpose();
+    });
+  }
+  couples_->set_compliance(std::move(slopes));
+}
+
+}  // namespace fairing

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What holds the plate's control vertices beside the points that stay: pads with their loads, and
+// couples that fix normals. How a level starts with both, and which slopes a couple makes; what
+// corrects them is in solve_in_rounds.cpp.
+#pragma once
+
+#include <memory>
+
+#include "thin_plate/levels.h"
+#include "thin_plate/plate_state.h"
+
+namespace fairing {
+
+class PlateSupports {
+ public:
+  // `charts` are those of the stencils. `levels` must outlive the supports.
+  PlateSupports(const ChartMaker& charts, const ThinPlateOptions& options, ThinPlateLevels& levels);
+
+  Pads* pads() { return pads_.get(); }           // null: control vertices are held by point forces
+  Couples* couples() { return couples_.get(); }  // null: no normal is fixed
+  // Null where hats have no points on this level.
+  Couples* couples(int level) {
+    return couples_ && level >= std::min(Couples::first_level, levels_.top()) ? couples_.get()
+                                                                              : nullptr;
+  }
+  // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
+  const std::vector<double>& stiffness() const { return stiffness_; }
+
+  // Of a surface that no load and no couple holds yet.
+  PlateState unheld() const;
+  // The pads and couples of a level.
+  void set_level(int level);
+  // state <- for the start of a level, from that of the one below. `forces_below` are those of the
+  // hats there, from the level before on; `foretells`: whether they say how loads change.
+  void start(int level, bool foretells, PlateState& state, Loads& forces_below);
+  // Where x has been thrown off the mesh, point forces take the place of pads. Whether any has.
+  bool leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x);
+  // Which slopes the couples of a level make, by trial solves.
+  void measure_couples(int level, int max_iterations);
+
+ private:
+  void start_loads(int level, bool foretells, Loads& loads, Loads& forces_below);
+  void start_couples(int level, Moments& moments);
+
+  ThinPlateLevels& levels_;
+  std::unique_ptr<Pads> pads_;
+  std::unique_ptr<Couples> couples_;
+  std::vector<double> stiffness_;
+};
+
+}  // namespace fairing
