@@ -24,7 +24,6 @@ autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
 
 html_theme = "furo"
-html_static_path = ["_static"]
 html_show_sourcelink = False
 html_copy_source = False
 

@@ -10,5 +10,4 @@ COMMON = {
     "suppress_health_check": [*HealthCheck],
 }
 settings.register_profile("usual", max_examples=400, **COMMON)
-settings.register_profile("few", max_examples=80, **COMMON)
 settings.load_profile("usual")
