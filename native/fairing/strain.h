@@ -4,20 +4,11 @@
 // by which the surface would spring, were that one vertex let go. For the thin plate.
 #pragma once
 
-#include <vector>
-
 #include "fairing/options.h"
-#include "mesh/control_mesh.h"
+#include "fairing/strain_gauge.h"
 #include "parallel/monitor.h"
 
 namespace fairing {
-
-struct Strain {
-  // One an input vertex, in mesh units: the way itself, and its part along the control mesh's
-  // normal. NaN where no pad is: on curves, outside a region.
-  std::vector<Vec3> ways;
-  std::vector<double> lengths;
-};
 
 // Loads are solved for on level `levels` of the options, at most on the second: they hardly change
 // from there on. Throws FairingError: bad_option for other energies, for control vertices that are
@@ -26,7 +17,5 @@ Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Moni
 
 // The options of the solve that strain is read off; throws what measure_strain() does.
 FairOptions options_of_strain(const FairOptions& given);
-// The control mesh's own unit normal at a vertex; zero where its faces have no area.
-Vec3 normal_of(const ControlMesh& mesh, Index v);
 
 }  // namespace fairing

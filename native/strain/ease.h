@@ -1,39 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Easing: control positions whose loads are small, near where they were. With the loads g of the
-// surface through them and G as in own_loads.h, the moves d minimize s^2 |g + G d|^2 + |d|^2. G is
-// nearly symmetric, so
+// Easing: control positions whose loads are small, near where they were. With the loads g that the
+// positions ask for and the matrix G of what moves change of them, the moves d of amount s are the
 //
-//   d(s) = -s^2 G (I + s^2 G^2)^-1 g,                                                        (*)
+//   minimum of  s^2 |g + G d|^2 + |d|^2,   d = -s^2 (I + s^2 G'G)^-1 G'g,                    (*)
 //
-// a Butterworth filter of the control positions: shapes pass, noise does not. A space that holds
-// (*) for all s serves for choosing s too: all vectors where there are few vertices, else Krylov's,
-// which Arnoldi's steps find, one solve a step for all three coordinates.
+// a Butterworth filter of the positions where G is symmetric: shapes pass, noise does not. All
+// amounts are judged together, by the eigenvalues of G'G: all of them where there are few unknowns,
+// otherwise by those of Lanczos' steps (Golub and Meurant 2010, Matrices, Moments and Quadrature).
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "base/types.h"
 
 namespace fairing {
 
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-// G times three columns, one row a vertex that may move.
-using LoadsOfMoves = std::function<Columns(const Columns&)>;
+using LoadMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
 
-struct Eased {
-  Columns moves;
-  double amount = 0;  // s times the mean of G's eigenvalues: no unit
-  double noise = 0;   // root mean square length of the scatter that was taken out
-  int solves = 0;
+// The system (*) of some unknowns.
+class EaseSystem {
+ public:
+  // g: one row a load, one column an unknown.
+  EaseSystem(LoadMatrix g, Columns loads);
+
+  Eigen::Index unknowns() const { return g_.cols(); }
+  // The root mean square of G's eigenvalues, where it is symmetric; 1 over it is a unit of s.
+  double mean() const { return mean_; }
+
+  // d of (*) with the loads at hand, and more of it the stiffer an unknown is: |d|^2 becomes
+  // d . (1 + stiffness) d. Empty: none is.
+  Columns moves(double s, const Eigen::VectorXd& stiffness = {}) const;
+  // The same with every |d_j| <= bounds_j, the minimum of (*) under that.
+  Columns moves_within(double s, const Eigen::VectorXd& bounds) const;
+
+  // |d|^2; with F = (I + s^2 G'G)^-1 the traces of I - F and of F F.
+  double squared_moves(double s) const;
+  double trace(double s) const;
+  double squared_trace(double s) const;
+
+ private:
+  // Nodes and weights of a sum over G'G's eigenvalues.
+  struct Quadrature {
+    std::vector<double> node, weight;
+  };
+  void find_eigenvalues();
+  void probe_eigenvalues();
+  Quadrature lanczos(const Eigen::VectorXd& from) const;
+  Columns multiply(double s, const Eigen::VectorXd& stiffness, const Columns& d) const;
+  Columns solve_by_steps(double s, const Eigen::VectorXd& stiffness) const;
+
+  LoadMatrix g_, transposed_;
+  Columns loads_, pulls_;              // G'g
+  Eigen::VectorXd diagonal_;           // of G'G
+  Eigen::MatrixXd product_, vectors_;  // G'G and its eigenvectors, where all are found
+  Eigen::VectorXd values_;
+  Quadrature of_pulls_, of_trace_;
+  double mean_ = 0;
 };
 
-// The amount by generalized cross-validation (Golub, Heath and Wahba 1979); its trace exactly where
-// all vectors are kept, otherwise by three random vectors of signs, always the same ones (Hutchinson
-// 1990). With bounds, one a row: the largest amount that keeps every move within its bound.
-Eased ease(const LoadsOfMoves& loads_of, const Columns& loads, const Eigen::VectorXd& bounds);
+// The amount that robust generalized cross-validation chooses (Lukas 2006): that of Golub, Heath and
+// Wahba (1979), with a weight on how much F keeps, as the plain one now and then takes scatter for
+// shape where there are few unknowns.
+double cross_validated(const EaseSystem& system);
 
-// At most so many rows move, and let go of their loads together: each time the one that strains
-// most, |g_j| / own_j.
-Eased ease_worst(const LoadsOfMoves& loads_of, const Columns& loads, const Eigen::VectorXd& own,
-                 int most);
+// The largest amount with which every |d_j| of (*) is within its bound. Unknowns with the bound 0
+// stay. At most that of the range that cross-validation looks at.
+double largest_within(const EaseSystem& system, const Eigen::VectorXd& bounds);
 
 }  // namespace fairing

@@ -86,8 +86,7 @@ def test_strain_falls_and_what_is_held_stays():
     fixed = np.zeros(len(truth), bool)
     fixed[inner[:5]] = True
     eased = df.ease(measured, faces, fixed=fixed)
-    moved = np.flatnonzero(eased.moves)
-    assert set(moved) == set(inner[5:])
+    assert not eased.moves[fixed].any() and eased.moves[inner[5:]].all()
     before, after = (np.linalg.norm(s[inner]) for s in (eased.strain_before, eased.strain_after))
     assert after < 0.7 * before
     again = df.strain(eased.vertices, faces)
@@ -104,12 +103,13 @@ def test_shapes_without_scatter_stay():
         assert df.ease(points, faces).moves.max() < 1e-2 * edge
 
 
-def test_many_vertices_are_eased_in_krylov_spaces():
-    truth, faces, inner = sheet("wave", 25, 19)
+def test_many_vertices_are_eased_without_all_eigenvalues():
+    truth, faces, inner = sheet("wave", 27, 21)
     measured = scattered(truth, inner, 3)
-    eased = df.ease(measured, faces)
-    assert error(eased.vertices, truth) < 0.8 * error(measured, truth)
-    assert eased.iterations == 24
+    eased = df.ease(measured, faces, levels=1)
+    assert error(eased.vertices, truth) < 0.5 * error(measured, truth)
+    assert abs(eased.noise / NOISE - 1) < 0.1
+    assert eased.iterations <= 31
 
 
 def test_any_threads_give_the_same_bits():

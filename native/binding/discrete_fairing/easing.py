@@ -23,11 +23,12 @@ class Eased:
 
     vertices: (n, 3) float64, mesh units, the new positions.
     moves: (n,) float64, mesh units, how far each vertex has moved.
-    strain_before, strain_after: (n,) float64, mesh units, as Strain.lengths; NaN for vertices that
-    the surface does not hold, which stay where they are.
-    amount: float without a unit; 0: nothing has moved, or only the worst have.
-    noise: float, mesh units: the root mean square length of the scatter that was taken out.
-    iterations: int, solves with moved vertices.
+    strain_before, strain_after: (n,) float64, mesh units, as Strain.lengths; NaN at corners and
+    outside a region, where vertices stay.
+    amount: float without a unit, how much has been eased; 0 with `most`.
+    noise: float, mesh units: an estimate of the scatter, the root mean square distance of a vertex
+    from where it belongs; 0 with `most`.
+    iterations: int, solves of the surface, all in all.
     """
 
     def __init__(self, points: np.ndarray, found: dict[str, Any]):
@@ -53,6 +54,7 @@ def ease(
     tolerance: ArrayLike | None = None,
     most: int | None = None,
     fixed: ArrayLike | None = None,
+    amount: float | None = None,
     symmetry_plane: str | None = None,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -60,28 +62,35 @@ def ease(
 ) -> Eased:
     """Move control vertices of the thin plate so little, and so, that they stop fighting it.
 
-    Minimizes s² |loads|² + |moves|², a low pass: shapes stay, scatter goes. Vertices on borders,
-    creases and corners, and those outside a region, stay where they are.
+    Minimizes amount² |loads|² + |moves|², a low pass: shapes stay, scatter goes. Vertices on borders
+    and creases move along their curves' planes, towards a curve without jumps of its third
+    derivative. Corners, ends of curves, straight borders and what is outside a region stay.
 
     Parameters
     ----------
     vertices, faces, symmetry_plane, progress, monitor
         As of fair(). Vertices in the symmetry plane stay in it.
     tolerance
-        Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther; s is the largest for
-        which that is so. None: s by generalized cross-validation (Golub, Heath and Wahba 1979).
+        Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther. The amount is the
+        largest with which that comes by itself, and no less than without a tolerance: vertices
+        that would then move farther stop at their bound, and the others go on.
     most
-        Move so many vertices at most, the most strained first, each to where the surface wants it.
-        Not with a tolerance.
+        Move so many vertices at most, the most strained first, each to where the surface wants it;
+        in a symmetry plane's halves a vertex and its image count as one. Not with a tolerance.
     fixed
         (n,) bool: vertices that stay where they are; loads on them do not count.
+    amount
+        0 or more, without a unit: how much to ease; 1 takes half of what scatters from one vertex to
+        the next. None: by robust generalized cross-validation (Lukas 2006), or by the tolerance.
     settings
-        Those of fair(), but for shapes. The thin plate on pads, through all its control vertices.
+        Those of fair(), but for shapes. The thin plate on pads, through all its control vertices;
+        levels above the second change nothing.
 
     Raises
     ------
     FairingError
-        As strain(); BAD_OPTION for bounds that are no lengths, and for a mesh to be mended.
+        As strain(); BAD_OPTION for bounds that are no lengths; TOO_LARGE where memory_limit does
+        not hold the matrix of loads, some 3 kB a vertex.
     """
     check_watchers(progress, monitor)
     points = vertex_array(vertices)
@@ -89,18 +98,14 @@ def ease(
     count = len(points)
     bounds, stays = _bounds(tolerance, count), _fixed(fixed, count)
     chosen = _most(most, tolerance)
-    given, half, axis = points, None, 0
+    given, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
     if symmetry_plane is not None:
         repair = native_options(**settings).repair
         half = Half(points, corners, offsets, symmetry_plane, repair)
-        if chosen:
-            raise fairing_error(
-                "BAD_OPTION", "most counts single vertices; it goes without symmetry_plane."
-            )
         axis = half.axis
         points, settings = half.points(points), half.settings(settings)
         corners, offsets = half.faces(corners, offsets)
-        bounds, stays = half.values(bounds), half.values(stays)
+        bounds, stays, images = half.values(bounds), half.values(stays), half.images
     options = native_options(**settings)
     with half.named() if half else nullcontext():
         found = _native.ease(
@@ -108,8 +113,10 @@ def ease(
             corners,
             offsets,
             bounds,
+            _amount(amount, most),
             chosen,
             stays,
+            images,
             options,
             monitor or _native.Monitor(),
             progress,
@@ -137,6 +144,20 @@ def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
     if stays.shape != (count,) or stays.dtype != bool:
         raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
     return stays.astype(np.uint8)
+
+
+def _amount(amount: float | None, most: int | None) -> float:
+    if amount is None:
+        return -1.0
+    if most is not None:
+        raise fairing_error("BAD_OPTION", "most and amount exclude each other. Give one of them.")
+    if (
+        isinstance(amount, bool)
+        or not isinstance(amount, (int, float, np.number))
+        or not amount >= 0
+    ):
+        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be a number from 0 on.")
+    return float(min(amount, 1e6))
 
 
 def _most(most: int | None, tolerance: ArrayLike | None) -> int:
