@@ -24,7 +24,7 @@ class Strained:
 
     positions: np.ndarray  # (n, 3) in the coordinates of the object
     ways: np.ndarray  # (n, 3) of the surface, in the same
-    # (n,) in scene units, above zero outwards; NaN where the surface holds no vertex: on curves
+    # (n,) in scene units, above zero outwards; NaN at corners and on straight borders
     lengths: np.ndarray
     edges: np.ndarray  # (e, 2) vertex pairs
     edge_length: float  # the mean one, in scene units

@@ -52,7 +52,9 @@ def _draw_worst(layout: Any, context: Context, source: Object, strained: Straine
     drawing = context.scene.discrete_fairing_strain
     if not len(strained.held):
         draw_notice(
-            layout, "The surface holds no vertex: all lie on borders and creases", icon="INFO"
+            layout,
+            "No vertex can be let go: all are corners, or lie on straight borders",
+            icon="INFO",
         )
         return
     times = magnification(strained, drawing.needle_length)
