@@ -83,11 +83,11 @@ FIGURES = {
     ),
     "offsets": Figure(
         meshes.offsets,
-        View(6.2, turn=205, elevation=8, look="zebra", height=0.75, stripes=14),
+        View(6.4, turn=-58, elevation=26, look="zebra", height=0.7, stripes=14),
         (
             Variant("As measured"),
             Variant("Near, 10 mm", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
-            Variant("Eased", make=meshes.eased_offsets),
+            Variant("Eased", key=1.0, make=meshes.eased_offsets),
         ),
         SMOOTH | {"symmetry_plane": "Y"},
     ),
