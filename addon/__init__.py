@@ -3,7 +3,7 @@
 
 The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer` → `mesh` (write).
 `settings` has what is asked for, `memory` what surfaces remember; `check` looks at meshes before,
-`inspection` at surfaces afterwards, `live` follows edits. `ui` shows it, `cli` does it without a
+`inspection` at surfaces afterwards, `live` follows edits, `strain` says which vertices spoil them. `ui` shows it, `cli` does it without a
 window, `cad` makes spline patches of it.
 """
 
@@ -17,6 +17,7 @@ from .operators import (
     cancel,
     check,
     compare,
+    ease,
     fair,
     faults,
     fill,
@@ -29,11 +30,16 @@ from .operators import (
     purposes,
     step,
 )
+from .operators import strain as strain_operators
+from .strain import known as known_strain
+from .strain import overlay as strain_overlay
+from .strain import settings as strain_settings
 from .ui import check as check_panel
 from .ui import compare as compare_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
 from .ui import menus, outliner, pictures
+from .ui import strain as strain_panel
 
 _MODULES = (
     settings,
@@ -41,6 +47,9 @@ _MODULES = (
     preferences,
     inspection_settings,
     overlay,
+    strain_settings,
+    known_strain,
+    strain_overlay,
     mesh_changes,
     freshness,
     switch,
@@ -59,12 +68,15 @@ _MODULES = (
     live,
     check,
     inspect,
+    strain_operators,
+    ease,
     presets,
     purposes,
     pictures,
     step,
     main_panel,
     inspect_panel,
+    strain_panel,
     check_panel,
     compare_panel,
     menus,

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .live.switch import FAIRING_PG_live
     from .memory import FAIRING_PG_mesh, FAIRING_PG_surface
     from .settings import FAIRING_PG_settings
+    from .strain.settings import FAIRING_PG_strain, FAIRING_PG_strain_drawing
 
     class Mesh(bpy.types.Mesh):
         """A mesh with what is kept beside its curvature colours."""
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
         discrete_fairing: FAIRING_PG_surface
         discrete_fairing_live: FAIRING_PG_live
         discrete_fairing_inspection: FAIRING_PG_display
+        discrete_fairing_strain: FAIRING_PG_strain
 
     class Scene(bpy.types.Scene):
         """A scene with the panel's settings."""
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
         objects: Any
         discrete_fairing: FAIRING_PG_settings
         discrete_fairing_inspection: FAIRING_PG_inspection
+        discrete_fairing_strain: FAIRING_PG_strain_drawing
 
     class Context(bpy.types.Context):
         """A context with a scene, as in any file that is open."""

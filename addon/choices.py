@@ -46,7 +46,8 @@ INTERPOLATIONS = (
     (
         "APPROXIMATE",
         "Near",
-        "The surface may miss each vertex of the source by at most the tolerance, which makes it calmer",
+        "The surface may miss each vertex of the source by at most the tolerance, and bends as little as that allows. "
+        "It uses all of it: for points that are scattered or wrong, Ease Control Mesh leaves the shape",
         1,
     ),
     (

@@ -20,6 +20,7 @@ MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall t
 
 # half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
 _COSINE_OF_CORNER = 0.5
+_OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
 _AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
 
 
@@ -232,6 +233,31 @@ def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
         "normal_tolerance": wanted.fit_angle,
         "levels": wanted.fit_levels or None,
         "insist": getattr(wanted, "insist", True),
+    }
+
+
+def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
+    """Keyword arguments for `discrete_fairing.strain` and `ease`: those of `fair_arguments`, for the
+    thin plate on pads through all vertices. Levels above the second change nothing.
+    """
+    left_out = {"shapes", "measure", "weights", "tolerance", *_OF_LIMIT}
+    return {name: value for name, value in fairing.items() if name not in left_out} | {
+        "levels": 2,
+        "energy": "thin_plate",
+        "interpolation": "exact",
+        "pad_size": fairing["pad_size"] or 1.0,
+    }
+
+
+def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str, Any]:
+    """Keyword arguments for `discrete_fairing.fair`: its surface's first points are those of the
+    vertices, of which the ones that are `free` (n,) bool stand where the thin plate wants them.
+    """
+    return plate_arguments(fairing) | {
+        "interpolation": "approximate",
+        "weights": np.where(free, 0.0, np.inf),
+        "repair": "refuse",
+        "measure": False,
     }
 
 

@@ -249,14 +249,14 @@ def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: 
             f"{name}: no vertex lies inside of the selection, so none can move. "
             "Select more faces, or raise Levels."
         )
-    if wish.moves and not wish.measured and _floats(arrays, free):
+    if wish.moves and not wish.measured and floats(arrays, free):
         raise JobError(
             f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
         )
 
 
-def _floats(arrays: Any, free: np.ndarray) -> bool:
-    """Whether some connected part of the mesh has free vertices only."""
+def floats(arrays: Any, free: np.ndarray) -> bool:
+    """Whether some connected part of the mesh `arrays` has `free` vertices (n,) bool only."""
     held = ~free
     edges = arrays.edges[free[arrays.edges].any(axis=1)]
     while True:

@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 from bpy.props import FloatVectorProperty, PointerProperty, StringProperty
 
 from . import records
-from .blender import Object, all_objects, all_scenes, attach, detach
+from .blender import Context, Object, all_objects, all_scenes, attach, detach
 from .settings import FairingSettings, Settings, copy_settings
 
 # by the names of object and record: panels ask at every redraw, and records are long
@@ -121,6 +121,14 @@ def source_of(target: Object) -> Object | None:
     return target.discrete_fairing.source
 
 
+def source_at_hand(context: Context) -> Object | None:
+    """The mesh that the active object is, or is made from."""
+    active = context.active_object
+    if active is None or active.type != "MESH":
+        return None
+    return source_of(active) or active
+
+
 def source_problem(target: Object) -> str:
     """Why `target` cannot be made from the source that it names, in one sentence; empty if it can,
     or names none. Scripts may name any object.
@@ -144,7 +152,12 @@ def _plain(value: Any) -> Any:
     return str(value)
 
 
-_GROUPS = ("discrete_fairing", "discrete_fairing_live", "discrete_fairing_inspection")
+_GROUPS = (
+    "discrete_fairing",
+    "discrete_fairing_live",
+    "discrete_fairing_inspection",
+    "discrete_fairing_strain",
+)
 
 
 @persistent

@@ -13,7 +13,13 @@ PATIENCE = 0.5  # seconds; a run that is predicted to take longer never stops th
 _KEPT = 5  # runs of an energy
 _BRIEF = 0.1  # seconds; shorter runs say little, as most of them is not spent on triangles
 # seconds a triangle on a machine of two cores, until it has runs of its own
-_AT_FIRST = {"THIN_PLATE": 2e-5, "TOTAL_CURVATURE": 6e-4, "MINIMUM_VARIATION": 1e-3}
+_AT_FIRST = {
+    "THIN_PLATE": 2e-5,
+    "TOTAL_CURVATURE": 6e-4,
+    "MINIMUM_VARIATION": 1e-3,
+    "STRAIN": 6e-5,  # some eight thin plates
+    "EASE": 1.2e-4,
+}
 
 _of_mesh: dict[tuple[Hashable, str], float] = {}  # (mesh, energy): seconds a triangle
 

@@ -81,6 +81,16 @@ FIGURES = {
         ),
         SMOOTH,
     ),
+    "offsets": Figure(
+        meshes.offsets,
+        View(6.4, turn=-58, elevation=26, look="zebra", height=0.7, stripes=14),
+        (
+            Variant("As measured"),
+            Variant("Near, 10 mm", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
+            Variant("Eased", key=1.0, make=meshes.eased_offsets),
+        ),
+        SMOOTH | {"symmetry_plane": "Y"},
+    ),
     "pads": Figure(
         meshes.pebble,
         View(2.7, look="zebra", height=0.65, stripes=8),

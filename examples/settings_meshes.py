@@ -6,6 +6,7 @@ from math import cos, pi, radians, sin
 
 import bpy
 import numpy as np
+import offsets as example_offsets
 
 
 def add(vertices, faces, name="Control"):
@@ -280,4 +281,25 @@ def bent_column():
     rig.hide_render = True
     rig.select_set(False)
     control.select_set(True)
+    return control
+
+
+def offsets():
+    """Half a hull from its table of offsets, some of which are wrong; upside down, as on a mould."""
+    example_offsets.add_to_scene()
+    control = bpy.data.objects["Offsets"]
+    control.location.x = -0.5 * example_offsets.LENGTH / 1000
+    control.rotation_euler.x = pi
+    bpy.context.view_layer.update()
+    bpy.context.view_layer.objects.active = control
+    control.select_set(True)
+    bpy.context.scene.discrete_fairing.symmetry_plane = "Y"
+    return control
+
+
+def eased_offsets():
+    """The same with the shape key Eased: first the three that are wrong, then all."""
+    control = offsets()
+    bpy.ops.object.fairing_ease(amount="WORST", count=len(example_offsets.WRONG))
+    bpy.ops.object.fairing_ease(amount="AUTOMATIC", go_on=True)
     return control

@@ -141,6 +141,13 @@ def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) ->
     """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; beyond them the end
     colours.
     """
+    rgba = shades_of(values, limits, signed)
+    rgba[:, :3] = _linear(rgba[:, :3])
+    return rgba
+
+
+def shades_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
+    """The same as a screen takes it: (n, 4) float32 sRGBA."""
     stops = np.array(_SIGNED if signed else _AMOUNT) / 255.0
     low, high = limits
     at = np.clip((values - low) / (high - low), 0.0, 1.0)
@@ -149,7 +156,7 @@ def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) ->
     at *= len(stops) - 1
     rgba = np.ones((len(values), 4), np.float32)
     for channel in range(3):
-        rgba[:, channel] = _linear(np.interp(at, np.arange(len(stops)), stops[:, channel]))
+        rgba[:, channel] = np.interp(at, np.arange(len(stops)), stops[:, channel])
     return rgba
 
 

@@ -72,7 +72,7 @@ def surfaces_at_hand(context: Context) -> list[Object]:
         return []
     if active.discrete_fairing.source is not None:
         return [active]
-    return live_surfaces_of(active) or _surfaces_of(active)[-1:]
+    return live_surfaces_of(active) or surfaces_of(active)[-1:]
 
 
 def live_surfaces_of(source: Object) -> list[Object]:
@@ -81,7 +81,18 @@ def live_surfaces_of(source: Object) -> list[Object]:
     return [target for its, target in pairs if target is not None and its == source]
 
 
-def _surfaces_of(source: Object) -> list[Object]:
+def look_again(source: Object) -> None:
+    """Live surfaces of `source` are made anew with what Blender does not say has changed, such as new
+    shape keys.
+    """
+    for target in live_surfaces_of(source):
+        session = registry.session_of(target)
+        if session is not None:
+            session.distrust()
+
+
+def surfaces_of(source: Object) -> list[Object]:
+    """What is made of `source` and can be made again, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
     return sorted(
         (o for o in made if not poll_reason(o) and is_in_a_scene(o)),

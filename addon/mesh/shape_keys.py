@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shape keys as arrays and plain values, read and written."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +20,9 @@ SETTINGS = (
     "vertex_group",
     "lock_shape",
 )
+
+
+EASED = "Eased"  # the key that easing writes
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,29 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
     return values.reshape(-1, 3).astype(np.float64)
 
 
+def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
+    """(n, 3): the shape that the sliders make of `keys`; `weights`: (n,) of a vertex group by its
+    name.
+    """
+    if keys.show_only or not keys.use_relative:
+        return keys.positions[keys.active if keys.show_only else 0]
+    shape = keys.positions[0].copy()
+    for key, positions in zip(keys.keys[1:], keys.positions[1:], strict=True):
+        value = 0.0 if key.settings["mute"] else key.settings["value"]
+        if value:
+            group = key.settings["vertex_group"]
+            share = weights(group)[:, None] if group else 1.0
+            shape += value * share * (positions - keys.positions[key.relative_key])
+    return shape
+
+
+def key_positions(source: Object, name: str, vertex_count: int) -> np.ndarray | None:
+    """(n, 3) of the key by that `name`; None if there is none of so many vertices."""
+    keys = read_shape_keys(source, vertex_count)
+    names = [key.name for key in keys.keys] if keys else []
+    return keys.positions[names.index(name)] if keys and name in names else None
+
+
 def write_shape_keys(
     target: Object,
     keys: ShapeKeys,
@@ -127,6 +153,20 @@ def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray
     block = target.shape_key_add(name=key.name, from_mix=False)
     block.data.foreach_set("co", np.float32(_positions(base) + away).ravel())
     _set_up(block, key, base)
+
+
+def put_key(target: Object, name: str, positions: np.ndarray) -> None:
+    """Gives `target`, in Object Mode, a key by that `name` with the `positions` (n, 3), fully on; one
+    that it has already gets them.
+    """
+    if target.data.shape_keys is None:
+        target.shape_key_add(name="Basis", from_mix=False)
+    keys: Any = target.data.shape_keys
+    block = keys.key_blocks.get(name) or target.shape_key_add(name=name, from_mix=False)
+    block.data.foreach_set("co", np.ascontiguousarray(positions, np.float32).ravel())
+    block.relative_key = keys.key_blocks[0]
+    block.mute, block.value = False, 1.0
+    target.data.update()
 
 
 @dataclass(frozen=True)

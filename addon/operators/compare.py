@@ -12,7 +12,7 @@ from ..blender import Context, Object, registration
 from ..choices import ENERGIES
 from ..inspection import readout
 from ..job import Job
-from ..memory import source_of
+from ..memory import source_at_hand
 from ..settings import snapshot
 from ..ui.main import settings_at_hand
 from . import fill
@@ -20,14 +20,6 @@ from .fair import Fairing, poll_reason
 
 MEASURED = 250_000  # triangles: larger surfaces wait for Measure
 _GAP = 1.15  # from one to the next, in widths of the source
-
-
-def source_at_hand(context: Context) -> Object | None:
-    """The mesh that the active object is, or is made from."""
-    active = context.active_object
-    if active is None or active.type != "MESH":
-        return None
-    return source_of(active) or active
 
 
 class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):

@@ -28,6 +28,7 @@ from ..settings import (
     is_near,
     subdivision,
 )
+from ..units import length_text
 from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
@@ -185,12 +186,7 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
         return ""
     world = world_shape(sources[0]).of_arrays(read_mesh(mesh))
     length = tolerance(settings, mean_edge_length(world))
-    units = context.scene.unit_settings
-    if units.system == "NONE":  # of which Blender's own function makes a crash
-        return f"= {length:.4g}"
-    return "= " + bpy.utils.units.to_string(
-        units.system, "LENGTH", length * units.scale_length, precision=4
-    )
+    return "= " + length_text(context.scene, length, digits=4)
 
 
 def _held_text(memory: FAIRING_PG_surface) -> str:

@@ -50,6 +50,11 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         for mode, label, *_ in MODES:
             button: Any = layout.operator("object.fairing_inspect", text=f"Inspect: {label}")
             button.mode = mode
+        layout.operator("object.fairing_strain")
+        layout.operator("object.fairing_select_strained")
+        layout.operator("object.fairing_ease")
+        layout.operator("object.fairing_ease_selected")
+        layout.operator("object.fairing_strain_table")
 
 
 class VIEW3D_MT_fairing_boundary(bpy.types.Menu):
@@ -109,6 +114,9 @@ def _draw_edges(menu: Any, _context: Context) -> None:
 def _draw_vertices(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.menu(VIEW3D_MT_fairing_normals.__name__)
+    menu.layout.operator_context = "INVOKE_DEFAULT"
+    menu.layout.operator("object.fairing_select_strained")
+    menu.layout.operator("object.fairing_ease_selected")
 
 
 def _draw_export(menu: Any, _context: Context) -> None:

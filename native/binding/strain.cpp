@@ -4,11 +4,23 @@
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/runner.h"
+#include "fairing/ease.h"
 
 namespace py = pybind11;
 
 namespace fairing {
 namespace {
+
+py::array_t<double> numbers(const std::vector<double>& values) {
+  return py::array_t<double>(py::ssize_t(values.size()), values.data());
+}
+
+py::array_t<double> points(const std::vector<Vec3>& values) {
+  py::array_t<double> out({py::ssize_t(values.size()), py::ssize_t(3)});
+  for (std::size_t v = 0; v < values.size(); ++v)
+    for (py::ssize_t a = 0; a < 3; ++a) out.mutable_at(py::ssize_t(v), a) = values[v][a];
+  return out;
+}
 
 py::dict strain_of_arrays(const Contiguous<double>& vertices,
                           const Contiguous<std::int64_t>& corners,
@@ -19,13 +31,35 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
   Strain strain;
   Runner().run([&] { strain = measure_strain(mesh.view(), own, monitor); }, monitor, nullptr,
                progress);
-  const auto size = py::ssize_t(strain.lengths.size());
-  py::array_t<double> ways({size, py::ssize_t(3)});
-  for (py::ssize_t v = 0; v < size; ++v)
-    for (py::ssize_t a = 0; a < 3; ++a) ways.mutable_at(v, a) = strain.ways[std::size_t(v)][a];
   py::dict d;
-  d["lengths"] = py::array_t<double>(size, strain.lengths.data());
-  d["ways"] = ways;
+  d["lengths"] = numbers(strain.lengths);
+  d["ways"] = points(strain.ways);
+  return d;
+}
+
+py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
+                     const Contiguous<std::int64_t>& offsets, const Contiguous<double>& tolerance,
+                     double amount, int most, const Contiguous<std::uint8_t>& fixed,
+                     const Contiguous<std::int64_t>& images, const FairOptions& options,
+                     Monitor& monitor, const py::object& progress) {
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  const std::vector<double> bounds = copy_of(tolerance);
+  const std::vector<std::uint8_t> stays = copy_of(fixed);
+  const std::vector<std::int64_t> twins = copy_of(images);
+  const FairOptions own = options;
+  EaseResult result;
+  Runner().run(
+      [&] {
+        result = ease_control_mesh(mesh.view(), own, {bounds, amount, most, stays, twins}, monitor);
+      },
+      monitor, nullptr, progress);
+  py::dict d;
+  d["moves"] = points(result.moves);
+  d["strain_before"] = numbers(result.strain_before);
+  d["strain_after"] = numbers(result.strain_after);
+  d["amount"] = result.amount;
+  d["noise"] = result.noise;
+  d["iterations"] = result.iterations;
   return d;
 }
 
@@ -35,6 +69,11 @@ void bind_strain(py::module_& m) {
   m.def("strain", &strain_of_arrays, py::arg("vertices").noconvert(),
         py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("options"),
         py::arg("monitor"), py::arg("progress"), "discrete_fairing.strain on plain arrays.");
+  m.def("ease", &ease_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
+        py::arg("offsets").noconvert(), py::arg("tolerance").noconvert(), py::arg("amount"),
+        py::arg("most"), py::arg("fixed").noconvert(), py::arg("images").noconvert(),
+        py::arg("options"), py::arg("monitor"), py::arg("progress"),
+        "discrete_fairing.ease on plain arrays.");
 }
 
 }  // namespace fairing

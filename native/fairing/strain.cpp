@@ -13,8 +13,6 @@
 #include "strain/own_loads.h"
 
 namespace fairing {
-namespace {
-
 FairOptions options_of_strain(const FairOptions& given) {
   if (given.energy == Energy::minimum_variation)
     throw FairingError(ErrorCode::bad_option,
@@ -38,18 +36,7 @@ FairOptions options_of_strain(const FairOptions& given) {
   return options;
 }
 
-// Each face's share is its area vector; a quad's is that of its diagonals.
-Vec3 normal_of(const ControlMesh& mesh, Index v) {
-  Vec3 sum = Vec3::Zero();
-  const auto at = [&](Index u) -> const Vec3& { return mesh.positions[std::size_t(u)]; };
-  for (const Spoke& spoke : mesh.ring(v)) {
-    if (spoke.face < 0) continue;
-    const Face& f = mesh.faces[std::size_t(spoke.face)];
-    const Vec3 &a = at(f.vertex[0]), &b = at(f.vertex[1]), &c = at(f.vertex[2]);
-    sum += f.quad() ? (c - a).cross(at(f.vertex[3]) - b) : (b - a).cross(c - a);
-  }
-  return sum.stableNormalized();
-}
+namespace {
 
 Strain strain_of(const Mending& mending, Monitor& monitor) {
   Report report;
@@ -58,19 +45,10 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
       make_problem(mending.mesh(), mending.options(), watch, report);
   FairingSystems systems(*problem, monitor);
   ThinPlateSolver& solver = systems.plate();
-  const ControlMesh& mesh = problem->mesh;
   Array<double> surface;
   const Loads loads = systems.solve(problem->basis, false, watch, report, surface).loads;
-  const std::vector<double> own = own_loads(solver, problem->basis.working_curves);
-  Strain out;
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v) {
-    const bool has = solver.pads() && solver.pads()->under(v) && own[v] > 0;
-    out.ways.push_back(has ? Vec3(-problem->frame.scale / own[v] * loads[v])
-                           : Vec3::Constant(none));
-    out.lengths.push_back(has ? out.ways[v].dot(normal_of(mesh, Index(v))) : none);
-  }
-  return out;
+  const StrainGauge gauge(*problem, own_loads(solver, problem->basis.working_curves));
+  return gauge.read(loads, problem->basis.working);
 }
 
 }  // namespace

@@ -4,23 +4,18 @@
 // by which the surface would spring, were that one vertex let go. For the thin plate.
 #pragma once
 
-#include <vector>
-
 #include "fairing/options.h"
+#include "fairing/strain_gauge.h"
 #include "parallel/monitor.h"
 
 namespace fairing {
-
-struct Strain {
-  // One an input vertex, in mesh units: the way itself, and its part along the control mesh's
-  // normal. NaN where no pad is: on curves, outside a region.
-  std::vector<Vec3> ways;
-  std::vector<double> lengths;
-};
 
 // Loads are solved for on level `levels` of the options, at most on the second: they hardly change
 // from there on. Throws FairingError: bad_option for other energies, for control vertices that are
 // not to stay, and for point forces.
 Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
+
+// The options of the solve that strain is read off; throws what measure_strain() does.
+FairOptions options_of_strain(const FairOptions& given);
 
 }  // namespace fairing

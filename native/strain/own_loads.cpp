@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strain/own_loads.h"
 
-#include <algorithm>
-
-#include "parallel/cancel.h"
+#include "strain/probes.h"
 
 namespace fairing {
 namespace {
@@ -12,95 +10,17 @@ constexpr double probe_tolerance = 1e-3;  // of each solve, relative
 // Between two vertices of one solve: a dozen solves on quads.
 constexpr int rings_apart = 6;
 
-// The vertices around a vertex, ring after ring, from face to face.
-class Rings {
- public:
-  explicit Rings(const ControlMesh& mesh)
-      : mesh_(mesh), seen_(std::size_t(mesh.vertex_count()), -1) {}
-
-  // visit(u) for v, its copies, and all vertices at most so many rings away from them.
-  template <class Visit>
-  void visit(Index v, int rings, Visit&& visit) {
-    found_.clear();
-    mesh_.for_each_copy(v, [&](Index u) { add(u, v); });
-    for (std::size_t begin = 0; rings > 0 && begin < found_.size(); --rings) {
-      const std::size_t end = found_.size();
-      for (; begin < end; ++begin) {
-        stop_if_cancelled(begin);
-        for (const Spoke& spoke : mesh_.ring(found_[begin])) {
-          const Edge& edge = mesh_.edges[std::size_t(spoke.edge)];
-          add(edge.vertex[spoke.outward ? 1 : 0], v);
-          if (spoke.face < 0 || !mesh_.faces[std::size_t(spoke.face)].quad()) continue;
-          add(mesh_.faces[std::size_t(spoke.face)].vertex[std::size_t(spoke.corner + 2) % 4], v);
-        }
-      }
-    }
-    for (const Index u : found_) visit(u);
-  }
-
- private:
-  void add(Index u, Index from) {
-    if (seen_[std::size_t(u)] == from) return;
-    seen_[std::size_t(u)] = from;
-    found_.push_back(u);
-  }
-
-  const ControlMesh& mesh_;
-  std::vector<Index> seen_;  // from which vertex last
-  std::vector<Index> found_;
-};
-
 }  // namespace
-
-std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pads& pads,
-                                               int rings) {
-  std::vector<std::vector<Index>> sets;
-  std::vector<Index> set_of(std::size_t(mesh.vertex_count()), -1);
-  std::vector<Index> too_near;  // of each set: for which vertex it is too near, last
-  Rings around(mesh);
-  for (Index v = 0; v < mesh.input_vertices; ++v) {
-    if (!pads.under(std::size_t(v))) continue;
-    around.visit(v, rings - 1, [&](Index u) {
-      if (set_of[std::size_t(u)] >= 0) too_near[std::size_t(set_of[std::size_t(u)])] = v;
-    });
-    const auto set = std::size_t(
-        std::find_if(too_near.begin(), too_near.end(), [&](Index of) { return of != v; }) -
-        too_near.begin());
-    if (set == sets.size()) {
-      sets.emplace_back();
-      too_near.push_back(-1);
-    }
-    sets[set].push_back(v);
-    mesh.for_each_copy(v, [&](Index u) { set_of[std::size_t(u)] = Index(set); });
-  }
-  return sets;
-}
 
 std::vector<double> own_loads(ThinPlateSolver& solver, const FeatureCurves& curves) {
   const ControlMesh& mesh = solver.levels().shared().mesh;
   std::vector<double> own(std::size_t(mesh.vertex_count()), 0.0);
   if (!solver.pads()) return own;
-  FeatureCurves none = curves;
-  for (Vec3& p : none.points) p.setZero();
-  solver.keep_smoother();
   const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
-  std::vector<Vec3> targets(own.size());
-  Array<double> x(3 * solver.levels().grid(solver.levels().top()).size());
-  for (std::size_t first = 0; first < sets.size(); first += 3) {
-    const std::size_t end = std::min(first + 3, sets.size());
-    std::fill(targets.begin(), targets.end(), Vec3::Zero());
-    std::fill(x.begin(), x.end(), 0.0);
-    for (std::size_t s = first; s < end; ++s)
-      for (const Index v : sets[s])
-        mesh.for_each_copy(v,
-                           [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
-    PlateState state = solver.unheld();
-    state.loads.assign(own.size(), Vec3::Zero());
-    solver.solve_again({targets, none}, probe_tolerance, state, x);
-    for (std::size_t s = first; s < end; ++s)
-      for (const Index v : sets[s])
-        own[std::size_t(v)] = state.loads[std::size_t(v)][Eigen::Index(s - first)];
-  }
+  probe_loads(solver, curves, sets, probe_tolerance, {},
+              [&](std::size_t set, const std::vector<double>& loads) {
+                for (const Index v : sets[set]) own[std::size_t(v)] = loads[std::size_t(v)];
+              });
   return own;
 }
 

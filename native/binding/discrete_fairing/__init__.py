@@ -9,6 +9,7 @@
 from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
+from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
 from .filling import Filled, FilledHole, fill_holes, find_holes
@@ -22,6 +23,7 @@ from .strain import Strain, strain
 
 __all__ = [
     "Defect",
+    "Eased",
     "FairingError",
     "Filled",
     "FilledHole",
@@ -35,6 +37,7 @@ __all__ = [
     "Strain",
     "__version__",
     "check",
+    "ease",
     "fair",
     "fill_holes",
     "find_holes",

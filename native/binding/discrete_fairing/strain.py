@@ -20,8 +20,9 @@ from .watching import Progress, check_watchers
 class Strain:
     """How far the surface would spring away at each of n control vertices, were that one let go.
 
-    lengths: (n,) float64, mesh units, along the control mesh's normal: above zero outwards. NaN
-    where the surface does not hold the vertex: on curves, outside a region.
+    lengths: (n,) float64, mesh units, along the control mesh's normal: above zero outwards. On
+    curves the whole way, of the curve by itself: above zero on the normal's side. NaN at corners,
+    at and next to ends of curves, and outside a region.
     ways: (n, 3) float64, mesh units: the whole of each way, along the surface too.
     """
 

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ease Control Mesh and Ease Selected: vertices that spoil the surface are put right."""
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from ..blender import Answer, Context, registration
+from ..mesh.object import select_only
+from ..mesh.read import source_objects
+from ..poll import edit_mode_reason, mesh_poll_reason
+from ..strain.ease import EaseJob, EaseSelectedJob, Wish
+from ..units import length_text
+from . import fill
+from .fair import Fairing, poll_reason
+from .strain import sources_at_hand
+
+
+class _Easing(Fairing):
+    """What both share: what was computed is written if it still fits, and said in words."""
+
+    cancelled_text = "Easing was cancelled: nothing has changed"
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        for job in jobs:
+            reason = job.why_outdated(context)
+            if reason:
+                self.report({"ERROR"}, reason)
+                return {"CANCELLED"}
+        self.write(context, list(jobs))
+        for job in jobs:
+            job.note()
+            said = job.said(lambda length: length_text(context.scene, length))
+            self.report({"INFO"}, f"{job.name}: {said}")
+        return {"FINISHED"}
+
+    def write(self, context: Context, jobs: list[Any]) -> None:
+        """For the operator to say."""
+        raise NotImplementedError
+
+    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
+        """From Adjust Last Operation, which cannot wait: the mesh stays for now as it was before, and
+        the same run begins anew by itself.
+        """
+        name = self.bl_idname.rpartition("_OT_")[2]
+        fill.repeat_soon(context, self, getattr(bpy.ops.object, name))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
+    """Move the vertices of the control mesh a little, so that the surface through them is fair: offsets that are wrong, and the scatter of all. The result is the shape key Eased; the mesh itself stays as it is"""
+
+    bl_idname = "object.fairing_ease"
+    bl_label = "Ease Control Mesh"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+    amount: EnumProperty(
+        name="Amount",
+        description="How far vertices are moved",
+        items=(
+            (
+                "AUTOMATIC",
+                "Automatic",
+                "As much as takes the scatter off and leaves the shape: found from the vertices themselves",
+            ),
+            (
+                "TOLERANCE",
+                "Within Tolerance",
+                "As fair as can be, with no vertex moved farther than the tolerance",
+            ),
+            (
+                "WORST",
+                "Worst Vertices",
+                "The most strained alone, each to where the surface wants it",
+            ),
+        ),
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="How far a vertex may be moved, in scene units",
+        default=0.005,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+    )
+    count: IntProperty(
+        name="Number", description="How many vertices move at most", default=3, min=1, soft_max=30
+    )
+    use_selection: BoolProperty(
+        name="Selected Vertices Only",
+        description="Vertices that are not selected in Edit Mode stay where they are",
+        default=False,
+    )
+    go_on: BoolProperty(
+        name="Go On from Eased",
+        description="Starts from the shape key Eased, if there is one, and not from the mesh: first the worst vertices, "
+        "then the scatter of all",
+        default=False,
+    )
+    result: EnumProperty(
+        name="Result",
+        description="Where the new positions go",
+        items=(
+            (
+                "SHAPE_KEY",
+                "Shape Key",
+                "The shape key Eased of the mesh, fully on. Its slider mixes; Shape Key > Apply All makes it the mesh",
+            ),
+            ("COPY", "Copy", "A new object beside the source"),
+        ),
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if poll_reason(context):
+            return poll_reason(context)
+        if context.mode != "OBJECT":
+            return "Easing the control mesh works in Object Mode: press Tab. In Edit Mode there is Ease Selected"
+        return mesh_poll_reason(sources_at_hand(context))
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.prop(self, "amount")
+        if self.amount == "TOLERANCE":
+            layout.prop(self, "tolerance")
+        elif self.amount == "WORST":
+            layout.prop(self, "count")
+        layout.prop(self, "use_selection")
+        layout.prop(self, "go_on")
+        layout.prop(self, "result")
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        wish = Wish(self.amount, self.tolerance, self.count, self.use_selection, self.go_on)
+        return [EaseJob(context, source, wish) for source in sources_at_hand(context)]
+
+    def write(self, context: Context, jobs: list[Any]) -> None:
+        if self.result == "SHAPE_KEY":
+            for job in jobs:
+                job.write_key()
+        else:
+            select_only(context, [job.write_copy() for job in jobs])
+
+
+class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
+    """Move the selected vertices to where the surface through all others wants them. Those on open borders and creases stay"""
+
+    bl_idname = "object.fairing_ease_selected"
+    bl_label = "Ease Selected"
+    bl_options = {"REGISTER", "UNDO"}
+
+    factor: FloatProperty(
+        name="Factor",
+        description="How far the vertices go. 1: to where the surface wants them",
+        default=1.0,
+        soft_min=0.0,
+        soft_max=1.0,
+        subtype="FACTOR",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return poll_reason(context) or edit_mode_reason(context, "Vertices")
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        return [EaseSelectedJob(context, source, self.factor) for source in source_objects(context)]
+
+    def write(self, _context: Context, jobs: list[Any]) -> None:
+        for job in jobs:
+            job.write()
+
+
+register, unregister = registration(OBJECT_OT_fairing_ease, OBJECT_OT_fairing_ease_selected)

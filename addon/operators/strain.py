@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strain: shown, selected, jumped to, and written as a table."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+import bpy
+import numpy as np
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+from mathutils import Vector
+
+from .. import core
+from ..blender import Answer, Context, Object, registration
+from ..check.defects import select_defects, select_in_all
+from ..memory import source_at_hand
+from ..mesh.shape_keys import EASED, key_positions
+from ..mesh.world_shape import world_matrix
+from ..poll import ExplainedPoll, mesh_poll_reason
+from ..strain import known, table, words
+from ..strain.measure import StrainJob
+from ..strain.strained import Strained, above
+from ..units import length_text
+from . import fill
+from .fair import Fairing, poll_reason
+
+
+def sources_at_hand(context: Context) -> list[Object]:
+    """What the active object is or is made from; in Edit Mode all meshes that are edited."""
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    source = source_at_hand(context)
+    return [] if source is None else [source]
+
+
+class _Straining(Fairing):
+    """What is measured first, if it has changed since the last time."""
+
+    cancelled_text = "Measuring was cancelled: nothing has changed"
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return poll_reason(context) or mesh_poll_reason(sources_at_hand(context))
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        return [known.job_for(context, source) for source in sources_at_hand(context)]
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        for job in jobs:
+            if job.reference.find() is None:
+                self.report({"ERROR"}, f"{job.name} was deleted during the run")
+                return {"CANCELLED"}
+            known.keep(job)
+        return self.use(context, list(jobs))
+
+    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+        """What to do with the strain, on all objects that are still there."""
+        raise NotImplementedError
+
+
+class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
+    """Show at each vertex how far the surface would spring away, were that vertex let go: wrong offsets stand out. Again: hide it"""
+
+    bl_idname = "object.fairing_strain"
+    bl_label = "Inspect: Strain"
+    bl_options = {"REGISTER", "UNDO"}
+
+    poll_reason = staticmethod(_Straining.poll_reason)
+
+    def execute(self, context: Context) -> Answer:
+        sources = sources_at_hand(context)
+        show = not all(source.discrete_fairing_strain.show for source in sources)
+        for source in sources:
+            source.discrete_fairing_strain.show = show
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
+    """Select in Edit Mode the vertices that spoil the surface, the most strained ones"""
+
+    bl_idname = "object.fairing_select_strained"
+    bl_label = "Select Strained"
+    bl_options = {"REGISTER", "UNDO"}
+
+    by: EnumProperty(
+        name="Which",
+        description="Which vertices are selected",
+        items=(
+            (
+                "FLOOR",
+                "Out of Line",
+                "Those that strain by more than scatter explains, and the strain of their neighbours",
+            ),
+            ("COUNT", "The Worst", "So many"),
+            ("THRESHOLD", "By More than", "Those that strain by more than a length"),
+        ),
+    )
+    count: IntProperty(
+        name="Number", description="How many vertices", default=3, min=1, soft_max=30
+    )
+    threshold: FloatProperty(
+        name="Strain",
+        description="Vertices that strain by more than this are selected",
+        default=0.01,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+    )
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.prop(self, "by")
+        if self.by != "FLOOR":
+            layout.prop(self, self.by.lower())
+
+    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+        def text(length: float) -> str:
+            return length_text(context.scene, length)
+
+        wanted: list[Any] = []
+        for job in jobs:
+            strained = job.result
+            assert strained is not None  # as computing has left it
+            chosen = self._chosen(strained)
+            if len(chosen):
+                said = words.found(chosen, strained.lengths, text)
+            else:
+                threshold = self.threshold if self.by == "THRESHOLD" else strained.floor
+                said = words.none_above(threshold, strained.largest, text)
+            self.report({"INFO"}, f"{job.name}: {said}")
+            wanted.append((job.reference.find(), [("vertex", chosen.tolist())]))
+        select_in_all(context, wanted)
+        return {"FINISHED"}
+
+    def _chosen(self, strained: Strained) -> np.ndarray:
+        if self.by == "COUNT":
+            return strained.worst(self.count)
+        return strained.wrong if self.by == "FLOOR" else above(strained.lengths, self.threshold)
+
+    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
+        """From Adjust Last Operation: the selection stays for now, and the same run begins anew."""
+        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_select_strained)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
+    """Select this vertex in Edit Mode and bring it to the middle of the viewport"""
+
+    bl_idname = "object.fairing_go_to_strained"
+    bl_label = "Go to Vertex"
+    bl_options = {"REGISTER", "UNDO"}
+
+    vertex: IntProperty(name="Vertex", description="Which vertex of the control mesh", min=0)
+
+    poll_reason = staticmethod(_Straining.poll_reason)
+
+    def execute(self, context: Context) -> Answer:
+        source = cast(Object, source_at_hand(context))
+        if not select_defects(context, source, "vertex", [self.vertex]):
+            self.report({"ERROR"}, f"{source.name} has no vertex {self.vertex}")
+            return {"CANCELLED"}
+        space = cast(Any, context.space_data)
+        strained = known.found_of(source)
+        if space is not None and space.type == "VIEW_3D" and strained is not None:
+            place = Vector(strained.positions[self.vertex].tolist())
+            space.region_3d.view_location = world_matrix(source) @ place
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_strain_table(_Straining, ExportHelper, bpy.types.Operator):
+    """Write vertices, their strain and, where the mesh has been eased, their new places and moves as a table (CSV), in scene units"""
+
+    bl_idname = "object.fairing_strain_table"
+    bl_label = "Table of Strain (CSV)"
+    bl_options = {"REGISTER"}
+    cancelled_text = "Measuring was cancelled: nothing was written"
+    filename_ext = ".csv"
+
+    if TYPE_CHECKING:
+        filepath: str  # what ExportHelper adds
+
+    filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
+    _from_browser = False
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        self._from_browser = True
+        helper: Any = ExportHelper  # whose stub says None
+        return helper.invoke(self, context, event)
+
+    def execute(self, context: Context) -> Answer:
+        """The file browser calls it too; then the window stays alive."""
+        if self._from_browser and not bpy.app.background:
+            return super().invoke(context, cast(Any, None))
+        return super().execute(context)
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        """Of the mesh itself, whatever its shape keys make of it."""
+        return [StrainJob(context, cast(Object, source_at_hand(context)), as_mixed=False)]
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        (job,) = jobs
+        source = job.reference.find()
+        if source is None:
+            self.report({"ERROR"}, f"{job.name} was deleted during the run: nothing was written")
+            return {"CANCELLED"}
+        matrix = np.array(world_matrix(source))
+
+        def in_world(positions: np.ndarray) -> np.ndarray:
+            return positions @ matrix[:3, :3].T + matrix[:3, 3]
+
+        eased = key_positions(source, EASED, len(job.result.positions))
+        written = table.text(
+            table.rows(
+                in_world(job.result.positions),
+                job.result.lengths,
+                None if eased is None else in_world(eased),
+            )
+        )
+        path = bpy.path.abspath(self.filepath)
+        try:
+            with core.module().whole_files.whole_file(path) as part:
+                part.write_text(written, encoding="ascii", newline="")
+        except OSError as error:
+            self.report({"ERROR"}, f"{path} cannot be written: {error.strerror or error}.")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{words.count(len(job.result.positions))} written to {path}")
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_fairing_strain,
+    OBJECT_OT_fairing_select_strained,
+    OBJECT_OT_fairing_go_to_strained,
+    OBJECT_OT_fairing_strain_table,
+)
+
+register, unregister = registration(*CLASSES)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dots, needles and labels, as the graphics card takes them. Plain arrays, no Blender."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..inspection.measures import shades_of
+from .strained import Strained
+
+# needles are drawn so many times as long at most: what is shorter still is rounding
+_MOST = 1000.0
+_CORNERS = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)], np.float32)
+
+
+def magnification(strained: Strained, length: float = 1.0) -> float:
+    """How many times as long needles are drawn: 1, 2, 5, 10, 20 … 1000, so that the longest is no
+    longer than `length` mean edges, if it can be.
+    """
+    longest = strained.largest
+    if longest <= 0.0:
+        return 1.0
+    room = max(1.0, min(_MOST, length * strained.edge_length / longest))
+    decade = 10.0 ** np.floor(np.log10(room))
+    step = next(step for step in (5.0, 2.0, 1.0) if step * decade <= room * (1.0 + 1e-9))
+    return float(step * decade)
+
+
+def colours(strained: Strained, ids: np.ndarray) -> np.ndarray:
+    """(k, 4) float32 sRGBA: red where the surface wants to be outside of a vertex, blue inside."""
+    limit = strained.largest or 1.0
+    return shades_of(strained.lengths[ids], (-limit, limit), signed=True)
+
+
+def tips(strained: Strained, ids: np.ndarray, times: float) -> np.ndarray:
+    """(k, 3) float32: where the needles of the vertices `ids` end, `times` as long as they are."""
+    return (strained.positions[ids] + times * strained.ways[ids]).astype(np.float32)
+
+
+def needles(strained: Strained, times: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points (2 h, 3) float32, two a needle, and their colours (2 h, 4): one for each held vertex,
+    from where it is to where the surface wants to be.
+    """
+    ids = strained.held
+    begin = strained.positions[ids].astype(np.float32)
+    points = np.stack([begin, tips(strained, ids, times)], axis=1).reshape(-1, 3)
+    return points, np.repeat(colours(strained, ids), 2, axis=0)
+
+
+def dots(strained: Strained) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Two triangles a held vertex, all six corners at its place: places (6 h, 3) float32, how far
+    each goes from there (6 h, 2) in radii of the dot, colours (6 h, 4). What strains most comes last,
+    and lies on top.
+    """
+    ids = strained.worst(len(strained.held))[::-1]
+    places = np.repeat(strained.positions[ids].astype(np.float32), 6, axis=0)
+    return places, np.tile(_CORNERS, (len(ids), 1)), np.repeat(colours(strained, ids), 6, axis=0)
+
+
+def labels(
+    strained: Strained, count: int, times: float, text: Callable[[float], str]
+) -> list[tuple[np.ndarray, str]]:
+    """Where each of the `count` worst has its label (3,), and what that says: `31: 4.2 mm`; `text`
+    says a length.
+    """
+    ids = strained.worst(count)
+    places = tips(strained, ids, times)
+    return [
+        (place, f"{index}: {text(abs(float(strained.lengths[index])))}")
+        for place, index in zip(places, ids.tolist(), strict=True)
+    ]

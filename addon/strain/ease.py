@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Control vertices put where the surface is fair: all a little, the worst, or those selected."""
+
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any, cast
+
+import bmesh
+import numpy as np
+
+from .. import core, errors, prediction, size
+from ..blender import Context, Mesh, Object
+from ..errors import JobError
+from ..in_place import floats
+from ..live.switch import look_again
+from ..mesh.object import Reference
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.shape_keys import EASED, key_positions, put_key
+from ..mesh.world_shape import world_shape
+from ..preferences import preferences
+from ..settings import halves
+from . import words
+from .measure import plate_settings, settings_for
+from .strained import floor_of, out_of_line
+
+_LEVELS = 2  # that the core computes on
+
+
+@dataclass(frozen=True)
+class Wish:
+    amount: str  # AUTOMATIC, TOLERANCE, WORST
+    tolerance: float = 0.0  # in scene units
+    count: int = 1
+    use_selection: bool = False  # whether vertices that are not selected stay
+    go_on: bool = False  # whether from the shape key that an earlier run has written
+
+
+class _Moving:
+    """New places of the vertices of one source: read, computed on any thread, then written."""
+
+    kind = "EASE"  # of runs, for predictions
+
+    def __init__(self, context: Context, source: Object, go_on: bool = False) -> None:
+        """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
+        was.
+        """
+        self.name, self.reference = source.name, Reference(source)
+        settings = plate_settings(settings_for(context, source))
+        with control_mesh(context, source) as mesh:
+            self.arrays = read_mesh(mesh)
+            self.selected = _selected(mesh)
+        count = len(self.arrays.positions)
+        eased = key_positions(source, EASED, count) if go_on else None
+        self._start = self.arrays.positions if eased is None else eased
+        self._shape = world_shape(source)
+        self._world = self._shape.of_arrays(replace(self.arrays, positions=self._start))
+        self._fairing = core.fair_arguments(self._world, settings, preferences())
+        coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
+        self.triangles = coarse * 4**_LEVELS
+        self.result: Any = None
+        self._taken = 0.0
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return prediction.seconds(self.kind, self.triangles, (self.kind, self.reference.key))
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core; `watchers` are its `monitor` and `progress`."""
+        begun = perf_counter()
+        with errors.explained(self.name):
+            self.result = self._run(watchers)
+        sent = self._world.positions
+        places = self._places()
+        self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
+        self.positions = self._shape.back(places, sent, self._start)
+        self._taken = perf_counter() - begun
+
+    def _run(self, watchers: dict[str, Any]) -> Any:
+        raise NotImplementedError
+
+    def _places(self) -> np.ndarray:
+        """(n, 3) in the world's shape, once it has run."""
+        raise NotImplementedError
+
+    def why_outdated(self, context: Context) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+        source = self.reference.find()
+        if source is None:
+            return f"{self.name} was deleted or undone during the run: nothing has changed."
+        with control_mesh(context, source) as mesh:
+            now = read_mesh(mesh)
+        if core.same_faces(now, self.arrays) and np.array_equal(
+            now.positions, self.arrays.positions
+        ):
+            return ""
+        return f"{self.name} was edited during the run: nothing has changed. Ease it once more."
+
+    def note(self) -> None:
+        """For predictions, on the main thread."""
+        key = (self.kind, self.reference.key)
+        prediction.note(self.kind, self.triangles, self._taken, key)
+
+
+class EaseJob(_Moving):
+    """As `wish` says, of the mesh itself, whatever its shape keys make of it."""
+
+    def __init__(self, context: Context, source: Object, wish: Wish) -> None:
+        super().__init__(context, source, wish.go_on)
+        self._wish = wish
+        if wish.use_selection and not self.selected.any():
+            raise JobError(
+                f"{self.name}: no vertex is selected. Select the vertices that may move in Edit Mode, "
+                "or switch off Selected Vertices Only."
+            )
+        keys = source.data.shape_keys
+        if keys is not None and not keys.use_relative:
+            raise JobError(
+                f"{self.name} has absolute shape keys, which are not mixed. Ease a copy."
+            )
+
+    def _run(self, watchers: dict[str, Any]) -> Any:
+        wish = self._wish
+        return core.module().ease(
+            **core.plate_arguments(self._fairing),
+            tolerance=wish.tolerance if wish.amount == "TOLERANCE" else None,
+            most=wish.count if wish.amount == "WORST" else None,
+            fixed=~self.selected if wish.use_selection else None,
+            **watchers,
+        )
+
+    def _places(self) -> np.ndarray:
+        return self.result.vertices
+
+    def said(self, text: words.Text) -> str:
+        """What was done, in words."""
+        eased, wish = self.result, self._wish
+        before = eased.strain_before
+        if wish.amount == "WORST":
+            return words.moved(self.moves, text)
+        if wish.amount == "TOLERANCE":
+            return words.moved_within(self.moves, wish.tolerance, before, text)
+        wrong = out_of_line(before, self.arrays.edges)
+        return words.eased(eased.noise, self.moves, before, wrong, floor_of(before), text)
+
+    def write_key(self) -> None:
+        """As a shape key of the source, whose mesh stays, and so of its live surfaces."""
+        source = cast(Object, self.reference.find())
+        put_key(source, EASED, self.positions)
+        look_again(source)
+
+    def write_copy(self) -> Object:
+        """As the mesh of a new object beside the source."""
+        source = cast(Object, self.reference.find())
+        target = source.copy()
+        target.data = source.data.copy()
+        target.name = target.data.name = f"{self.name} {EASED}"
+        for collection in source.users_collection:
+            collection.objects.link(target)
+        if target.data.shape_keys is not None:
+            target.shape_key_clear()
+        target.data.vertices.foreach_set("co", np.float32(self.positions).ravel())
+        target.data.update()
+        return target
+
+
+class EaseSelectedJob(_Moving):
+    """The selected vertices of one mesh in Edit Mode, where the surface through all others wants
+    them; `factor`: how far they go there.
+    """
+
+    kind = "THIN_PLATE"
+
+    def __init__(self, context: Context, source: Object, factor: float) -> None:
+        super().__init__(context, source)
+        self._factor = factor
+        self._free = self.selected & _inner(self.arrays)
+        if not self._free.any():
+            raise JobError(
+                f"{self.name}: no vertex inside of the mesh is selected. Those on open borders stay."
+            )
+        if floats(self.arrays, self._free):
+            raise JobError(
+                f"{self.name}: a part is selected whole, so nothing holds it. Leave out some of its vertices."
+            )
+
+    def _run(self, watchers: dict[str, Any]) -> Any:
+        return core.module().fair(**core.released_arguments(self._fairing, self._free), **watchers)
+
+    def _places(self) -> np.ndarray:
+        sent = self._world.positions
+        found = self.result.vertices[: len(sent)]
+        return np.where(self._free[:, None], sent + self._factor * (found - sent), sent)
+
+    def why_outdated(self, context: Context) -> str:
+        source = self.reference.find()
+        if source is not None and source.mode != "EDIT":
+            return f"{self.name} left Edit Mode during the run: nothing has changed."
+        return super().why_outdated(context)
+
+    def said(self, text: words.Text) -> str:
+        """What was done, in words."""
+        return words.moved(self.moves, text)
+
+    def write(self) -> None:
+        """Into the mesh that is edited."""
+        mesh = cast(Object, self.reference.find()).data
+        edited = bmesh.from_edit_mesh(mesh)
+        edited.verts.ensure_lookup_table()
+        for index in np.flatnonzero(self.moves).tolist():
+            edited.verts[index].co = self.positions[index].tolist()
+        edited.normal_update()
+        bmesh.update_edit_mesh(mesh)
+
+
+def _selected(mesh: Mesh) -> np.ndarray:
+    """(n,) bool: vertices that are selected and to be seen."""
+    selected, hidden = (np.empty(len(mesh.vertices), bool) for _ in range(2))
+    mesh.vertices.foreach_get("select", selected)
+    mesh.vertices.foreach_get("hide", hidden)
+    return selected & ~hidden
+
+
+def _inner(arrays: core.ControlArrays) -> np.ndarray:
+    """(n,) bool: vertices with faces and on no open border."""
+    inner = np.zeros(len(arrays.positions), bool)
+    inner[arrays.corners] = True
+    inner[arrays.edges[arrays.edge_uses == 1].ravel()] = False
+    return inner

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was measured last of each source, and the timer that measures anew what is shown.
+
+It exists while Blender runs. Nothing runs while nothing is shown; without a window, operators alone
+measure.
+"""
+
+from collections.abc import Iterable
+from time import monotonic
+from typing import Any, cast
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import core
+from ..blender import Context, Object, all_objects, current_context
+from ..errors import JobError
+from ..inspection import overlay
+from ..live.full_level import is_dragging
+from ..mesh.object import Reference, session_key
+from ..queue import Queue
+from ..redraw import tag_sidebars
+from ..settings import snapshot
+from .measure import StrainJob, settings_for
+from .strained import Strained
+
+INTERVAL = 0.1  # seconds between two looks at what is shown
+BRIEF = 0.3  # seconds; what takes longer waits until nobody drags, and ends where an edit begins
+
+
+class _Watch:
+    """The strain of one source: measured, and perhaps being measured anew."""
+
+    def __init__(self, reference: Reference) -> None:
+        self.reference = reference
+        self.stale = True  # whether anything may have changed since
+        self.error = ""
+        self.job: StrainJob | None = None  # that of the result at hand
+        self._settings: Any = None
+        self._next: StrainJob | None = None
+        self._queue: Queue | None = None
+        self._begun = 0.0
+
+    @property
+    def result(self) -> Strained | None:
+        return None if self.job is None else self.job.result
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether a result is on its way."""
+        return self._queue is not None
+
+    def advance(self, context: Context) -> bool:
+        """A step of the timer; whether there is something new to show."""
+        source = self.reference.find()
+        if source is None:
+            return False
+        if self._settings != snapshot(settings_for(context, source)):
+            self.stale = True
+        if self._queue is not None:
+            return self._look(self._queue)
+        if self.stale and not (self._is_slow and is_dragging(context)):
+            return self._begin(context, source)
+        return False
+
+    @property
+    def _is_slow(self) -> bool:
+        return self.job is not None and getattr(self.job, "taken", 0.0) > BRIEF
+
+    def _look(self, queue: Queue) -> bool:
+        if queue.finished:
+            self._queue = None
+            if queue.cancelled:
+                return False
+            self.error = queue.error or ""
+            if not self.error:
+                stale = self.stale
+                self.keep(cast(StrainJob, self._next))
+                self.stale = stale
+            return True
+        if self.stale and monotonic() - self._begun > BRIEF:
+            queue.cancel()
+        return False
+
+    def _begin(self, context: Context, source: Object) -> bool:
+        self.stale, self._settings = False, snapshot(settings_for(context, source))
+        try:
+            self._next = StrainJob(context, source, self.job)
+        except JobError as error:
+            self.error = str(error)
+            return True
+        if self._next.result is not None:
+            was, self.error = self.error, ""
+            return bool(was)
+        self._queue, self._begun = Queue([self._next], core.module().Monitor), monotonic()
+        self._queue.start()
+        return False
+
+    def keep(self, job: StrainJob) -> None:
+        """A finished job is what is known from now on."""
+        job.note()
+        self.job, self.error, self.stale = job, "", False
+
+    def cancel(self) -> None:
+        if self._queue is not None:
+            self._queue.cancel()
+            self._queue.join()
+            self._queue = None
+
+
+_watches: dict[int | str, _Watch] = {}
+_shown: list[Reference] | None = None  # None: to be looked for
+_count = 0  # of the file's objects, when they were looked through
+
+
+def job_for(context: Context, source: Object) -> StrainJob:
+    """A job that has its result already where nothing has changed since the last one; JobError.
+    `keep` it when it is done.
+    """
+    return StrainJob(context, source, _watch(source).job)
+
+
+def keep(job: StrainJob) -> None:
+    """What a finished `job` has found is what is known of its source."""
+    source = job.reference.find()
+    if source is not None:
+        _watch(source).keep(job)
+
+
+def found_of(source: Object) -> Strained | None:
+    """What was measured last, perhaps of an earlier shape; None if nothing was."""
+    watch = _watches.get(session_key(source))
+    return None if watch is None else watch.result
+
+
+def is_behind(source: Object) -> bool:
+    """Whether what is known is being measured anew."""
+    watch = _watches.get(session_key(source))
+    return watch is not None and (watch.is_measured or watch.stale)
+
+
+def trouble(source: Object) -> str:
+    """Why the strain of `source` could not be measured, a sentence; empty if it could."""
+    watch = _watches.get(session_key(source))
+    return "" if watch is None else watch.error
+
+
+def shown_sources() -> Iterable[Object]:
+    """The objects whose strain is to be seen."""
+    global _shown, _count
+    count = len(bpy.data.objects)
+    if _shown is None or count != _count:
+        _count = count
+        _shown = [
+            Reference(o)
+            for o in all_objects()
+            if o.type == "MESH" and o.discrete_fairing_strain.show
+        ]
+    return [found for reference in _shown if (found := reference.find()) is not None]
+
+
+def shown_changed() -> None:
+    """To be called when an object has been told to show its strain, or not to."""
+    global _shown
+    _shown = None
+    _start_timer()
+
+
+def _watch(source: Object) -> _Watch:
+    return _watches.setdefault(session_key(source), _Watch(Reference(source)))
+
+
+def _start_timer() -> None:
+    if not bpy.app.background and not bpy.app.timers.is_registered(_on_timer):
+        bpy.app.timers.register(_on_timer, first_interval=0.0)
+
+
+def _on_timer() -> float | None:
+    context, news = current_context(), False
+    if core.why_missing():
+        return None
+    sources = list(shown_sources())
+    for source in sources:
+        news |= _watch(source).advance(context)
+    if news:
+        overlay.redraw()
+        tag_sidebars(context)
+    return INTERVAL if sources else None
+
+
+@persistent
+def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
+    if not _watches:
+        return
+    changed = {
+        session_key(cast(Any, update.id).original)
+        for update in depsgraph.updates
+        if update.is_updated_geometry or update.is_updated_transform
+    }
+    for watch in _watches.values():
+        source = watch.reference.find()
+        if source is not None and changed & {session_key(source), session_key(source.data)}:
+            watch.stale = True
+
+
+@persistent
+def _distrust_all(*_: Any) -> None:
+    shown_changed()
+    for watch in _watches.values():
+        watch.stale = True
+
+
+@persistent
+def _forget(*_: Any) -> None:
+    global _shown
+    for watch in _watches.values():
+        watch.cancel()
+    _watches.clear()
+    _shown = None
+
+
+@persistent
+def _resume(*_: Any) -> None:
+    """A file may have been saved while strain was shown."""
+    shown_changed()
+
+
+_HANDLERS = {
+    "depsgraph_update_post": _note_changes,
+    "frame_change_post": _distrust_all,
+    "undo_post": _distrust_all,
+    "redo_post": _distrust_all,
+    "load_pre": _forget,
+    "load_post": _resume,
+}
+
+
+def register() -> None:
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).append(handler)
+    _start_timer()  # for the file that is open now
+
+
+def unregister() -> None:
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).remove(handler)
+    if bpy.app.timers.is_registered(_on_timer):
+        bpy.app.timers.unregister(_on_timer)
+    _forget()

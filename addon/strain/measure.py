@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One source's way from its mesh to its strain: read on Blender's main thread, computed on any."""
+
+from dataclasses import replace
+from time import perf_counter
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from .. import core, errors, prediction, size, vertex_values
+from ..blender import Context, Mesh, Object
+from ..live.switch import live_surfaces_of, surfaces_of
+from ..mesh.object import Reference
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.shape_keys import mixed, read_shape_keys
+from ..mesh.world_shape import world_shape
+from ..preferences import preferences
+from ..settings import Settings, halves, snapshot
+from .strained import Strained
+
+_KIND = "STRAIN"  # of runs, for predictions
+_LEVELS = 2  # on which the core asks
+
+
+def settings_for(context: Context, source: Object) -> Settings:
+    """Those of the surface that follows `source`, else of the last one made of it, else those for the
+    next one: its borders, creases and symmetry plane.
+    """
+    made = live_surfaces_of(source) or surfaces_of(source)[-1:]
+    return made[-1].discrete_fairing if made else context.scene.discrete_fairing
+
+
+def plate_settings(settings: Settings) -> SimpleNamespace:
+    """The same for the whole mesh as modelled, and a surface through all vertices."""
+    asked = {"use_selection": False, "interpolation": "EXACT", "use_shape_keys": False}
+    return SimpleNamespace(**vars(snapshot(settings)) | asked)
+
+
+class StrainJob:
+    """The strain of one source, with the edits of this moment."""
+
+    def __init__(
+        self,
+        context: Context,
+        source: Object,
+        known: "StrainJob | None" = None,
+        as_mixed: bool = True,
+    ) -> None:
+        """Reads; JobError says why that cannot be. `known`: an earlier one, whose result holds where
+        nothing has changed since. `as_mixed`: as the shape keys of the source mix, not the mesh.
+        """
+        self.name, self.reference = source.name, Reference(source)
+        settings = plate_settings(settings_for(context, source))
+        with control_mesh(context, source) as mesh:
+            arrays = read_mesh(mesh)
+            self.positions = arrays.positions
+            if as_mixed:
+                self.positions = _as_mixed(source, mesh, arrays.positions)
+        self._shape = world_shape(source)
+        world = self._shape.of_arrays(replace(arrays, positions=self.positions))
+        self._edges = arrays.edges
+        self._edge_length = core.mean_edge_length(world)
+        self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
+        coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
+        self.triangles = coarse * 4**_LEVELS
+        self.result: Strained | None = None
+        if known is not None and known.result is not None and self.is_that_of(known):
+            self.result = known.result
+
+    def is_that_of(self, other: "StrainJob") -> bool:
+        """Whether both ask the same."""
+        return self._shape == other._shape and core.are_equal(self.arguments, other.arguments)
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        if self.result is not None:
+            return 0.0
+        return prediction.seconds(_KIND, self.triangles, (_KIND, self.reference.key))
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core, where that has not been done; `watchers` are its `monitor` and `progress`."""
+        if self.result is not None:
+            return
+        begun = perf_counter()
+        with errors.explained(self.name):
+            found = core.module().strain(**self.arguments, **watchers)
+        back = self._shape.way_back[:3, :3]
+        self.result = Strained(
+            self.positions, found.ways @ back, found.lengths, self._edges, self._edge_length
+        )
+        self.taken = perf_counter() - begun
+
+    def note(self) -> None:
+        """For predictions, on the main thread."""
+        if hasattr(self, "taken"):
+            prediction.note(_KIND, self.triangles, self.taken, (_KIND, self.reference.key))
+
+
+def _as_mixed(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
+    """(n, 3): `positions` of the `mesh` of `source`, or in Object Mode what its shape keys make of
+    them.
+    """
+    keys = None if source.mode == "EDIT" else read_shape_keys(source, len(positions))
+    if keys is None:
+        return positions
+    return mixed(keys, lambda group: vertex_values.shares(source, mesh, group))

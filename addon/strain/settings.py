@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether an object shows its strain; and, for the whole scene, how it is drawn."""
+
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty, IntProperty
+
+from ..blender import Context, attach, detach
+from ..inspection import overlay
+from . import known
+
+
+def _show_changed(_group: Any, _context: Context) -> None:
+    known.shown_changed()
+    overlay.redraw()
+
+
+def _drawing_changed(_group: Any, _context: Context) -> None:
+    overlay.redraw()
+
+
+class FAIRING_PG_strain(bpy.types.PropertyGroup):
+    """Kept with the object."""
+
+    show: BoolProperty(
+        name="Show Strain",
+        description="Draws a dot and a needle at each vertex: how far the surface would spring away there, "
+        "were this vertex alone let go. A vertex that is out of line with its neighbours has a long one. Strain is "
+        "that of Thin Plate, whatever the surface's fairness",
+        update=_show_changed,
+        options=set(),
+    )
+
+
+class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
+    """Kept with the scene."""
+
+    needle_length: FloatProperty(
+        name="Needle Length",
+        description="How long the longest needle may be drawn, in mean edges of the mesh",
+        default=1.0,
+        min=0.0,
+        soft_max=5.0,
+        update=_drawing_changed,
+    )
+    label_count: IntProperty(
+        name="Labels",
+        description="How many of the worst vertices are named beside their needles, and listed",
+        default=10,
+        min=0,
+        max=1000,
+        soft_max=30,
+        update=_drawing_changed,
+    )
+
+
+def register() -> None:
+    attach(bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain)
+    attach(bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing)
+
+
+def unregister() -> None:
+    detach(bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing)
+    detach(bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is said of strain and of easing, in words. No Blender."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+Text = Callable[[float], str]  # a length in scene units, as the scene says it
+
+_NAMED = 5  # vertices that a sentence names
+
+
+def count(number: int) -> str:
+    """`1 vertex`, `63 vertices`."""
+    return "1 vertex" if number == 1 else f"{number:,} vertices"
+
+
+def listed(ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text) -> str:
+    """`31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex."""
+    named = [f"{i} by {text(abs(float(lengths[i])))}" for i in list(ids)[:_NAMED]]
+    if len(ids) > _NAMED:
+        return f"{', '.join(named)} and {len(ids) - _NAMED:,} more"
+    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+
+
+def found(chosen: np.ndarray, lengths: np.ndarray, text: Text) -> str:
+    """Of a selection by strain; `lengths`: (n,), NaN where the surface holds no vertex."""
+    held = int((~np.isnan(lengths)).sum())
+    return f"{len(chosen):,} of {count(held)} selected: {listed(chosen, lengths, text)}"
+
+
+def none_above(threshold: float, largest: float, text: Text) -> str:
+    return (
+        f"No vertex strains by more than {text(threshold)}; the largest strain is {text(largest)}"
+    )
+
+
+def moved(moves: np.ndarray, text: Text) -> str:
+    """`2 vertices moved: 31 by 4.2 mm and 7 by 3 mm`; `moves`: (n,) lengths."""
+    order = np.argsort(-moves, kind="stable")
+    order = order[moves[order] > 0]
+    if not len(order):
+        return "No vertex moved: the surface passes where they are"
+    return f"{count(len(order))} moved: {listed(order, moves, text)}"
+
+
+def eased(
+    noise: float,
+    moves: np.ndarray,
+    strain: np.ndarray,
+    wrong: np.ndarray,
+    floor: float,
+    text: Text,
+) -> str:
+    """Of easing by itself. `noise`: the scatter, a length; `strain`: (n,) before; `wrong`: (k,) ids of
+    vertices out of line, the worst first; `floor`: what is scatter.
+    """
+    if not moves.any():
+        return "No vertex moved: there is no scatter to be told from the shape"
+    said = [f"Offsets are scattered by about {text(noise)}."]
+    if len(wrong):
+        held = count(int((~np.isnan(strain)).sum()))
+        are = "is" if len(wrong) == 1 else "are"
+        said.append(f"{len(wrong):,} of {held} {are} off by more: {listed(wrong, strain, text)}.")
+    else:
+        said.append(f"No vertex is off by more than scatter explains, {text(floor)}.")
+    said.append(f"{_largest(moves, text)}.")
+    return " ".join(said)
+
+
+def moved_within(moves: np.ndarray, tolerance: float, strain: np.ndarray, text: Text) -> str:
+    """Of easing within a `tolerance`; `strain`: (n,) before."""
+    if not moves.any():
+        return f"No vertex moved: none may, or all strain less than {text(tolerance)} allows"
+    beyond = int((np.abs(strain[~np.isnan(strain)]) > tolerance).sum())
+    said = f"{count(int((moves > 0).sum()))} moved by at most {text(tolerance)}. {_largest(moves, text)}."
+    if beyond:
+        said += f" {count(beyond)} strained by more than the tolerance before."
+    return said
+
+
+def _largest(moves: np.ndarray, text: Text) -> str:
+    worst = int(np.argmax(moves))
+    return f"The largest move is {text(float(moves[worst]))}, at vertex {worst}"

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel "Strain": which control vertices spoil the surface, and what puts them right."""
+
+from typing import Any
+
+import bpy
+
+from ..blender import Context, Object, registration
+from ..memory import source_at_hand
+from ..strain import known
+from ..strain.drawn import magnification
+from ..strain.strained import Strained
+from ..units import length_text
+from .layout import Folded
+from .notice import draw_notice
+
+
+class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
+    bl_label = "Strain"
+
+    def draw(self, context: Context) -> None:
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        source = source_at_hand(context)
+        if source is None:
+            layout.operator("object.fairing_strain")
+            return
+        layout.prop(source.discrete_fairing_strain, "show")
+        strained = known.found_of(source)
+        if source.discrete_fairing_strain.show:
+            layout.prop(context.scene.discrete_fairing_strain, "needle_length")
+            layout.prop(context.scene.discrete_fairing_strain, "label_count")
+        if known.trouble(source):
+            draw_notice(layout, known.trouble(source))
+        elif source.discrete_fairing_strain.show and known.is_behind(source):
+            layout.label(text="Measuring …", icon="SORTTIME")
+        if strained is not None:
+            _draw_worst(layout, context, source, strained)
+        layout.operator("object.fairing_select_strained", icon="RESTRICT_SELECT_OFF")
+        edited = context.mode == "EDIT_MESH"
+        layout.operator("object.fairing_ease_selected" if edited else "object.fairing_ease")
+        layout.operator("object.fairing_strain_table", icon="FILE_TEXT")
+
+
+def _draw_worst(layout: Any, context: Context, source: Object, strained: Strained) -> None:
+    """A list to jump from, and what is still scatter."""
+
+    def text(length: float) -> str:
+        return length_text(context.scene, length)
+
+    drawing = context.scene.discrete_fairing_strain
+    if not len(strained.held):
+        draw_notice(
+            layout,
+            "No vertex can be let go: all are corners, or lie on straight borders",
+            icon="INFO",
+        )
+        return
+    times = magnification(strained, drawing.needle_length)
+    column = layout.column(align=True)
+    column.label(text=f"Out of line: {len(strained.wrong)} of {len(strained.held):,}")
+    column.label(text=f"Up to {text(strained.floor)} is scatter")
+    if source.discrete_fairing_strain.show and times > 1.0:
+        column.label(text=f"Needles are {times:g} times as long")
+    column, wrong = layout.box().column(align=True), set(strained.wrong.tolist())
+    for index in strained.worst(drawing.label_count).tolist():
+        size = float(strained.lengths[index])
+        row = column.row(align=True)
+        row.active = index in wrong
+        row.operator("object.fairing_go_to_strained", text=f"Vertex {index}").vertex = index
+        row.label(text=f"{text(abs(size))} {'outwards' if size > 0 else 'inwards'}")
+
+
+register, unregister = registration(VIEW3D_PT_fairing_strain)

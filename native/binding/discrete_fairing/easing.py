@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""ease(): control vertices put where the surface is fair, the least bit away from where they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, vertex_array
+from .errors import fairing_error
+from .halves import Half
+from .options import native_options
+from .watching import Progress, check_watchers
+
+
+class Eased:
+    """A control mesh of n vertices that has been eased.
+
+    vertices: (n, 3) float64, mesh units, the new positions.
+    moves: (n,) float64, mesh units, how far each vertex has moved.
+    strain_before, strain_after: (n,) float64, mesh units, as Strain.lengths; NaN at corners and
+    outside a region, where vertices stay.
+    amount: float without a unit, how much has been eased; 0 with `most`.
+    noise: float, mesh units: an estimate of the scatter, the root mean square distance of a vertex
+    from where it belongs; 0 with `most`.
+    iterations: int, solves of the surface, all in all.
+    """
+
+    def __init__(self, points: np.ndarray, found: dict[str, Any]):
+        count = len(points)
+        moves = found["moves"][:count]
+        self.vertices = points + moves
+        self.moves = np.linalg.norm(moves, axis=1)
+        self.strain_before: np.ndarray = found["strain_before"][:count]
+        self.strain_after: np.ndarray = found["strain_after"][:count]
+        self.amount: float = found["amount"]
+        self.noise: float = found["noise"]
+        self.iterations: int = found["iterations"]
+
+    def __repr__(self) -> str:
+        moved = int(np.count_nonzero(self.moves))
+        return f"Eased({moved} of {len(self.moves)} vertices moved, noise {self.noise:.3g})"
+
+
+def ease(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    *,
+    tolerance: ArrayLike | None = None,
+    most: int | None = None,
+    fixed: ArrayLike | None = None,
+    amount: float | None = None,
+    symmetry_plane: str | None = None,
+    progress: Progress | None = None,
+    monitor: _native.Monitor | None = None,
+    **settings: Any,
+) -> Eased:
+    """Move control vertices of the thin plate so little, and so, that they stop fighting it.
+
+    Minimizes amount² |loads|² + |moves|², a low pass: shapes stay, scatter goes. Vertices on borders
+    and creases move along their curves' planes, towards a curve without jumps of its third
+    derivative. Corners, ends of curves, straight borders and what is outside a region stay.
+
+    Parameters
+    ----------
+    vertices, faces, symmetry_plane, progress, monitor
+        As of fair(). Vertices in the symmetry plane stay in it.
+    tolerance
+        Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther. The amount is the
+        largest with which that comes by itself, and no less than without a tolerance: vertices
+        that would then move farther stop at their bound, and the others go on.
+    most
+        Move so many vertices at most, the most strained first, each to where the surface wants it;
+        in a symmetry plane's halves a vertex and its image count as one. Not with a tolerance.
+    fixed
+        (n,) bool: vertices that stay where they are; loads on them do not count.
+    amount
+        0 or more, without a unit: how much to ease; 1 takes half of what scatters from one vertex to
+        the next. None: by robust generalized cross-validation (Lukas 2006), or by the tolerance.
+    settings
+        Those of fair(), but for shapes. The thin plate on pads, through all its control vertices;
+        levels above the second change nothing.
+
+    Raises
+    ------
+    FairingError
+        As strain(); BAD_OPTION for bounds that are no lengths; TOO_LARGE where memory_limit does
+        not hold the matrix of loads, some 3 kB a vertex.
+    """
+    check_watchers(progress, monitor)
+    points = vertex_array(vertices)
+    corners, offsets = face_arrays(faces)
+    count = len(points)
+    bounds, stays = _bounds(tolerance, count), _fixed(fixed, count)
+    chosen = _most(most, tolerance)
+    given, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
+    if symmetry_plane is not None:
+        repair = native_options(**settings).repair
+        half = Half(points, corners, offsets, symmetry_plane, repair)
+        axis = half.axis
+        points, settings = half.points(points), half.settings(settings)
+        corners, offsets = half.faces(corners, offsets)
+        bounds, stays, images = half.values(bounds), half.values(stays), half.images
+    options = native_options(**settings)
+    with half.named() if half else nullcontext():
+        found = _native.ease(
+            points,
+            corners,
+            offsets,
+            bounds,
+            _amount(amount, most),
+            chosen,
+            stays,
+            images,
+            options,
+            monitor or _native.Monitor(),
+            progress,
+        )
+    if half:
+        found["moves"][half.in_plane, axis] = 0.0
+    return Eased(given, found)
+
+
+def _bounds(tolerance: ArrayLike | None, count: int) -> np.ndarray:
+    if tolerance is None:
+        return np.empty(0)
+    bounds = np.asarray(tolerance, dtype=np.float64)
+    if bounds.shape not in ((), (count,)) or not np.all(bounds >= 0):
+        raise fairing_error(
+            "BAD_OPTION", f"tolerance must be a length, or {count} of them, and not below 0."
+        )
+    return np.ascontiguousarray(np.broadcast_to(bounds, (count,)))
+
+
+def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
+    if fixed is None:
+        return np.empty(0, dtype=np.uint8)
+    stays = np.asarray(fixed)
+    if stays.shape != (count,) or stays.dtype != bool:
+        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
+    return stays.astype(np.uint8)
+
+
+def _amount(amount: float | None, most: int | None) -> float:
+    if amount is None:
+        return -1.0
+    if most is not None:
+        raise fairing_error("BAD_OPTION", "most and amount exclude each other. Give one of them.")
+    if (
+        isinstance(amount, bool)
+        or not isinstance(amount, (int, float, np.number))
+        or not amount >= 0
+    ):
+        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be a number from 0 on.")
+    return float(min(amount, 1e6))
+
+
+def _most(most: int | None, tolerance: ArrayLike | None) -> int:
+    if most is None:
+        return 0
+    if tolerance is not None:
+        raise fairing_error(
+            "BAD_OPTION", "most and tolerance exclude each other. Give one of them."
+        )
+    if isinstance(most, bool) or not isinstance(most, (int, np.integer)) or most < 1:
+        raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer from 1 on.")
+    return min(int(most), 2**31 - 1)

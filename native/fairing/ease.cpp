@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/ease.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <optional>
+
+#include "fairing/fair.h"
+#include "fairing/mending.h"
+#include "fairing/strain.h"
+#include "fairing/systems.h"
+#include "parallel/cancel.h"
+#include "strain/load_matrix.h"
+#include "strain/worst.h"
+
+namespace fairing {
+namespace {
+
+// With more input vertices the loads are those of level 1, at a quarter of the cost.
+constexpr std::int64_t on_second_level = 2000;
+// Parts of the run: up to the surface, and to the matrix of its loads.
+constexpr double surface_done = 0.2, matrix_done = 0.85;
+
+// Some rows and columns of a matrix, each given its weight: rows by it, columns by its inverse.
+LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
+                   const std::vector<Index>& column_of, const std::vector<double>& row_weight,
+                   const std::vector<double>& column_weight) {
+  LoadMatrix out(Eigen::Index(row_weight.size()), Eigen::Index(column_weight.size()));
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const Index row = row_of[std::size_t(i)];
+    if (row < 0) continue;
+    for (LoadMatrix::InnerIterator entry(all, i); entry; ++entry)
+      if (const Index column = column_of[std::size_t(entry.col())]; column >= 0)
+        entries.emplace_back(
+            row, column,
+            entry.value() * row_weight[std::size_t(row)] / column_weight[std::size_t(column)]);
+  }
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+// Square roots of shares whose mean is one.
+std::vector<double> roots(std::vector<double> shares) {
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  for (double& share : shares) share = std::sqrt(share * double(shares.size()) / sum);
+  return shares;
+}
+
+std::vector<Index> numbered(std::size_t size, const std::vector<Index>& vertices) {
+  std::vector<Index> number(size, -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i) number[std::size_t(vertices[i])] = Index(i);
+  return number;
+}
+
+// Vertices that may move, of one kind, with what holds them in the unit of their roots.
+struct Movable {
+  std::vector<Index> vertices;
+  std::vector<double> root;  // of each one's share of the area or the length
+  LoadMatrix g;              // scaled
+
+  EaseSystem system(Columns loads) const { return {g, std::move(loads)}; }
+};
+
+class Easing {
+ public:
+  // All references must outlive it.
+  Easing(const Mending& mending, const EaseOptions& wanted, Monitor& monitor)
+      : mending_(mending),
+        wanted_(wanted),
+        monitor_(monitor),
+        watch_(report_, monitor),
+        problem_(make_problem(mending.mesh(), mending.options(), watch_, report_)),
+        mesh_(problem_->mesh),
+        systems_(*problem_, monitor),
+        at_(mending.mesh().coordinates.begin(), mending.mesh().coordinates.end()) {}
+
+  EaseResult run() {
+    monitor_.enter_part(0, surface_done);
+    ControlPositions control = problem_->basis;
+    Loads loads = loads_of(control);
+    measure_matrix();
+    const Strain before = gauge_->read(loads, control.working);
+    out_.moves.assign(std::size_t(mesh_.input_vertices), Vec3::Zero());
+    if (wanted_.most > 0) {
+      move_worst(loads, control);
+    } else {
+      find_movable();
+      if (take(curve_, curve_system(control))) {
+        control = problem_->control_positions(at_);
+        loads = loads_of(control);
+      }
+      take(inner_, inner_system(loads));
+    }
+    const ControlPositions after = problem_->control_positions(at_);
+    const Strain left = gauge_->read(loads_of(after), after.working);
+    out_.strain_before = before.lengths;
+    out_.strain_after = left.lengths;
+    restore();
+    return std::move(out_);
+  }
+
+ private:
+  Loads loads_of(const ControlPositions& control) {
+    Report report;
+    Array<double> surface;
+    ++out_.iterations;
+    return systems_.solve(control, false, watch_, report, surface).loads;
+  }
+
+  bool stays(std::size_t v) const { return !wanted_.fixed.empty() && wanted_.fixed[v]; }
+
+  // Of all inner vertices on pads.
+  void measure_matrix() {
+    ThinPlateSolver& solver = systems_.plate();
+    std::vector<double> own(std::size_t(mesh_.vertex_count()), 0.0);
+    if (const Pads* const pads = solver.pads()) {
+      for (Index v = 0; v < mesh_.input_vertices; ++v)
+        if (pads->under(std::size_t(v))) on_pads_.push_back(v);
+      require_room();
+      ProbedMatrix probed = load_matrix(
+          solver, problem_->basis.working_curves, on_pads_, [&](double begin, double end) {
+            const double part = matrix_done - surface_done;
+            monitor_.enter_part(surface_done + part * begin, surface_done + part * end);
+          });
+      monitor_.enter_part(matrix_done, 1);
+      g_ = std::move(probed.g);
+      out_.iterations += probed.solves;
+      for (std::size_t i = 0; i < on_pads_.size(); ++i)
+        own[std::size_t(on_pads_[i])] = g_.coeff(Index(i), Index(i));
+    }
+    gauge_.emplace(*problem_, std::move(own));
+  }
+
+  void require_room() const {
+    const std::size_t bytes = bytes_of_load_matrix(on_pads_.size());
+    if (MemoryLedger::fits(bytes)) return;
+    throw FairingError(
+        ErrorCode::too_large,
+        "The loads that " + std::to_string(on_pads_.size()) + " vertices ask for take " +
+            std::to_string(bytes >> 20) +
+            " MB more than memory_limit leaves. Raise it, or ease parts of the mesh.");
+  }
+
+  void find_movable() {
+    std::vector<Index> rows(on_pads_.size(), -1);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < on_pads_.size(); ++i) {
+      const auto v = std::size_t(on_pads_[i]);
+      if (stays(v)) continue;
+      rows[i] = Index(inner_.vertices.size());
+      inner_.vertices.push_back(on_pads_[i]);
+      shares.push_back(systems_.plate().pads()->total(v));
+    }
+    inner_.root = roots(std::move(shares));
+    inner_.g = part_of(g_, rows, rows, inner_.root, inner_.root);
+
+    const CurveLoads& curves = gauge_->curves();
+    for (std::size_t i = 0; i < curves.vertices().size(); ++i) {
+      const Index v = curves.vertices()[i];
+      if (stays(std::size_t(v)) || mesh_.vertex_part(v) != RegionPart::inside) continue;
+      curve_.vertices.push_back(v);
+      curve_.root.push_back(curves.roots()[i]);
+    }
+    const LoadMatrix& differences = curves.differences();
+    const std::vector<Index> columns = numbered(std::size_t(mesh_.vertex_count()), curve_.vertices);
+    std::vector<Index> all_rows(std::size_t(differences.rows()));
+    std::iota(all_rows.begin(), all_rows.end(), Index(0));
+    curve_.g = part_of(differences, all_rows, columns, std::vector<double>(all_rows.size(), 1.0),
+                       curve_.root);
+  }
+
+  EaseSystem inner_system(const Loads& loads) const {
+    Columns own(Eigen::Index(inner_.vertices.size()), 3);
+    for (std::size_t i = 0; i < inner_.vertices.size(); ++i)
+      own.row(Eigen::Index(i)) =
+          inner_.root[i] * loads[std::size_t(inner_.vertices[i])].transpose();
+    return inner_.system(std::move(own));
+  }
+
+  EaseSystem curve_system(const ControlPositions& control) const {
+    return curve_.system(gauge_->curves().differences() * columns_of(control.working));
+  }
+
+  Eigen::VectorXd bounds_of(const Movable& movable) const {
+    Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
+    for (std::size_t i = 0; i < movable.vertices.size(); ++i)
+      // less rounding, so that what is measured outside is within it
+      bounds[Eigen::Index(i)] = (1 - 1e-12) * movable.root[i] *
+                                wanted_.tolerance[std::size_t(movable.vertices[i])] /
+                                problem_->frame.scale;
+    return bounds;
+  }
+
+  // As much as the scatter says, and no less than bounds let pass. Curves and what is between them
+  // may scatter by different lengths: each kind has an amount of its own.
+  double amount(const Movable& movable, const EaseSystem& system) const {
+    if (!(system.mean() > 0)) return 0;
+    if (wanted_.amount >= 0) return wanted_.amount / system.mean();
+    const double s = cross_validated(system);
+    return wanted_.tolerance.empty() ? s : std::max(s, largest_within(system, bounds_of(movable)));
+  }
+
+  // Moves them, and says whether any does.
+  bool take(const Movable& movable, const EaseSystem& system) {
+    const double s = amount(movable, system);
+    if (!(s > 0)) return false;
+    const Columns moves =
+        wanted_.tolerance.empty() ? system.moves(s) : system.moves_within(s, bounds_of(movable));
+    double squared = 0;
+    for (std::size_t i = 0; i < movable.vertices.size(); ++i) {
+      const Vec3 way =
+          problem_->frame.scale / movable.root[i] * moves.row(Eigen::Index(i)).transpose();
+      squared += way.squaredNorm();
+      move(movable.vertices[i], way);
+    }
+    out_.amount = s * system.mean();
+    const double trace = system.trace(s);
+    out_.noise = trace > 0 ? std::sqrt(squared / trace) : 0;
+    return squared > 0;
+  }
+
+  void move(Index v, const Vec3& way) {
+    out_.moves[std::size_t(v)] += way;
+    for (int a = 0; a < 3; ++a) at_[3 * std::size_t(v) + std::size_t(a)] += way[a];
+  }
+
+  // Where some of them are on curves, what is inside is picked again about the curves as they are by
+  // then.
+  void move_worst(Loads loads, ControlPositions control) {
+    const std::size_t inner = on_pads_.size();
+    std::vector<Index> vertices = on_pads_;
+    vertices.insert(vertices.end(), gauge_->curve_vertices().begin(),
+                    gauge_->curve_vertices().end());
+    std::vector<std::uint8_t> may(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) may[i] = !stays(std::size_t(vertices[i]));
+    const std::vector<Index> number = numbered(std::size_t(mesh_.vertex_count()), vertices);
+    std::vector<Index> images(vertices.size(), -1);
+    for (std::size_t i = 0; i < vertices.size() && !wanted_.images.empty(); ++i)
+      images[i] = number[std::size_t(wanted_.images[std::size_t(vertices[i])])];
+    const LoadMatrix g = with_curves();
+    Index left = wanted_.most;
+    const auto pick = [&] {
+      Columns all(Eigen::Index(vertices.size()), 3);
+      for (std::size_t i = 0; i < inner; ++i)
+        all.row(Eigen::Index(i)) = loads[std::size_t(vertices[i])].transpose();
+      all.bottomRows(Eigen::Index(vertices.size() - inner)) = gauge_->pulls_of(control.working);
+      return moves_of_worst(g, all, {may, images, left});
+    };
+    const Worst first = pick();
+    if (std::none_of(first.rows.begin(), first.rows.end(),
+                     [&](Index row) { return std::size_t(row) >= inner; })) {
+      move_all(vertices, first, 0);
+      return;
+    }
+    left -= move_all(vertices, first, inner);
+    std::fill(may.begin() + std::ptrdiff_t(inner), may.end(), std::uint8_t(0));
+    control = problem_->control_positions(at_);
+    loads = loads_of(control);
+    if (left > 0) move_all(vertices, pick(), 0);
+  }
+
+  // The matrix of loads on pads, and beside it that of pulls on curves.
+  LoadMatrix with_curves() const {
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    const auto add = [&](const LoadMatrix& part, Index first) {
+      for (Eigen::Index i = 0; i < part.rows(); ++i)
+        for (LoadMatrix::InnerIterator entry(part, i); entry; ++entry)
+          entries.emplace_back(first + Index(i), first + Index(entry.col()), entry.value());
+    };
+    add(g_, 0);
+    add(gauge_->pulls(), Index(g_.rows()));
+    const Eigen::Index all = g_.rows() + gauge_->pulls().rows();
+    LoadMatrix out(all, all);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  }
+
+  // Those of rows from `first` on; how many, images not counted.
+  Index move_all(const std::vector<Index>& vertices, const Worst& worst, std::size_t first) {
+    Index count = 0;
+    for (std::size_t k = 0; k < worst.rows.size(); ++k) {
+      const auto row = std::size_t(worst.rows[k]);
+      if (row < first) continue;
+      count += !worst.is_image[k];
+      move(vertices[row], problem_->frame.scale * worst.moves.row(Eigen::Index(k)).transpose());
+    }
+    return count;
+  }
+
+  // Vertices that were merged are where the one is that they have become.
+  void restore() {
+    if (!mending_.mended()) return;
+    const std::vector<Index>& origin = mending_.mended()->vertex_origin;
+    for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v) {
+      const auto lead = std::size_t(origin[v]);
+      out_.moves[v] = out_.moves[lead];
+      out_.strain_before[v] = out_.strain_before[lead];
+      out_.strain_after[v] = out_.strain_after[lead];
+    }
+  }
+
+  const Mending& mending_;
+  const EaseOptions& wanted_;
+  Monitor& monitor_;
+  Report report_;
+  Stopwatch watch_;
+  std::unique_ptr<const FairingProblem> problem_;
+  const ControlMesh& mesh_;
+  FairingSystems systems_;
+  std::vector<double> at_;  // input vertices in world coordinates
+  std::optional<StrainGauge> gauge_;
+  std::vector<Index> on_pads_;
+  LoadMatrix g_;  // of these
+  Movable inner_, curve_;
+  EaseResult out_;
+};
+
+// What is said of vertices, of those that are left when some have been merged.
+struct Mapped {
+  std::vector<double> tolerance;
+  std::vector<std::uint8_t> fixed;
+  std::vector<std::int64_t> images;
+  EaseOptions options;
+
+  Mapped(const EaseOptions& wanted, const MendedMesh* mended)
+      : tolerance(wanted.tolerance.begin(), wanted.tolerance.end()),
+        fixed(wanted.fixed.begin(), wanted.fixed.end()),
+        images(wanted.images.begin(), wanted.images.end()),
+        options(wanted) {
+    if (!mended) return;
+    const std::vector<Index>& origin = mended->vertex_origin;
+    for (std::size_t v = 0; v < origin.size(); ++v) {
+      const auto lead = std::size_t(origin[v]);
+      if (!tolerance.empty()) tolerance[lead] = std::min(tolerance[lead], tolerance[v]);
+      if (!fixed.empty()) fixed[lead] |= fixed[v];
+    }
+    for (std::int64_t& image : images) image = origin[std::size_t(image)];
+    options.tolerance = tolerance;
+    options.fixed = fixed;
+    options.images = images;
+  }
+};
+
+}  // namespace
+
+EaseResult ease_control_mesh(const PolygonMesh& input, const FairOptions& options,
+                             const EaseOptions& wanted, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  try {
+    FairOptions own = options_of_strain(options);
+    if (input.vertex_count() > on_second_level) own.levels = 1;
+    const MemoryLedger ledger(own.bytes_allowed());
+    const Mending mending(input, own);
+    const Mapped mapped(wanted, mending.mended());
+    EaseResult out =
+        mending.in_input_ids([&] { return Easing(mending, mapped.options, monitor).run(); });
+    monitor.enter_part(0, 1);
+    monitor.report(Phase::done, 1);
+    return out;
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
+}  // namespace fairing

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "strain/load_matrix.h"
+
+#include <algorithm>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr double probe_tolerance = 1e-3;  // of each solve, relative
+// Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
+constexpr int rings_apart = 9;
+// Sets of a mesh of triangles and quads, about; more around vertices of many faces.
+constexpr std::size_t usual_sets = 90;
+
+}  // namespace
+
+ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
+                         const std::vector<Index>& vertices, const OnPart& on_part) {
+  const ControlMesh& mesh = solver.levels().shared().mesh;
+  const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
+  std::vector<Index> column(std::size_t(mesh.vertex_count()), -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i) column[std::size_t(vertices[i])] = Index(i);
+  std::vector<std::vector<std::pair<Index, double>>> rows(vertices.size());
+  probe_loads(solver, curves, sets, probe_tolerance, on_part,
+              [&](std::size_t set, const std::vector<double>& loads) {
+                const std::vector<Index> nearest = nearest_of(mesh, sets[set]);
+                for (std::size_t i = 0; i < vertices.size(); ++i) {
+                  const auto v = std::size_t(vertices[i]);
+                  const Index from = nearest[v] < 0 ? -1 : column[std::size_t(nearest[v])];
+                  if (from >= 0) rows[i].emplace_back(from, loads[v]);
+                }
+              });
+  ProbedMatrix out;
+  out.solves = int((sets.size() + 2) / 3);
+  const auto n = Eigen::Index(vertices.size());
+  out.g.resize(n, n);
+  std::size_t entries = 0;
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    entries += row.size();
+  }
+  out.g.reserve(Eigen::Index(entries));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    stop_if_cancelled(i);
+    out.g.startVec(Eigen::Index(i));
+    for (const auto& [from, load] : rows[i])
+      out.g.insertBack(Eigen::Index(i), Eigen::Index(from)) = load;
+    rows[i] = {};
+  }
+  out.g.finalize();
+  return out;
+}
+
+std::size_t bytes_of_load_matrix(std::size_t vertices) {
+  // while rows are put together, and twice as a matrix: for a product with it and its transpose
+  return vertices * usual_sets *
+         (sizeof(std::pair<Index, double>) + 2 * (sizeof(double) + sizeof(Index)));
+}
+
+}  // namespace fairing

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ease Control Mesh: what the core is asked for, where its answer goes, and what is said of it."""
+
+from types import SimpleNamespace
+
+import bpy
+import discrete_fairing
+import numpy as np
+import pytest
+from dunes import OFF, WRONG, add_dune, dune
+from scenes import activate, fair, positions, snapshot
+
+from addon.mesh.shape_keys import EASED
+from addon.strain import words
+from addon.strain.ease import EaseJob, Wish
+
+NAN = float("nan")
+
+
+@pytest.fixture
+def core(monkeypatch):
+    """Stands for the core's ease: lets the wrong vertex go back, and remembers what it was asked."""
+    asked = {}
+
+    def ease(vertices, faces, *, tolerance=None, most=None, fixed=None, **options):
+        asked.clear()
+        asked.update(options, tolerance=tolerance, most=most, fixed=fixed, vertices=vertices)
+        strain = discrete_fairing.strain(vertices, faces, **options).lengths
+        moves = np.zeros_like(vertices)
+        if fixed is None or not fixed[WRONG]:
+            moves[WRONG, 2] = -OFF if tolerance is None else -min(OFF, tolerance)
+        return SimpleNamespace(
+            vertices=vertices + moves,
+            moves=np.linalg.norm(moves, axis=1),
+            strain_before=strain,
+            strain_after=strain,
+            amount=1.0,
+            noise=0.01,
+            iterations=3,
+        )
+
+    monkeypatch.setattr(discrete_fairing, "ease", ease, raising=False)
+    return asked
+
+
+def key(source):
+    values = np.empty(3 * len(source.data.vertices), np.float32)
+    source.data.shape_keys.key_blocks[EASED].data.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def eased(**settings):
+    assert bpy.ops.object.fairing_ease(**settings) == {"FINISHED"}
+
+
+def test_the_mesh_stays_and_the_shape_key_has_the_new_places(core):
+    source = add_dune()
+    before = snapshot(source)
+    eased()
+    after = snapshot(source)
+    assert after[0] == before[0] and after[1:] == before[1:]
+    moved = key(source) - np.float32(dune())
+    assert moved[WRONG] == pytest.approx([0.0, 0.0, -OFF], abs=1e-6)
+    assert not np.delete(moved, WRONG, axis=0).any()
+    block = source.data.shape_keys.key_blocks[EASED]
+    assert block.value == 1.0 and block.relative_key.name == "Basis"
+
+
+def test_again_it_is_the_same_key_of_the_same_mesh(core):
+    source = add_dune()
+    eased()
+    eased(amount="TOLERANCE", tolerance=0.02)
+    assert list(source.data.shape_keys.key_blocks.keys()) == ["Basis", EASED]
+    assert np.allclose(core["vertices"], dune(), atol=1e-6), "of the mesh, not of what was eased"
+    assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
+
+
+def test_or_it_goes_on_from_there(core):
+    source = add_dune()
+    eased(amount="TOLERANCE", tolerance=0.02)
+    eased(amount="TOLERANCE", tolerance=0.03, go_on=True)
+    assert (core["vertices"] - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
+    assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.05, abs=1e-5)
+
+
+def test_other_shape_keys_stay(core):
+    source = add_dune()
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Other").value = 0.5
+    eased()
+    blocks = source.data.shape_keys.key_blocks
+    assert list(blocks.keys()) == ["Basis", "Other", EASED] and blocks["Other"].value == 0.5
+    assert not (key(source) - np.float32(dune()))[:WRONG].any(), "not as the others mix"
+    source.data.shape_keys.use_relative = False
+    with pytest.raises(RuntimeError, match="absolute shape keys"):
+        bpy.ops.object.fairing_ease()
+
+
+def test_or_a_copy(core):
+    source = add_dune()
+    source.vertex_groups.new(name="Bow").add([WRONG], 1.0, "REPLACE")
+    source.shape_key_add(name="Basis")
+    eased(result="COPY")
+    copy = bpy.context.active_object
+    assert copy.name == "Dune Eased" and copy.data != source.data
+    assert copy.data.shape_keys is None and copy.vertex_groups.keys() == ["Bow"]
+    assert (positions(copy.data) - dune())[WRONG, 2] == pytest.approx(-OFF, abs=1e-5)
+    assert np.allclose(positions(source.data), dune(), atol=1e-6)
+    assert list(source.data.shape_keys.key_blocks.keys()) == ["Basis"]
+
+
+def test_what_the_core_is_asked_for(core):
+    source = add_dune()
+    scene = bpy.context.scene.discrete_fairing
+    scene.energy, scene.interpolation, scene.tolerance = "TOTAL_CURVATURE", "APPROXIMATE", 0.3
+    scene.use_selection = True
+    eased()
+    assert core["energy"] == "thin_plate" and core["interpolation"] == "exact"
+    assert core["tolerance"] is core["most"] is core["fixed"] is None and "region" not in core
+    eased(amount="TOLERANCE", tolerance=0.02, count=5)
+    assert core["tolerance"] == pytest.approx(0.02) and core["most"] is None
+    source.data.vertices.foreach_set("select", np.arange(63) == WRONG)
+    eased(amount="WORST", count=2, tolerance=0.5, use_selection=True)
+    assert core["tolerance"] is None and core["most"] == 2
+    assert np.flatnonzero(~core["fixed"]).tolist() == [WRONG]
+    source.data.vertices.foreach_set("select", np.zeros(63, bool))
+    with pytest.raises(RuntimeError, match="no vertex is selected"):
+        bpy.ops.object.fairing_ease(use_selection=True)
+
+
+def test_lengths_are_those_of_the_world(core):
+    source = add_dune()
+    source.scale = (1.0, 1.0, 0.5)
+    bpy.context.view_layer.update()
+    eased(amount="TOLERANCE", tolerance=0.02)
+    assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.04, abs=1e-5)
+
+
+def test_the_surface_stands_for_its_source_and_gets_the_key(core):
+    source = add_dune()
+    surface = fair(levels=2, hide_source=False)
+    before = positions(surface.data)[WRONG]
+    eased()
+    assert EASED in source.data.shape_keys.key_blocks
+    activate(surface)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert surface.data.shape_keys.key_blocks[EASED].value == 1.0
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+
+
+def moved(surface, before):
+    seen = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    return (positions(seen)[WRONG] - before)[2]
+
+
+def test_a_live_surface_gets_the_key_once_its_full_level_comes(core):
+    source = add_dune()
+    surface = fair(levels=2, hide_source=False)
+    before = positions(surface.data)[WRONG]
+    surface.discrete_fairing_live.on = True
+    activate(source)
+    eased()
+    bpy.context.view_layer.update()
+    surface.discrete_fairing_live.on = False  # without a window the full level comes now
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+
+
+def test_with_modifiers_live_follows_the_slider(core):
+    source = add_dune()
+    surface = fair(levels=2, hide_source=False, mesh_source="EVALUATED")
+    before = positions(surface.data)[WRONG]
+    surface.discrete_fairing_live.on = True
+    activate(source)
+    eased()
+    bpy.context.view_layer.update()
+    assert moved(surface, before) == pytest.approx(-OFF, abs=1e-4)
+    source.data.shape_keys.key_blocks[EASED].value = 0.5
+    bpy.context.view_layer.update()
+    assert moved(surface, before) == pytest.approx(-0.5 * OFF, abs=1e-4)
+    surface.discrete_fairing_live.on = False
+
+
+def test_a_mesh_that_was_edited_meanwhile_is_left_alone(core):
+    source = add_dune()
+    job = EaseJob(bpy.context, source, Wish("AUTOMATIC"))
+    job.compute()
+    assert job.why_outdated(bpy.context) == ""
+    source.data.vertices[3].co.z += 1.0
+    assert "was edited during the run" in job.why_outdated(bpy.context)
+    bpy.data.objects.remove(source)
+    assert "was deleted" in job.why_outdated(bpy.context)
+
+
+def test_edit_mode_has_its_own(core):
+    add_dune()
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not bpy.ops.object.fairing_ease.poll()
+
+
+def test_words():
+    def text(length):
+        return f"{length:g}"
+
+    strain = np.array([NAN, 0.042, -0.001, 0.002])
+    moves = np.array([0.0, 0.03, 0.001, 0.0])
+    said = words.eased(0.008, moves, strain, np.array([1]), 0.01, text)
+    assert said == (
+        "Offsets are scattered by about 0.008. 1 of 3 vertices is off by more: 1 by 0.042. "
+        "The largest move is 0.03, at vertex 1."
+    )
+    none = words.eased(0.008, moves, strain, np.array([], int), 0.05, text)
+    assert "No vertex is off by more than scatter explains, 0.05." in none
+    assert words.eased(0.0, 0 * moves, strain, np.array([1]), 0.01, text).startswith(
+        "No vertex moved"
+    )
+    assert words.moved(moves, text) == "2 vertices moved: 1 by 0.03 and 2 by 0.001"
+    assert words.moved(0 * moves, text).startswith("No vertex moved")
+    within = words.moved_within(moves, 0.03, strain, text)
+    assert within.startswith(
+        "2 vertices moved by at most 0.03. The largest move is 0.03, at vertex 1."
+    )
+    assert within.endswith(" 1 vertex strained by more than the tolerance before.")
+
+
+def test_the_words_are_those_of_the_run(core):
+    add_dune()
+    job = EaseJob(bpy.context, bpy.context.object, Wish("AUTOMATIC"))
+    job.compute()
+    said = job.said(lambda length: f"{length:.3f}")
+    held = int((~np.isnan(job.result.strain_before)).sum())
+    assert said.startswith(
+        f"Offsets are scattered by about 0.010. 1 of {held} vertices is off by more: 31 by 0.1"
+    )
+
+
+def test_the_worst_vertex_goes_back_and_no_other_moves():
+    source = add_dune()
+    eased(amount="WORST", count=1)
+    moved = key(source) - np.float32(dune())
+    assert moved[WRONG, 2] == pytest.approx(-OFF, rel=0.15)
+    assert not np.delete(moved, WRONG, axis=0).any()
+
+
+def test_no_vertex_leaves_its_tolerance():
+    source = add_dune()
+    eased(amount="TOLERANCE", tolerance=0.02)
+    moves = np.linalg.norm(key(source) - dune(), axis=1)
+    assert moves.max() == pytest.approx(0.02, rel=1e-3)
+
+
+def test_selected_vertices_alone_move():
+    source = add_dune(wrong=(24, WRONG))
+    source.data.vertices.foreach_set("select", np.isin(np.arange(63), (WRONG, 32)))
+    eased(use_selection=True, amount="WORST", count=5)
+    moves = np.linalg.norm(key(source) - np.float32(dune(wrong=(24, WRONG))), axis=1)
+    assert moves[WRONG] > 0.3 * OFF and set(np.flatnonzero(moves)) <= {WRONG, 32}

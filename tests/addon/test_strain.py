@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strain in Blender: measured of a source, shown, selected, jumped to, written as a table."""
+
+import csv
+
+import bmesh
+import bpy
+import discrete_fairing
+import numpy as np
+import pytest
+from dunes import OFF, WRONG, add_dune, dune, grid
+from fake_layout import Layout
+from scenes import CUBE, activate, add, fair, snapshot
+
+from addon.mesh.shape_keys import EASED
+from addon.strain import known
+from addon.strain.measure import StrainJob
+from addon.strain.strained import above
+from addon.ui.strain import VIEW3D_PT_fairing_strain
+
+
+def measured(source, **options):
+    job = StrainJob(bpy.context, source, **options)
+    job.compute()
+    return job.result
+
+
+def selected(source):
+    assert bpy.context.mode == "EDIT_MESH"
+    return [v.index for v in bmesh.from_edit_mesh(source.data).verts if v.select]
+
+
+def test_strain_is_that_of_the_package():
+    source = add_dune()
+    it = measured(source)
+    there = discrete_fairing.strain(
+        dune(), grid(), boundary="curve", corner_vertices=[0, 6, 56, 62]
+    )
+    assert np.allclose(it.lengths, there.lengths, rtol=1e-4, atol=1e-6, equal_nan=True)
+    assert it.worst(1).tolist() == [WRONG] and it.lengths[WRONG] == pytest.approx(-OFF, rel=0.15)
+    assert it.wrong.tolist() == [WRONG], "though its neighbours strain half as much"
+    assert len(above(it.lengths, 0.4 * OFF)) > 4
+    assert it.edge_length == pytest.approx(1.0, rel=0.05)
+
+
+def test_lengths_are_those_in_the_world_and_ways_those_of_the_object():
+    plain = measured(add_dune())
+    large = add_dune()
+    large.scale = (2.0, 2.0, 2.0)
+    large.rotation_euler.x = 1.0
+    bpy.context.view_layer.update()
+    it = measured(large)
+    assert it.lengths[WRONG] == pytest.approx(2.0 * plain.lengths[WRONG], rel=1e-4)
+    assert it.ways[WRONG] == pytest.approx(plain.ways[WRONG], rel=1e-3, abs=1e-5)
+
+
+def test_edits_of_edit_mode_and_sliders_count():
+    source = add_dune(off=0.0)
+    bpy.ops.object.mode_set(mode="EDIT")
+    edited = bmesh.from_edit_mesh(source.data)
+    edited.verts.ensure_lookup_table()
+    edited.verts[24].co.z += 0.2
+    assert measured(source).worst(1).tolist() == [24]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Right").data[24].co.z -= 0.2
+    assert measured(source).lengths[24] == pytest.approx(-0.2, rel=0.15)
+    source.data.shape_keys.key_blocks["Right"].value = 1.0
+    assert abs(measured(source).lengths[24]) < 0.03
+    assert measured(source, as_mixed=False).lengths[24] == pytest.approx(-0.2, rel=0.15)
+    group = source.vertex_groups.new(name="Half")
+    group.add([24], 0.5, "REPLACE")
+    source.data.shape_keys.key_blocks["Right"].vertex_group = "Half"
+    assert measured(source).lengths[24] == pytest.approx(-0.1, rel=0.2)
+
+
+def test_borders_and_creases_are_those_of_the_surface():
+    source = add_dune()
+    fair(levels=1, boundary="LINEAR", hide_source=False)
+    assert np.isnan(measured(source).lengths[3]), "straight borders stay"
+    activate(source)
+    fair(levels=1, symmetry_plane="X", hide_source=False)
+    last = measured(source).lengths[3]
+    assert not np.isnan(last), "of several surfaces the last one counts"
+    for name in ("Dune Fair", "Dune Fair.001"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    alone = measured(source).lengths[3]
+    assert not np.isnan(alone) and alone != last, "the border's own curve"
+
+
+def test_any_settings_of_the_panel_will_do():
+    source = add_dune()
+    for settings in (
+        {"energy": "MINIMUM_VARIATION"},
+        {"interpolation": "LIMIT"},
+        {"interpolation": "APPROXIMATE", "tolerance": 0.1},
+        {"pad_size": 0.0},
+        {"use_selection": True},
+        {"tension": 0.5},
+    ):
+        for name, value in settings.items():
+            setattr(bpy.context.scene.discrete_fairing, name, value)
+        assert measured(source).worst(1).tolist() == [WRONG], settings
+
+
+def test_nothing_is_computed_twice(monkeypatch):
+    source = add_dune()
+    job = known.job_for(bpy.context, source)
+    assert job.predicted_seconds > 0.0
+    job.compute()
+    known.keep(job)
+    again = known.job_for(bpy.context, source)
+    assert again.result is job.result and again.predicted_seconds == 0.0
+    source.location.x = 5.0
+    assert known.job_for(bpy.context, source).result is not None, "the place does not matter"
+    source.data.vertices[10].co.z += 0.1
+    assert known.job_for(bpy.context, source).result is None
+    bpy.context.scene.discrete_fairing.metric_exponent = 0.0
+    assert known.job_for(bpy.context, source).result is None
+
+
+def test_selects_the_wrong_one_the_worst_or_those_above_a_length():
+    source = add_dune()
+    before = snapshot(source)
+    assert bpy.ops.object.fairing_select_strained() == {"FINISHED"}
+    assert selected(source) == [WRONG]
+    assert bpy.ops.object.fairing_select_strained(by="COUNT", count=4) == {"FINISHED"}
+    found = known.found_of(source)
+    assert selected(source) == sorted(found.worst(4).tolist())
+    bpy.ops.object.fairing_select_strained(by="THRESHOLD", threshold=0.5 * OFF)
+    assert selected(source) == [WRONG]
+    bpy.ops.object.fairing_select_strained(by="THRESHOLD", threshold=10.0)
+    assert selected(source) == []
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = snapshot(source)
+    for name in ("position", ".edge_verts", ".corner_vert"):
+        assert after[0][name] == before[0][name]
+
+
+def test_the_surface_stands_for_its_source():
+    source = add_dune()
+    fair(levels=1)
+    assert source.hide_get()
+    assert bpy.ops.object.fairing_select_strained() == {"FINISHED"}
+    assert bpy.context.active_object == source and selected(source) == [WRONG]
+
+
+def test_a_click_goes_to_the_vertex():
+    source = add_dune()
+    assert bpy.ops.object.fairing_go_to_strained(vertex=24) == {"FINISHED"}
+    assert selected(source) == [24]
+    with pytest.raises(RuntimeError, match="has no vertex 63"):
+        bpy.ops.object.fairing_go_to_strained(vertex=63)
+
+
+def test_shown_and_hidden_again():
+    source = add_dune()
+    for show in (True, False):
+        assert bpy.ops.object.fairing_strain() == {"FINISHED"}
+        assert source.discrete_fairing_strain.show is show
+        assert list(known.shown_sources()) == ([source] if show else [])
+
+
+def read_table(path):
+    with path.open(newline="") as file:
+        return list(csv.reader(file))
+
+
+def test_the_table_has_places_in_the_world_and_the_eased_ones(tmp_path):
+    source = add_dune()
+    source.location.z = 10.0
+    path = tmp_path / "offsets.csv"
+    assert bpy.ops.object.fairing_strain_table(filepath=str(path)) == {"FINISHED"}
+    head, *rows = read_table(path)
+    assert head == ["vertex", "x", "y", "z", "strain"] and len(rows) == 63
+    places = np.array([row[1:4] for row in rows], float)
+    assert np.allclose(places, dune() + [0.0, 0.0, 10.0], atol=1e-5)
+    assert float(rows[WRONG][4]) == pytest.approx(-OFF, rel=0.15) and rows[0][4] == ""
+    source.shape_key_add(name="Basis")
+    key = source.shape_key_add(name=EASED)
+    key.data[WRONG].co.z -= OFF
+    key.value = 1.0
+    bpy.ops.object.fairing_strain_table(filepath=str(path))
+    head, *rows = read_table(path)
+    moves = np.array([row[7] for row in rows], float)
+    assert moves[WRONG] == pytest.approx(OFF, rel=1e-4) and np.delete(moves, WRONG).max() == 0.0
+    assert float(rows[WRONG][8]) == pytest.approx(-OFF, rel=0.15), (
+        "before, whatever the slider says"
+    )
+
+
+def test_no_table_where_none_can_be_written(tmp_path):
+    add_dune()
+    with pytest.raises(RuntimeError, match="cannot be written"):
+        bpy.ops.object.fairing_strain_table(filepath=str(tmp_path))
+
+
+def test_the_panel_lists_the_worst():
+    source = add_dune()
+    panel = type("Panel", (), {"layout": Layout()})()
+    VIEW3D_PT_fairing_strain.draw(panel, bpy.context)
+    assert not any("scatter" in str(line) for line in panel.layout.log)
+    bpy.ops.object.fairing_select_strained()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    source.discrete_fairing_strain.show = True
+    VIEW3D_PT_fairing_strain.draw(panel, bpy.context)
+    log = [str(line) for line in panel.layout.log]
+    assert sum("object.fairing_go_to_strained" in line for line in log) == 10
+    assert f"Out of line: 1 of {len(known.found_of(source).held)}" in log
+    assert any("inwards" in line for line in log)
+
+
+def test_why_there_is_no_strain_is_said():
+    add("Lines", *([(0, 0, 0), (1, 0, 0)], []), edges=[(0, 1)])
+    with pytest.raises(RuntimeError, match="Lines: "):
+        bpy.ops.object.fairing_select_strained()
+    closed = add("Box", *CUBE)
+    assert len(measured(closed).held) == 8

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is drawn, said and written of strain, as plain arrays and texts."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from addon.strain import drawn, table, words
+from addon.strain.strained import Strained, above, floor_of
+
+NAN = float("nan")
+
+
+def strained(lengths=(0.01, -0.04, NAN, 0.02), edge=1.0):
+    lengths = np.array(lengths)
+    positions = np.arange(3.0 * len(lengths)).reshape(-1, 3)
+    ways = np.zeros_like(positions)
+    ways[:, 2] = np.nan_to_num(lengths)
+    return Strained(positions, ways, lengths, np.empty((0, 2), np.int32), edge)
+
+
+def text(length):
+    return f"{length:g}"
+
+
+def test_the_worst_come_first_and_vertices_on_curves_never():
+    it = strained()
+    assert it.worst(10).tolist() == [1, 3, 0] and it.worst(2).tolist() == [1, 3]
+    assert above(it.lengths, 0.015).tolist() == [1, 3] and above(it.lengths, 0.04).tolist() == []
+    assert it.largest == 0.04
+    none = strained((NAN, NAN))
+    assert none.worst(3).tolist() == [] and none.largest == none.floor == 0.0
+
+
+def test_scatter_alone_stays_below_the_floor_and_a_wrong_vertex_does_not():
+    scatter = np.random.default_rng(3).normal(0.0, 0.01, 400)
+    assert floor_of(scatter) == pytest.approx(0.03, rel=0.15)
+    assert np.mean(np.abs(scatter) > floor_of(scatter)) < 0.01
+    scatter[7], scatter[8] = -0.08, NAN
+    assert above(scatter, floor_of(scatter))[0] == 7
+    assert floor_of(scatter) == pytest.approx(0.03, rel=0.15), "which one vertex does not lift"
+
+
+def test_what_only_echoes_a_worse_neighbour_is_not_wrong():
+    """A row of vertices, of which 10 and 40 are out of line, and the neighbours say so too."""
+    lengths = np.where(np.arange(60) % 2, 0.001, -0.001)
+    lengths[[8, 9, 10, 11, 12]] = -0.017, 0.047, -0.1, 0.047, -0.017
+    lengths[40] = 0.02
+    edges = np.stack([np.arange(59), np.arange(1, 60)], axis=1)
+    it = Strained(np.zeros((60, 3)), np.zeros((60, 3)), lengths, edges, 1.0)
+    assert above(it.lengths, it.floor).tolist() == [10, 9, 11, 40, 8, 12]
+    assert it.wrong.tolist() == [10, 40]
+    lengths[11] = 0.09  # more than an echo
+    again = Strained(it.positions, it.ways, lengths, edges, 1.0)
+    assert again.wrong.tolist() == [10, 11, 40]
+
+
+@pytest.mark.parametrize(
+    ("longest", "edge", "length", "times"),
+    [
+        (0.04, 1.0, 1.0, 20.0),
+        (0.04, 1.0, 0.5, 10.0),
+        (0.05, 1.0, 1.0, 20.0),
+        (2.0, 1.0, 1.0, 1.0),
+        (1e-9, 1.0, 1.0, 1000.0),
+        (0.0, 1.0, 1.0, 1.0),
+        (0.04, 1.0, 0.0, 1.0),
+    ],
+)
+def test_needles_are_lengthened_by_round_numbers(longest, edge, length, times):
+    assert drawn.magnification(strained((0.0, longest), edge), length) == times
+
+
+def test_a_needle_goes_from_its_vertex_to_where_the_surface_wants_to_be():
+    it = strained()
+    points, colours = drawn.needles(it, 10.0)
+    assert points.shape == (6, 3) and colours.shape == (6, 4) and points.dtype == np.float32
+    assert np.array_equal(points[::2], np.float32(it.positions[[0, 1, 3]]))
+    assert (points[1::2] - points[::2])[:, 2] == pytest.approx([0.1, -0.4, 0.2], abs=1e-6)
+    red, blue = colours[4], colours[2]
+    assert red[0] > red[2] and blue[2] > blue[0], "outside is red, inside blue"
+    assert np.array_equal(colours[::2], colours[1::2])
+    assert np.ptp(colours[0, :3]) < np.ptp(red[:3]), "small strains are pale"
+
+
+def test_dots_are_two_triangles_each_and_the_worst_lies_on_top():
+    places, away, colours = drawn.dots(strained())
+    assert places.shape == (18, 3) and away.shape == (18, 2) and colours.shape == (18, 4)
+    assert np.array_equal(places[-6:], np.tile(np.float32([3, 4, 5]), (6, 1))), "vertex 1"
+    corners = away[:6].reshape(2, 3, 2)
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    assert (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).tolist() == [4.0, 4.0], "they fill a square"
+    assert [len(part) for part in drawn.dots(strained((NAN,)))] == [0, 0, 0]
+
+
+def test_labels_stand_at_the_tips_of_the_worst():
+    (first, said), (_, second) = drawn.labels(strained(), 2, 10.0, text)
+    assert (said, second) == ("1: 0.04", "3: 0.02")
+    assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])
+
+
+def test_words():
+    lengths = np.array([0.01, -0.04, NAN, 0.02])
+    assert words.found(np.array([1]), lengths, text) == "1 of 3 vertices selected: 1 by 0.04"
+    many = np.linspace(1.0, 2.0, 8)
+    said = words.listed(np.arange(7, -1, -1), many, text)
+    assert said.startswith("7 by 2, 6 by 1.85714, ") and said.endswith(" and 3 more")
+    assert words.listed([1, 3], lengths, text) == "1 by 0.04 and 3 by 0.02"
+
+
+def test_the_table_can_be_read_back():
+    it = strained()
+    eased = it.positions + [0.0, 0.3, 0.4]
+    (head, *rows) = csv.reader(io.StringIO(table.text(table.rows(it.positions, it.lengths, eased))))
+    assert ",".join(head) == "vertex,x,y,z,x_eased,y_eased,z_eased,move,strain"
+    assert [row[0] for row in rows] == ["0", "1", "2", "3"] and rows[2][-1] == ""
+    numbers = np.array([row[1:-1] for row in rows], float)
+    assert np.allclose(numbers[:, :3], it.positions) and np.allclose(numbers[:, 3:6], eased)
+    assert np.allclose(numbers[:, 6], 0.5)
+    plain = table.rows(it.positions, it.lengths)
+    assert plain[0] == ["vertex", "x", "y", "z", "strain"] and plain[2][-1] == "-0.04"

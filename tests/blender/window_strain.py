@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dots, needles and labels of strain over the viewport: in Object and Edit Mode, and while Live is on."""
+
+import importlib
+import subprocess
+import sys
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bmesh
+import bpy
+import harness
+import numpy as np
+
+ROWS, COLUMNS, WRONG = 9, 7, 31
+PATIENCE = 20.0  # seconds until strain must have been measured
+
+
+def pixels(name):
+    """(h, w, 3) uint8 of the viewport, as X shows it."""
+    path = harness.photograph(name)
+    region = harness.view()["region"]
+    top = harness.view()["window"].height - region.y - region.height
+    crop = f"{region.width}x{region.height}+{region.x}+{top}"
+    command = ["convert", path, "-crop", crop, "-depth", "8", "rgb:-"]
+    done = subprocess.run(command, check=True, capture_output=True, timeout=60)
+    return np.frombuffer(done.stdout, np.uint8).reshape(region.height, region.width, 3)
+
+
+def blue(picture):
+    """How many pixels have the colour of the longest needle inwards."""
+    r, g, b = (picture[:, :, i].astype(int) for i in range(3))
+    return int(np.count_nonzero((b > 100) & (b - r > 70) & (g < 90)))
+
+
+def sheet():
+    """A smooth sheet of quads, one vertex of which stands out."""
+    bpy.data.objects.remove(harness.add_suzanne())
+    x, y = np.meshgrid(np.linspace(0, 8, ROWS), np.linspace(0, 6, COLUMNS), indexing="ij")
+    points = np.stack([x, y, 0.4 * np.sin(0.5 * x) * np.cos(0.4 * y)], axis=2).reshape(-1, 3)
+    points[WRONG, 2] += 0.1
+    at = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS)
+    faces = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=2).reshape(-1, 4)
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata(points.tolist(), [], faces.tolist())
+    target = bpy.data.objects.new("Sheet", mesh)
+    bpy.context.collection.objects.link(target)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.context.view_layer.objects.active = target
+        target.select_set(True)
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
+        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITUP")
+        bpy.ops.view3d.view_selected()
+        target.select_set(False)
+        bpy.ops.ed.undo_push(message="A sheet is there")
+    return target
+
+
+def room():
+    return importlib.import_module(f"{harness.EXTENSION}.strain.known")
+
+
+def until_measured(target):
+    """Waits for what is shown to be up to date; a generator."""
+    begun = perf_counter()
+    yield 0.5
+    while room().is_behind(target) or room().found_of(target) is None:
+        assert perf_counter() - begun < PATIENCE, "strain is not measured"
+        yield 0.1
+    yield 1.0
+
+
+def show(target):
+    with bpy.context.temp_override(**harness.view(), active_object=target):
+        bpy.ops.object.fairing_strain("INVOKE_DEFAULT")
+
+
+def test_dots_needles_and_labels():
+    target = sheet()
+    yield from harness.open_sidebar("Fairing")
+    yield 0.5
+    before = blue(pixels("strain_before"))
+    show(target)
+    yield from until_measured(target)
+    shown = blue(pixels("strain"))
+    assert shown > before + 40, (before, shown)
+    assert room().found_of(target).wrong.tolist() == [WRONG]
+    with bpy.context.temp_override(**harness.view(), active_object=target):
+        bpy.ops.ed.undo_push(message="Strain")
+        bpy.ops.ed.undo()
+    yield 1.0
+    assert blue(pixels("strain_undone")) <= before + 5
+
+
+def test_edit_mode_follows_the_edit():
+    target = sheet()
+    show(target)
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="EDIT")
+    yield from until_measured(target)
+    assert blue(pixels("strain_edit_mode")) > 40
+    edited = bmesh.from_edit_mesh(target.data)
+    edited.verts.ensure_lookup_table()
+    edited.verts[WRONG].co.z -= 0.1
+    edited.verts[24].co.z += 0.15
+    bmesh.update_edit_mesh(target.data)
+    yield from until_measured(target)
+    assert room().found_of(target).wrong.tolist() == [24]
+    assert blue(pixels("strain_edited")) > 40
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_beside_a_live_surface():
+    target = sheet()
+    with bpy.context.temp_override(
+        **harness.view(), active_object=target, selected_objects=[target]
+    ):
+        bpy.ops.object.fairing_surface(levels=3, hide_source=False)
+    surface = bpy.data.objects["Sheet Fair"]
+    surface.select_set(False)
+    surface.discrete_fairing_live.on = True
+    show(target)
+    yield from until_measured(target)
+    assert blue(pixels("strain_live")) > 40
+    target.data.vertices[WRONG].co.z -= 0.1
+    target.data.vertices[24].co.z += 0.15
+    target.data.update()
+    yield from until_measured(target)
+    assert room().found_of(target).wrong.tolist() == [24]
+    pixels("strain_live_moved")
+    assert surface.discrete_fairing_live.on
+    surface.discrete_fairing_live.on = False
+    yield 2.0
+
+
+harness.run_in_window(globals())
