@@ -34,6 +34,8 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
   py::dict d;
   d["lengths"] = numbers(strain.lengths);
   d["ways"] = points(strain.ways);
+  d["on_curve"] =
+      py::array_t<std::uint8_t>(py::ssize_t(strain.on_curve.size()), strain.on_curve.data());
   return d;
 }
 

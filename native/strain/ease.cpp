@@ -22,8 +22,8 @@ constexpr Eigen::Index few = 400;
 // unknowns the trace is within 3 per cent, alike for all amounts.
 constexpr int lanczos_steps = 60, sign_vectors = 8;
 // Of conjugate gradients.
-constexpr double step_tolerance = 1e-8;
-constexpr int most_steps = 2000;
+constexpr double step_tolerance = 1e-5;
+constexpr int most_steps = 500;
 // Amounts that are tried, times the mean of G's eigenvalues: ten a decade.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
 constexpr int amounts = 61;
