@@ -20,6 +20,15 @@ Vec3 normal_of(const ControlMesh& mesh, Index v) {
   return sum.stableNormalized();
 }
 
+void Strain::restore(const std::vector<Index>& origin) {
+  for (std::size_t v = 0; v < std::min(origin.size(), ways.size()); ++v) {
+    const auto lead = std::size_t(origin[v]);
+    ways[v] = ways[lead];
+    lengths[v] = lengths[lead];
+    on_curve[v] = on_curve[lead];
+  }
+}
+
 StrainGauge::StrainGauge(const FairingProblem& problem, std::vector<double> own)
     : problem_(problem),
       own_(std::move(own)),

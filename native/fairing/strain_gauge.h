@@ -18,6 +18,9 @@ struct Strain {
   std::vector<Vec3> ways;
   std::vector<double> lengths;
   std::vector<std::uint8_t> on_curve;  // over zero where a curve says it
+
+  // Each vertex that was merged with another gets what that one has: `origin` one a vertex.
+  void restore(const std::vector<Index>& origin);
 };
 
 class StrainGauge {

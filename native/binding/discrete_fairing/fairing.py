@@ -13,7 +13,7 @@ from .arrays import face_arrays, shape_array, vertex_array
 from .halves import Half
 from .options import SETTINGS, native_options
 from .result import Result
-from .strain import strain_of
+from .strain import require_strain, strain_of
 from .watching import Progress, check_watchers
 
 
@@ -217,12 +217,13 @@ def fair(
         corners, offsets = half.faces(corners, offsets)
     options = native_options(**settings)
     watch = monitor or _native.Monitor()
-    # first, as it refuses what has none
-    strained = strain_of(points, corners, offsets, settings, half, watch) if strain else None
+    if strain:
+        require_strain(settings)
     with half.named() if half else nullcontext():
         found = _native.fair(points, corners, offsets, others, options, watch, progress)
     result = Result(half.cut(found) if half else found)
-    if strained:
+    if strain:
+        strained = strain_of(points, corners, offsets, settings, half, watch)
         result.strain = strained.lengths
         result.report["strain"] = strained.report()
     return result

@@ -106,10 +106,18 @@ def strain_of(
 ) -> Strain:
     """The same for fair(), of the plate that total curvature starts from, too. Arrays and settings
     are those of the double where there is a `half`."""
-    own = dict(settings)
-    if own.get("energy") == "total_curvature":
-        own["energy"] = "thin_plate"
-    return _measured(points, corners, offsets, own, half, monitor, None)
+    return _measured(points, corners, offsets, _of_plate(settings), half, monitor, None)
+
+
+def require_strain(settings: dict[str, Any]) -> None:
+    """Raises what strain_of() would for these settings."""
+    _native.require_strain(native_options(**_of_plate(settings)))
+
+
+def _of_plate(settings: dict[str, Any]) -> dict[str, Any]:
+    if settings.get("energy") != "total_curvature":
+        return settings
+    return settings | {"energy": "thin_plate"}
 
 
 def _measured(
