@@ -1,80 +1,186 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scattered offsets: what Near does to their error, and when strain finds the one that is wrong.
+"""Scattered offsets: what Near and easing do to their error, and when strain finds the wrong one.
 
-9 x 7 vertices over 1 x 0.75, an eighth apart. All inner ones are off by a normal scatter, one of
-them by six times as much.
+All inner vertices are off by a normal scatter along the shape's normal. With one more of them off by
+six times as much, the most strained one is let go. Lengths are in control edges.
 """
 
+from collections.abc import Callable
 from typing import Any
 
+import control_meshes
 import discrete_fairing as df
 import numpy as np
 import table
 
-SCATTER = 0.0007
-PLANTED = 6 * SCATTER
-TOLERANCES = (0.0005, 0.001, 0.002, 0.004)
 SEEDS = 20
+SCATTERS = (0.005, 0.02)  # control edges
+PLANTED = 6
+SHARES = (0.25, 0.5, 1, 2, 4)  # tolerances, over the scatter
+AMOUNTS = (0.5, 1, 2, 4, 8, 16, 32, 64, 128, 256)
+ONE = {"threads": 1, "levels": 2}
 
-X, Y = np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 0.75, 7), indexing="ij")
-IDS = np.arange(X.size).reshape(X.shape)
-FACES = np.stack([IDS[:-1, :-1], IDS[1:, :-1], IDS[1:, 1:], IDS[:-1, 1:]], -1).reshape(-1, 4)
-INNER = IDS[1:-1, 1:-1].ravel()
+Mesh = tuple[np.ndarray, np.ndarray]
 
 
-def shapes() -> dict[str, np.ndarray]:
-    """Heights (9, 7)."""
-    x, y = X - 0.5, Y - 0.375
-    squared = x**2 + y**2
+def sheet(height: Callable[..., np.ndarray], across: int = 9, along: int = 7) -> Mesh:
+    """Quads over a rectangle, an edge 1 long."""
+    x, y = np.meshgrid(np.arange(across) * 1.0, np.arange(along) * 1.0, indexing="ij")
+    ids = np.arange(x.size).reshape(x.shape)
+    faces = np.stack([ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]], -1).reshape(-1, 4)
+    z = height((x - x.mean()) / (across - 1), (y - y.mean()) / (across - 1)) * (across - 1)
+    return np.stack([x, y, z], -1).reshape(-1, 3), faces
+
+
+def hull() -> Mesh:
+    """Half a hull of 9 stations, 6 points each on a half ellipse: 10 m long."""
+    along, up = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(0, np.pi / 2, 6), indexing="ij")
+    beam, depth = 1.5 * (1 - 0.9 * along**2), 1.0 * (1 - 0.3 * along**2)
+    points = np.stack([5 * along, beam * np.sin(up), -depth * np.cos(up)], -1).reshape(-1, 3)
+    return points, sheet(lambda x, y: 0 * x, 9, 6)[1]
+
+
+def sphere() -> Mesh:
+    """Of 162 vertices."""
+    return control_meshes.sphere(4, 0)
+
+
+def cut(mesh: Mesh) -> Mesh:
+    points, quads = mesh
+    return points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def bump(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return 0.1 * np.exp(-6 * (x**2 + y**2))
+
+
+def saddle(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return 0.2 * (x**2 - y**2)
+
+
+def wave(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return 0.05 * np.sin(4 * x + 2 * y + 3)
+
+
+MESHES: dict[str, Callable[[], Mesh]] = {
+    "bump": lambda: sheet(bump),
+    "saddle": lambda: sheet(saddle),
+    "wave": lambda: sheet(wave),
+    "bump, triangles": lambda: cut(sheet(bump)),
+    "saddle, triangles": lambda: cut(sheet(saddle)),
+    "wave, triangles": lambda: cut(sheet(wave)),
+    "wave, 17 x 13": lambda: sheet(wave, 17, 13),
+    "half hull": hull,
+    "sphere": sphere,
+}
+
+
+def edge(mesh: Mesh) -> float:
+    points, faces = mesh
+    return float(np.linalg.norm(points[faces] - points[np.roll(faces, 1, axis=1)], axis=-1).mean())
+
+
+def inside(mesh: Mesh) -> np.ndarray:
+    """Vertices on no border."""
+    points, faces = mesh
+    edges, counts = np.unique(
+        np.sort(np.stack([faces, np.roll(faces, 1, axis=1)], -1).reshape(-1, 2), axis=1),
+        axis=0,
+        return_counts=True,
+    )
+    return np.setdiff1d(np.arange(len(points)), edges[counts == 1])
+
+
+def normals(mesh: Mesh) -> np.ndarray:
+    points, faces = mesh
+    out = np.zeros_like(points)
+    corner = points[faces]
+    of_face = np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
+    np.add.at(out, faces, of_face[:, None])
+    return out / np.linalg.norm(out, axis=1)[:, None]
+
+
+def error(points: np.ndarray, truth: np.ndarray) -> float:
+    """Root mean square distance from the truth."""
+    return float(np.sqrt(np.mean(np.sum((points - truth) ** 2, axis=1))))
+
+
+def errors_of(mesh: Mesh, scatter: float, seed: int) -> dict[str, Any]:
+    """One trial's errors, lengths in the mesh's unit."""
+    truth, faces = mesh
+    random, ids = np.random.default_rng(seed), inside(mesh)
+    measured = truth.copy()
+    measured[ids] += random.normal(0, scatter, len(ids))[:, None] * normals(mesh)[ids]
+    bounds = [share * scatter for share in SHARES]
+    automatic = df.ease(measured, faces, **ONE)
+    near = [
+        df.fair(
+            measured, faces, levels=1, threads=1, interpolation="approximate", tolerance=bound
+        ).vertices[: len(truth)]
+        for bound in bounds
+    ]
     return {
-        "plane": 0 * x,
-        "saddle": 0.2 * (x**2 - y**2),
-        "wide bump": 0.15 * np.exp(-squared / 0.3),
-        "narrow bump": 0.15 * np.exp(-squared / 0.08),
+        "before": error(measured, truth),
+        "near": [error(points, truth) for points in near],
+        "tolerance": [
+            error(df.ease(measured, faces, tolerance=bound, **ONE).vertices, truth)
+            for bound in bounds
+        ],
+        "amount": [
+            error(df.ease(measured, faces, amount=amount, **ONE).vertices, truth)
+            for amount in AMOUNTS
+        ],
+        "automatic": error(automatic.vertices, truth),
+        "noise": automatic.noise / scatter,
     }
 
 
-def scattered(truth: np.ndarray, seed: int) -> tuple[np.ndarray, int]:
-    """Vertices (63, 3), and which one is wrong."""
-    random = np.random.default_rng(seed)
-    vertices = truth.copy()
-    vertices[INNER, 2] += random.normal(0, SCATTER, INNER.size)
-    wrong = int(random.choice(INNER))
-    vertices[wrong, 2] = truth[wrong, 2] + PLANTED
-    return vertices, wrong
+def planted_in(mesh: Mesh, scatter: float, seed: int) -> tuple[bool, float]:
+    """Whether the wrong vertex is the most strained, and how much of the way it goes back when the
+    worst is let go; NaN where that is another."""
+    truth, faces = mesh
+    random, ids = np.random.default_rng(seed), inside(mesh)
+    measured, along = truth.copy(), normals(mesh)
+    measured[ids] += random.normal(0, scatter, len(ids))[:, None] * along[ids]
+    wrong = int(random.choice(ids))
+    measured[wrong] = truth[wrong] + PLANTED * scatter * along[wrong]
+    eased = df.ease(measured, faces, most=1, **ONE)
+    found = bool(eased.moves[wrong] > 0)
+    return found, float(eased.moves[wrong] / (PLANTED * scatter)) if found else float("nan")
 
 
-def error(vertices: np.ndarray, truth: np.ndarray) -> float:
-    """Root mean square distance of inner vertices from the truth."""
-    return float(np.sqrt(np.mean(np.sum((vertices - truth)[INNER] ** 2, axis=1))))
+def means(trials: list[dict[str, Any]]) -> dict[str, Any]:
+    return {name: np.mean([trial[name] for trial in trials], axis=0).tolist() for name in trials[0]}
 
 
 def run() -> dict[str, Any]:
-    """One row a shape."""
+    """One row a shape and scatter."""
     result: dict[str, Any] = {}
     rows = []
-    for name, height in shapes().items():
-        truth = np.stack([X, Y, height], -1).reshape(-1, 3)
-        floor = float(np.nanmax(np.abs(df.strain(truth, FACES).lengths)))
-        found = 0
-        errors = np.zeros(1 + len(TOLERANCES))
-        for seed in range(SEEDS):
-            vertices, wrong = scattered(truth, seed)
-            found += int(df.strain(vertices, FACES).worst(1)[0]) == wrong
-            held = [
-                df.fair(
-                    vertices, FACES, levels=1, interpolation="approximate", tolerance=bound
-                ).vertices[: X.size]
-                for bound in TOLERANCES
-            ]
-            errors += [error(points, truth) for points in (vertices, *held)]
-        errors /= SEEDS
-        result[name] = {"floor": floor, "found": found, "errors": errors.tolist()}
-        rows.append([name, 1e3 * floor, found, *(1e3 * errors)])
-    heads = ["shape", "largest strain unscattered", f"found of {SEEDS}", "error before"]
+    for name, make in MESHES.items():
+        mesh = make()
+        unit = edge(mesh)
+        clean = df.ease(*mesh, **ONE).moves.max() / unit
+        for scatter in SCATTERS:
+            mean = means([errors_of(mesh, scatter * unit, seed) for seed in range(SEEDS)])
+            tried = [planted_in(mesh, scatter * unit, seed) for seed in range(SEEDS)]
+            found = sum(hit for hit, _ in tried)
+            share = float(np.nanmedian([back for _, back in tried])) if found else float("nan")
+            best = min(mean["amount"])
+            result[f"{name}, {scatter}"] = mean | {
+                "edge": unit, "clean_move": clean, "found": found, "moved_back": share,
+                "ratio": mean["automatic"] / best,
+            }  # fmt: skip
+            lengths = (mean["before"], min(mean["near"]), min(mean["tolerance"]), best)
+            rows.append(
+                [f"{name}, {scatter:g}", *(1e3 * e / unit for e in lengths)]
+                + [1e3 * mean["automatic"] / unit, mean["automatic"] / best, mean["noise"]]
+                + [found, share, 1e3 * clean]
+            )
     table.show(
-        "Offsets, lengths in thousandths",
-        [*heads, *(f"near {1e3 * t:g}" for t in TOLERANCES)],
+        f"Offsets, means of {SEEDS} seeds, errors in thousandths of a control edge",
+        ["shape, scatter", "before", "Near", "by tolerance", "best amount", "automatic"]
+        + ["over best", "noise read", f"found of {SEEDS}", "moved back", "clean moves"],
         rows,
     )
     return result

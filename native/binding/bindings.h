@@ -17,7 +17,7 @@ void bind_solver(pybind11::module_& m);
 // Adds the class Filler, which the package's find_holes() and fill_holes() use.
 void bind_fill(pybind11::module_& m);
 
-// Adds strain() and ease(), which the package wraps.
+// Adds require_strain(), strain() and ease(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 
 // Adds outline(), which the package's pieces() cuts up.

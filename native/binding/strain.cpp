@@ -34,6 +34,8 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
   py::dict d;
   d["lengths"] = numbers(strain.lengths);
   d["ways"] = points(strain.ways);
+  d["on_curve"] =
+      py::array_t<std::uint8_t>(py::ssize_t(strain.on_curve.size()), strain.on_curve.data());
   return d;
 }
 
@@ -66,6 +68,7 @@ py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
 }  // namespace
 
 void bind_strain(py::module_& m) {
+  m.def("require_strain", [](const FairOptions& options) { options_of_strain(options); });
   m.def("strain", &strain_of_arrays, py::arg("vertices").noconvert(),
         py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("options"),
         py::arg("monitor"), py::arg("progress"), "discrete_fairing.strain on plain arrays.");

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fairing/fair.h"
+#include "fairing/memory_plan.h"
 #include "fairing/mending.h"
 #include "fairing/strain.h"
 #include "fairing/systems.h"
@@ -80,10 +81,11 @@ class Easing {
 
   EaseResult run() {
     monitor_.enter_part(0, surface_done);
+    require_room();
     ControlPositions control = problem_->basis;
     Loads loads = loads_of(control);
     measure_matrix();
-    const Strain before = gauge_->read(loads, control.working);
+    Strain before = gauge_->read(loads, control.working);
     out_.moves.assign(std::size_t(mesh_.input_vertices), Vec3::Zero());
     if (wanted_.most > 0) {
       move_worst(loads, control);
@@ -96,10 +98,10 @@ class Easing {
       take(inner_, inner_system(loads));
     }
     const ControlPositions after = problem_->control_positions(at_);
-    const Strain left = gauge_->read(loads_of(after), after.working);
-    out_.strain_before = before.lengths;
-    out_.strain_after = left.lengths;
-    restore();
+    Strain left = gauge_->read(loads_of(after), after.working);
+    restore(before, left);
+    out_.strain_before = std::move(before.lengths);
+    out_.strain_after = std::move(left.lengths);
     return std::move(out_);
   }
 
@@ -120,7 +122,7 @@ class Easing {
     if (const Pads* const pads = solver.pads()) {
       for (Index v = 0; v < mesh_.input_vertices; ++v)
         if (pads->under(std::size_t(v))) on_pads_.push_back(v);
-      require_room();
+      counted_.emplace(bytes_of_load_matrix(on_pads_.size()));
       ProbedMatrix probed = load_matrix(
           solver, problem_->basis.working_curves, on_pads_, [&](double begin, double end) {
             const double part = matrix_done - surface_done;
@@ -135,14 +137,17 @@ class Easing {
     gauge_.emplace(*problem_, std::move(own));
   }
 
+  // Before anything is solved.
   void require_room() const {
-    const std::size_t bytes = bytes_of_load_matrix(on_pads_.size());
-    if (MemoryLedger::fits(bytes)) return;
-    throw FairingError(
-        ErrorCode::too_large,
-        "The loads that " + std::to_string(on_pads_.size()) + " vertices ask for take " +
-            std::to_string(bytes >> 20) +
-            " MB more than memory_limit leaves. Raise it, or ease parts of the mesh.");
+    const FairOptions& options = problem_->options;
+    const auto matrix = bytes_of_load_matrix(std::size_t(mesh_.input_vertices));
+    const auto surface = std::size_t(predict_size(mesh_, problem_->unknowns, options.levels).bytes);
+    if (surface + matrix <= options.bytes_allowed()) return;
+    throw FairingError(ErrorCode::too_large,
+                       "The loads that " + std::to_string(mesh_.input_vertices) +
+                           " vertices ask for take " + std::to_string(matrix / 1000000) +
+                           " MB beside the surface's " + std::to_string(surface / 1000000) +
+                           ", over the limit. Raise memory_limit, or ease parts of the mesh.");
   }
 
   void find_movable() {
@@ -195,18 +200,16 @@ class Easing {
     return bounds;
   }
 
-  // As much as the scatter says, and no less than bounds let pass. Curves and what is between them
-  // may scatter by different lengths: each kind has an amount of its own.
-  double amount(const Movable& movable, const EaseSystem& system) const {
+  // As much as the scatter says. Curves and what is between them may scatter by different lengths:
+  // each kind has an amount of its own.
+  double amount(const EaseSystem& system) const {
     if (!(system.mean() > 0)) return 0;
-    if (wanted_.amount >= 0) return wanted_.amount / system.mean();
-    const double s = cross_validated(system);
-    return wanted_.tolerance.empty() ? s : std::max(s, largest_within(system, bounds_of(movable)));
+    return wanted_.amount >= 0 ? wanted_.amount / system.mean() : cross_validated(system);
   }
 
   // Moves them, and says whether any does.
   bool take(const Movable& movable, const EaseSystem& system) {
-    const double s = amount(movable, system);
+    const double s = amount(system);
     if (!(s > 0)) return false;
     const Columns moves =
         wanted_.tolerance.empty() ? system.moves(s) : system.moves_within(s, bounds_of(movable));
@@ -292,15 +295,13 @@ class Easing {
   }
 
   // Vertices that were merged are where the one is that they have become.
-  void restore() {
+  void restore(Strain& before, Strain& after) {
     if (!mending_.mended()) return;
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
-    for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v) {
-      const auto lead = std::size_t(origin[v]);
-      out_.moves[v] = out_.moves[lead];
-      out_.strain_before[v] = out_.strain_before[lead];
-      out_.strain_after[v] = out_.strain_after[lead];
-    }
+    for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
+      out_.moves[v] = out_.moves[std::size_t(origin[v])];
+    before.restore(origin);
+    after.restore(origin);
   }
 
   const Mending& mending_;
@@ -314,6 +315,7 @@ class Easing {
   std::vector<double> at_;  // input vertices in world coordinates
   std::optional<StrainGauge> gauge_;
   std::vector<Index> on_pads_;
+  std::optional<CountedBytes> counted_;
   LoadMatrix g_;  // of these
   Movable inner_, curve_;
   EaseResult out_;

@@ -59,6 +59,7 @@ Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Moni
     const FairOptions own = options_of_strain(options);
     const Mending mending(input, own);
     Strain out = mending.in_input_ids([&] { return strain_of(mending, monitor); });
+    if (mending.mended()) out.restore(mending.mended()->vertex_origin);
     monitor.report(Phase::done, 1);
     return out;
   } catch (const std::bad_alloc&) {

@@ -20,6 +20,15 @@ Vec3 normal_of(const ControlMesh& mesh, Index v) {
   return sum.stableNormalized();
 }
 
+void Strain::restore(const std::vector<Index>& origin) {
+  for (std::size_t v = 0; v < std::min(origin.size(), ways.size()); ++v) {
+    const auto lead = std::size_t(origin[v]);
+    ways[v] = ways[lead];
+    lengths[v] = lengths[lead];
+    on_curve[v] = on_curve[lead];
+  }
+}
+
 StrainGauge::StrainGauge(const FairingProblem& problem, std::vector<double> own)
     : problem_(problem),
       own_(std::move(own)),
@@ -52,7 +61,8 @@ Columns StrainGauge::pulls_of(std::span<const Vec3> positions) const {
 Strain StrainGauge::read(const Loads& loads, std::span<const Vec3> positions) const {
   const auto n = std::size_t(problem_.mesh.input_vertices);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Strain out{std::vector<Vec3>(n, Vec3::Constant(none)), std::vector<double>(n, none)};
+  Strain out{std::vector<Vec3>(n, Vec3::Constant(none)), std::vector<double>(n, none),
+             std::vector<std::uint8_t>(n, 0)};
   const double unit = problem_.frame.scale;
   for (std::size_t v = 0; v < std::min(n, own_.size()); ++v) {
     if (!(own_[v] > 0)) continue;
@@ -64,6 +74,7 @@ Strain StrainGauge::read(const Loads& loads, std::span<const Vec3> positions) co
     const auto v = std::size_t(curve_vertices_[i]);
     const double own = pulls_.coeff(Index(i), Index(i));
     if (!(own > 0)) continue;
+    out.on_curve[v] = 1;
     out.ways[v] = -unit / own * pulls.row(Eigen::Index(i)).transpose();
     out.lengths[v] =
         std::copysign(out.ways[v].norm(), out.ways[v].dot(normal_of(problem_.mesh, Index(v))));

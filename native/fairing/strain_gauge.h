@@ -17,6 +17,10 @@ struct Strain {
   // and next to ends of curves, and outside a region.
   std::vector<Vec3> ways;
   std::vector<double> lengths;
+  std::vector<std::uint8_t> on_curve;  // over zero where a curve says it
+
+  // Each vertex that was merged with another gets what that one has: `origin` one a vertex.
+  void restore(const std::vector<Index>& origin);
 };
 
 class StrainGauge {

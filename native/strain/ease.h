@@ -31,10 +31,10 @@ class EaseSystem {
   // The root mean square of G's eigenvalues, where it is symmetric; 1 over it is a unit of s.
   double mean() const { return mean_; }
 
-  // d of (*) with the loads at hand, and more of it the stiffer an unknown is: |d|^2 becomes
-  // d . (1 + stiffness) d. Empty: none is.
-  Columns moves(double s, const Eigen::VectorXd& stiffness = {}) const;
-  // The same with every |d_j| <= bounds_j, the minimum of (*) under that.
+  // d of (*) with the loads at hand.
+  Columns moves(double s) const;
+  // The same with every |d_j| <= bounds_j: the minimum of (*) under that, by alternating directions
+  // of multipliers (Boyd and others 2011), all bounds kept to the last bit.
   Columns moves_within(double s, const Eigen::VectorXd& bounds) const;
 
   // |d|^2; with F = (I + s^2 G'G)^-1 the traces of I - F and of F F.
@@ -50,13 +50,14 @@ class EaseSystem {
   void find_eigenvalues();
   void probe_eigenvalues();
   Quadrature lanczos(const Eigen::VectorXd& from) const;
-  Columns multiply(double s, const Eigen::VectorXd& stiffness, const Columns& d) const;
-  Columns solve_by_steps(double s, const Eigen::VectorXd& stiffness) const;
+  // (shift + 1 + s^2 G'G)^-1 wanted, from `start`.
+  Columns solve(double s, double shift, const Columns& wanted, const Columns& start,
+                double tolerance) const;
 
   LoadMatrix g_, transposed_;
-  Columns loads_, pulls_;              // G'g
-  Eigen::VectorXd diagonal_;           // of G'G
-  Eigen::MatrixXd product_, vectors_;  // G'G and its eigenvectors, where all are found
+  Columns loads_, pulls_;     // G'g
+  Eigen::VectorXd diagonal_;  // of G'G
+  Eigen::MatrixXd vectors_;   // of G'G, where all are found
   Eigen::VectorXd values_;
   Quadrature of_pulls_, of_trace_;
   double mean_ = 0;
@@ -66,9 +67,5 @@ class EaseSystem {
 // Wahba (1979), with a weight on how much F keeps, as the plain one now and then takes scatter for
 // shape where there are few unknowns.
 double cross_validated(const EaseSystem& system);
-
-// The largest amount with which every |d_j| of (*) is within its bound. Unknowns with the bound 0
-// stay. At most that of the range that cross-validation looks at.
-double largest_within(const EaseSystem& system, const Eigen::VectorXd& bounds);
 
 }  // namespace fairing

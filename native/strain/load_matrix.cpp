@@ -8,7 +8,6 @@
 namespace fairing {
 namespace {
 
-constexpr double probe_tolerance = 1e-3;  // of each solve, relative
 // Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
 constexpr int rings_apart = 9;
 // Sets of a mesh of triangles and quads, about; more around vertices of many faces.
@@ -23,7 +22,7 @@ ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
   std::vector<Index> column(std::size_t(mesh.vertex_count()), -1);
   for (std::size_t i = 0; i < vertices.size(); ++i) column[std::size_t(vertices[i])] = Index(i);
   std::vector<std::vector<std::pair<Index, double>>> rows(vertices.size());
-  probe_loads(solver, curves, sets, probe_tolerance, on_part,
+  probe_loads(solver, curves, sets, on_part,
               [&](std::size_t set, const std::vector<double>& loads) {
                 const std::vector<Index> nearest = nearest_of(mesh, sets[set]);
                 for (std::size_t i = 0; i < vertices.size(); ++i) {

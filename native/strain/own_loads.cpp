@@ -6,7 +6,6 @@
 namespace fairing {
 namespace {
 
-constexpr double probe_tolerance = 1e-3;  // of each solve, relative
 // Between two vertices of one solve: a dozen solves on quads.
 constexpr int rings_apart = 6;
 
@@ -17,10 +16,9 @@ std::vector<double> own_loads(ThinPlateSolver& solver, const FeatureCurves& curv
   std::vector<double> own(std::size_t(mesh.vertex_count()), 0.0);
   if (!solver.pads()) return own;
   const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
-  probe_loads(solver, curves, sets, probe_tolerance, {},
-              [&](std::size_t set, const std::vector<double>& loads) {
-                for (const Index v : sets[set]) own[std::size_t(v)] = loads[std::size_t(v)];
-              });
+  probe_loads(solver, curves, sets, {}, [&](std::size_t set, const std::vector<double>& loads) {
+    for (const Index v : sets[set]) own[std::size_t(v)] = loads[std::size_t(v)];
+  });
   return own;
 }
 

@@ -191,7 +191,8 @@ struct ThinPlateSolver::Rounds {
   }
 
   double wanted_force() const {
-    return top() ? force_tolerance(options().relative_residual) : coarse_force_tolerance;
+    return std::max(run.rough_force,
+                    top() ? force_tolerance(options().relative_residual) : coarse_force_tolerance);
   }
   double wanted_tilt() const { return top() ? angle_per_force * wanted_force() : coarse_angle; }
 

@@ -207,9 +207,10 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
 }
 
 LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance, PlateState& state,
-                                         Array<double>& x) {
+                                         Array<double>& x, double rough_force) {
   const int top = levels_.top();
   Run run{*this, data, state, x};
+  run.rough_force = rough_force;
   run.r.resize(x.size());
   PcgLimits limits;
   {

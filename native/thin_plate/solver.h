@@ -48,9 +48,10 @@ class ThinPlateSolver {
                    PlateState& state, Array<double>& x, std::vector<LevelReport>& reports,
                    const OnPrediction& on_prediction);
 
-  // The finest level again, from x as it is.
+  // The finest level again, from x as it is. Of what loads carry, `rough_force` may be left at control
+  // vertices even where the options ask for less.
   LevelReport solve_again(const PlateData& data, double tolerance, PlateState& state,
-                          Array<double>& x);
+                          Array<double>& x, double rough_force = 0);
 
  private:
   struct Run;

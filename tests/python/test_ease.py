@@ -140,3 +140,109 @@ def test_it_can_be_cancelled():
     with pytest.raises(df.FairingError) as caught:
         df.ease(*control_meshes.torus(60, 40), progress=lambda *_: False)
     assert caught.value.code == "CANCELLED"
+
+
+def curved_sheet():
+    """Quads 9 x 7 whose borders are cubics, so that they have no loads; faces, and border vertices."""
+    points, faces, inner = sheet("saddle")
+    return points, faces, np.setdiff1d(np.arange(len(points)), inner)
+
+
+def test_borders_are_eased_in_their_planes_and_corners_stay():
+    truth, faces, border = curved_sheet()
+    measured = truth.copy()
+    corners = np.array([0, 6, 56, 62])
+    rim = np.setdiff1d(border, corners)
+    measured[rim, 2] += NOISE * np.random.default_rng(5).normal(size=len(rim))
+    eased = df.ease(measured, faces)
+    assert not eased.moves[corners].any()
+    assert error(eased.vertices[rim], truth[rim]) < 0.9 * error(measured[rim], truth[rim])
+    across = np.repeat([1.0, 0.0], 7)  # x of the two borders across
+    np.testing.assert_allclose(eased.vertices[[*range(56, 63), *range(7)], 0], across, atol=1e-12)
+
+
+def test_creases_are_eased_too():
+    truth, faces, inner = sheet("saddle")
+    crease = np.arange(4 * 7, 5 * 7)  # across the middle
+    measured = truth.copy()
+    measured[crease[3], 2] += 0.01
+    edges = np.stack([crease[:-1], crease[1:]], -1)
+    eased = df.ease(measured, faces, crease_edges=edges, most=1)
+    assert set(np.flatnonzero(eased.moves)) == {crease[3]}
+    np.testing.assert_allclose(eased.vertices[crease[3]], truth[crease[3]], atol=1e-3)
+
+
+def test_the_worst_are_found_on_curves_and_off_them():
+    truth, faces, inner = sheet("saddle")
+    measured = truth.copy()
+    off_curve, on_curve = inner[17], 3 * 7
+    measured[off_curve, 2] += 0.01
+    measured[on_curve, 2] -= 0.01
+    eased = df.ease(measured, faces, most=2)
+    assert set(np.flatnonzero(eased.moves)) == {off_curve, on_curve}
+    assert error(eased.vertices, truth) < 0.15 * error(measured, truth)
+
+
+def test_vertices_outside_a_region_stay():
+    truth, faces, inner = sheet()
+    measured = scattered(truth, inner, 6)
+    region = np.flatnonzero(truth[faces][..., 0].mean(1) < 0.5)
+    eased = df.ease(measured, faces, region=region)
+    outside = np.setdiff1d(np.arange(len(truth)), faces[region])
+    assert eased.moves.any() and not eased.moves[outside].any()
+
+
+def test_merged_vertices_move_as_one():
+    truth, faces, inner = sheet()
+    measured = scattered(truth, inner, 7)
+    split = faces.copy()
+    split[:18] = np.where(faces[:18] == inner[12], len(truth), faces[:18])
+    twice = np.concatenate([measured, measured[inner[12:13]]])
+    mended = df.ease(twice, split, repair="mend", weld=0.0)
+    whole = df.ease(measured, faces)
+    np.testing.assert_array_equal(mended.vertices[-1], mended.vertices[inner[12]])
+    np.testing.assert_allclose(mended.vertices[:-1], whole.vertices, atol=1e-9)
+    assert mended.strain_before[-1] == mended.strain_before[inner[12]]
+    bounds = np.full(len(twice), 1.0)
+    bounds[-1] = 1e-5
+    assert df.ease(twice, split, repair="mend", weld=0.0, tolerance=bounds).moves[inner[12]] <= 1e-5
+
+
+def test_half_a_mesh_is_eased_as_the_whole():
+    points, faces = control_meshes.torus(12, 8)
+    points = np.where(np.abs(points) < 1e-9, 0, points)
+    points = points + 0.01 * np.abs(np.sin(40 * points[:, [1, 2, 1]] + [0.4, 0.9, 0.0])) * [0, 1, 1]
+    image = np.linalg.norm(points[:, None] - points * [-1, 1, 1], axis=-1).argmin(1)
+    np.testing.assert_allclose(points[image] * [-1, 1, 1], points, atol=1e-12)
+    in_half = (points[faces][..., 0].min(1) > -1e-9).nonzero()[0]
+    used, ids = np.unique(faces[in_half], return_inverse=True)
+    for settings in ({}, {"tolerance": 0.003}):
+        whole = df.ease(points, faces, **settings)
+        half = df.ease(points[used], ids.reshape(-1, 4), symmetry_plane="x", **settings)
+        np.testing.assert_allclose(
+            half.vertices, whole.vertices[used], atol=0.05 * whole.moves.max()
+        )
+        assert not half.vertices[points[used, 0] == 0, 0].any()
+    one = df.ease(points[used], ids.reshape(-1, 4), symmetry_plane="x", most=1)
+    assert np.count_nonzero(one.moves) == 1
+
+
+def test_where_sheets_meet_all_of_them_are_eased():
+    truth, faces, inner = sheet()
+    fin = truth[28:35] + [0, 0, 0.2]  # on the row across the middle
+    points = np.concatenate([truth, fin])
+    quads = np.stack(
+        [np.arange(28, 34), np.arange(29, 35), np.arange(64, 70), np.arange(63, 69)], -1
+    )
+    measured = scattered(points, inner[:10], 8)
+    eased = df.ease(measured, np.concatenate([faces, quads]))
+    assert error(eased.vertices[inner[:10]], points[inner[:10]]) < error(
+        measured[inner[:10]], points[inner[:10]]
+    )
+
+
+def test_a_matrix_beyond_the_memory_limit_is_refused():
+    points, faces = control_meshes.torus(80, 60)
+    with pytest.raises(df.FairingError, match="vertices ask for") as caught:
+        df.ease(points, faces, levels=1, memory_limit=48_000_000)
+    assert caught.value.code == "TOO_LARGE"

@@ -7,7 +7,9 @@ import discrete_fairing as df
 from discrete_fairing import _native
 from discrete_fairing.options import OPTIONAL, SETTINGS, native_options
 
-OTHER_ARGUMENTS = {"vertices", "faces", "shapes", "symmetry_plane", "progress", "monitor"}
+OTHER_ARGUMENTS = {
+    *("vertices", "faces", "shapes", "symmetry_plane", "strain", "progress", "monitor"),
+}
 PARAMETERS = inspect.signature(df.fair).parameters
 
 

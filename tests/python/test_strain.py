@@ -159,3 +159,27 @@ def test_it_can_be_cancelled():
     with pytest.raises(df.FairingError) as caught:
         df.strain(*control_meshes.torus(60, 40), progress=lambda *_: False)
     assert caught.value.code == "CANCELLED"
+
+
+def test_a_result_has_its_strain_where_it_is_asked_for():
+    points, faces = MESHES["torus"]()
+    alone = df.strain(points, faces)
+    for energy in ("thin_plate", "total_curvature"):
+        result = df.fair(points, faces, 2, energy, strain=True)
+        np.testing.assert_array_equal(result.strain, alone.lengths)
+        worst = alone.worst(1)[0]
+        assert result.report["strain"] == {
+            "largest": alone.lengths[worst],
+            "vertex": worst,
+            "noise": alone.noise,
+        }
+    assert df.fair(points, faces, 2).strain is None
+    with pytest.raises(df.FairingError, match="no pads"):
+        df.fair(points, faces, 2, "minimum_variation", strain=True)
+
+
+def test_scatter_is_read_off_strain():
+    points, faces, inner = bump(25, 19)
+    points[:, 2] = 0
+    points[inner, 2] = 0.001 * np.random.default_rng(8).normal(size=len(inner))
+    assert abs(df.strain(points, faces).noise / 0.001 - 1) < 0.15

@@ -71,9 +71,8 @@ def ease(
     vertices, faces, symmetry_plane, progress, monitor
         As of fair(). Vertices in the symmetry plane stay in it.
     tolerance
-        Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther. The amount is the
-        largest with which that comes by itself, and no less than without a tolerance: vertices
-        that would then move farther stop at their bound, and the others go on.
+        Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther: those that would
+        stop at their bound, and the others make the best of that. The amount is as without one.
     most
         Move so many vertices at most, the most strained first, each to where the surface wants it;
         in a symmetry plane's halves a vertex and its image count as one. Not with a tolerance.
@@ -81,7 +80,7 @@ def ease(
         (n,) bool: vertices that stay where they are; loads on them do not count.
     amount
         0 or more, without a unit: how much to ease; 1 takes half of what scatters from one vertex to
-        the next. None: by robust generalized cross-validation (Lukas 2006), or by the tolerance.
+        the next. None: by robust generalized cross-validation (Lukas 2006).
     settings
         Those of fair(), but for shapes. The thin plate on pads, through all its control vertices;
         levels above the second change nothing.

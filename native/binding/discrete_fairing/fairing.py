@@ -13,6 +13,7 @@ from .arrays import face_arrays, shape_array, vertex_array
 from .halves import Half
 from .options import SETTINGS, native_options
 from .result import Result
+from .strain import require_strain, strain_of
 from .watching import Progress, check_watchers
 
 
@@ -57,6 +58,7 @@ def fair(
     threads: int = 0,
     memory_limit: int = 0,
     measure: bool = False,
+    strain: bool = False,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
 ) -> Result:
@@ -180,6 +182,10 @@ def fair(
     measure : bool
         Measure the energies of the result, the control polyhedron and the prediction (else NaN);
         takes up to half of a run's time again.
+    strain : bool
+        Measure how the control vertices fight the surface (result.strain, report["strain"]), as
+        strain() does: with total curvature too, for the thin plate through the same vertices.
+        Not with minimum variation, whose vertices stand on no pads, and not where vertices move.
     progress : callable(fraction, phase)
         Called from this thread some 40 times a second; returning False cancels.
     monitor : Monitor
@@ -210,8 +216,14 @@ def fair(
         points, others, settings = half.points(points), half.shapes(others), half.settings(settings)
         corners, offsets = half.faces(corners, offsets)
     options = native_options(**settings)
+    watch = monitor or _native.Monitor()
+    if strain:
+        require_strain(settings)
     with half.named() if half else nullcontext():
-        found = _native.fair(
-            points, corners, offsets, others, options, monitor or _native.Monitor(), progress
-        )
-    return Result(half.cut(found) if half else found)
+        found = _native.fair(points, corners, offsets, others, options, watch, progress)
+    result = Result(half.cut(found) if half else found)
+    if strain:
+        strained = strain_of(points, corners, offsets, settings, half, watch)
+        result.strain = strained.lengths
+        result.report["strain"] = strained.report()
+    return result

@@ -44,6 +44,7 @@ class Result:
     crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
     shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
     mended: Mended, the mesh that was faired, where it is not the one given; else None.
+    strain: (n,) float64, as Strain.lengths, where fair() was asked for it; else None.
     report: what the run did; see docs/reference/numpy-api.md for its keys.
     """
 
@@ -55,6 +56,7 @@ class Result:
         self.crease_edges: np.ndarray = arrays["crease_edges"]
         self.shapes: list[np.ndarray] = arrays["shapes"]
         self.report: dict[str, Any] = arrays["report"]
+        self.strain: np.ndarray | None = None
         mended = arrays["mended"]
         self.mended: Mended | None = (
             Mended(mended, arrays["triangle_mended"], arrays["quad_mended"]) if mended else None
