@@ -144,7 +144,12 @@ def _plain(value: Any) -> Any:
     return str(value)
 
 
-_GROUPS = ("discrete_fairing", "discrete_fairing_live", "discrete_fairing_inspection")
+_GROUPS = (
+    "discrete_fairing",
+    "discrete_fairing_curves",
+    "discrete_fairing_live",
+    "discrete_fairing_inspection",
+)
 
 
 @persistent

@@ -241,6 +241,10 @@ class Session:
         self.triangles = len(result.faces[0]) + 2 * len(result.faces[1])
         self._stale = False
 
+    def wait(self, sentence: str) -> None:
+        """Until the source is fine again: `sentence` says what is wrong with it."""
+        self._fail(sentence)
+
     def _fail(self, sentence: str) -> None:
         """The last good surface stays, until the source is fine again."""
         self.cancel_full()
