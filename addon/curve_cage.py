@@ -27,7 +27,7 @@ HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothin
 
 def _look_again(settings: Any, _context: Context) -> None:
     """Live follows what its curves do: they are told that something is new."""
-    for curve in curves_of(settings.id_data) if isinstance(settings, FAIRING_PG_curves) else ():
+    for curve in curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ():
         curve.update_tag()
 
 
@@ -47,7 +47,7 @@ class CageSettings:
     )
     per_side: IntProperty(
         name="Edges per Side",
-        description="Edges of the control mesh on a side of a cell of the usual length. More follow the curves more closely",
+        description="Edges of the control mesh on the shorter sides of cells; longer sides have more. More follow the curves more closely",
         default=4,
         min=1,
         max=64,

@@ -118,8 +118,11 @@ class InPlaceJob:
             free = inside(part, tried)[small.vertices] & self._free[small.vertices]
         else:
             own, free = arguments, self._free
-        found = measured.amount(own, free, self._wish.noise, **watchers)
-        return measured.smoothed(arguments, self._free, found.weight, **watchers), found.noise
+        told = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
+        runs = core.module().watching.SeveralRuns(*told)
+        found = measured.amount(own, free, self._wish.noise, runs)
+        made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
+        return made, found.noise
 
     @property
     def _key(self) -> Hashable:

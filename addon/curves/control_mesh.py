@@ -27,13 +27,13 @@ class ControlMesh:
 
 
 def control_mesh(found: Cells, per_side: int, before: np.ndarray | None = None) -> ControlMesh:
-    """`per_side`: edges on an arc of the usual length. `before`: the `counts` of an earlier mesh over
+    """`per_side`: edges on the shorter sides of cells. `before`: the `counts` of an earlier mesh over
     these curves.
     """
     network = found.network
     lengths = np.array([arc.length for arc in network.arcs])
     used = sorted({half // 2 for cell in found.cells for half in cell.halves})
-    edge = _usual_side(found.cells, lengths) / per_side
+    edge = _short_side(found.cells, lengths) / per_side
     counts, as_drawn = edge_counts(found.cells, lengths, edge, before)
     builder = _Builder(network, counts, used)
     for k, cell in enumerate(found.cells):
@@ -73,13 +73,16 @@ def _without_idle(mesh: ControlMesh) -> ControlMesh:
     )
 
 
-def _usual_side(cells: list[Cell], lengths: np.ndarray) -> float:
+def _short_side(cells: list[Cell], lengths: np.ndarray) -> float:
+    """The length that three sides of four exceed: the frames of a hull are much longer than its rails
+    between them.
+    """
     sides = [
         lengths[[half // 2 for half in side]].sum() / (4 if len(cell.sides) == 1 else 1)
         for cell in cells
         for side in cell.sides
     ]
-    return float(np.median(sides))
+    return float(np.quantile(sides, 0.25))
 
 
 class _Builder:

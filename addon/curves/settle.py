@@ -24,7 +24,7 @@ MOST_FACES = 200_000  # of the control mesh: more are a slip in Edges
 @dataclass(frozen=True)
 class Wish:
     snap: float = 0.0  # the distance at which curves meet; 0: a hundredth of the usual curve's size
-    per_side: int = 4  # edges on a side of a cell of the usual length
+    per_side: int = 4  # edges on the shorter sides of cells; longer ones have more
     closed: bool = False  # whether what looks like the outside of a sheet is a cell, too
 
 

@@ -84,9 +84,9 @@ class TangentPlanes:
             heap: list[tuple[float, int, tuple[float, ...]]] = []
             self._offer(heap, seed, known, planes)
             while heap:
-                _, node, normal = heapq.heappop(heap)
+                _, node, found = heapq.heappop(heap)
                 if not known[node]:
-                    self.normals[node] = np.array(normal)
+                    self.normals[node] = found
                     known[node] = True
                     self._offer(heap, node, known, planes)
 

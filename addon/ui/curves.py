@@ -24,7 +24,7 @@ class VIEW3D_PT_fairing_curves(Sidebar, bpy.types.Panel):
         return active is not None and (has_curves(active) or _cage_of(active) is not None)
 
     def draw(self, context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
+        layout = self.layout
         layout.use_property_split = True
         active = cast(Object, context.active_object)
         cage = _cage_of(active)
