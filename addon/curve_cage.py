@@ -27,7 +27,9 @@ HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothin
 
 def _look_again(settings: Any, _context: Context) -> None:
     """Live follows what its curves do: they are told that something is new."""
-    for curve in curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ():
+    for curve in (
+        curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ()
+    ):
         curve.update_tag()
 
 

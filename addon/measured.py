@@ -56,9 +56,7 @@ class Amount:
     noise: float  # rms along the normals, a length
 
 
-def amount(
-    arguments: Mapping[str, Any], free: np.ndarray, noise: float, runs: Any
-) -> Amount:
+def amount(arguments: Mapping[str, Any], free: np.ndarray, noise: float, runs: Any) -> Amount:
     """How strongly the vertices that are `free`, (n,) bool, are to draw the surface. `arguments`:
     those of discrete_fairing.fair; all other vertices stay.
 

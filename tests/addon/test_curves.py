@@ -87,7 +87,7 @@ def test_wire_edges_alone_make_a_surface():
     columns = [(3 * i + j, 3 * i + j + 3) for i in range(2) for j in range(3)]
     add("Wire", points, [], rows + columns)
     target = surface(levels=1)
-    assert len(target.discrete_fairing.source.data.polygons) == 4 * 16
+    assert len(target.discrete_fairing.source.data.polygons) == 4 * 20
 
 
 def said(**settings):
