@@ -120,8 +120,12 @@ def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
     )
 
 
-def new_cage(context: Context, name: str, sources: Sequence[Object], settings: Any) -> Object:
-    """A new object, linked beside the curves; JobError says why there is none."""
+def new_cage(
+    context: Context, name: str, sources: Sequence[Object], settings: Any
+) -> tuple[Object, Covered]:
+    """A new object, linked beside the curves, and what it was made from; JobError says why there is
+    none.
+    """
     found = covered(_read(sources), _wish(settings))
     cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
     context.collection.objects.link(cage)
@@ -131,7 +135,7 @@ def new_cage(context: Context, name: str, sources: Sequence[Object], settings: A
     for source in sources:
         group.curves.add().source = source
     _fill(cage, found)
-    return cage
+    return cage, found
 
 
 def follow(cage: Object) -> Covered:

@@ -18,7 +18,7 @@ from .words import none_text, remarks
 
 # The second moves vertices by a third of what the first has, a third round by a tenth.
 _ROUNDS = 2
-MOST_FACES = 200_000  # of the control mesh: more are a slip in Edges
+MOST_FACES = 50_000  # of the control mesh: more are a slip in Edges
 
 
 @dataclass(frozen=True)

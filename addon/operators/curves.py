@@ -104,18 +104,18 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
         if self._cage is None:
             sources = curve_objects(context)
             name = "Curves" if len(sources) > 1 else sources[0].name
-            self._cage = curve_cage.new_cage(context, f"{name} Network", sources, self)
+            made = curve_cage.new_cage(context, f"{name} Network", sources, self)
+            self._cage, self._found = made
         own = vars(snapshot(context.scene.discrete_fairing)) | _OURS
         own |= {"levels": self.levels, "energy": self.energy}
         return [Job(context, self._cage, SimpleNamespace(**own))]
 
     def after(self, context: Context, jobs: Any) -> None:
-        cage = cast(Object, jobs[0].source)
-        found = curve_cage.follow(cage)
-        self.report({"INFO"}, f"{found.summary}: {len(found.mesh.faces):,} faces")
-        for sentence in found.remarks:
+        faces = len(self._found.mesh.faces)
+        self.report({"INFO"}, f"{self._found.summary}: {faces:,} faces")
+        for sentence in self._found.remarks:
             self.report({"WARNING"}, sentence)
-        cage.hide_set(True)
+        cast(Object, jobs[0].source).hide_set(True)
 
 
 register, unregister = registration(OBJECT_OT_fairing_curves)

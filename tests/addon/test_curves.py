@@ -11,7 +11,9 @@ from scenes import activate, add, positions
 
 from addon import curve_cage, freshness
 from addon.curves.cubics import points_at
+from addon.inspection import overlay
 from addon.live import registry, switch
+from addon.mesh.object import session_key
 from addon.mesh.read_curves import chains, read_curves
 
 
@@ -158,6 +160,17 @@ def test_live_follows_a_handle(no_pause):
     after = positions(target.data)
     assert not switch.problem(target)
     assert len(after) == len(before) and 0.1 < np.abs(after - before)[:, 2].max() < 0.3
+
+
+def test_stripes_are_drawn_anew_where_live_has_written(no_pause):
+    made = scene(square)
+    target = surface(levels=1, energy="THIN_PLATE")
+    target.discrete_fairing_live.on = True
+    key = session_key(target)
+    overlay._entries[key] = object()
+    made["Side 0"].data.splines[0].bezier_points[1].co.z += 0.05
+    bpy.context.view_layer.update()
+    assert not switch.problem(target) and key not in overlay._entries
 
 
 def test_live_says_why_it_waits_and_goes_on(no_pause):
