@@ -7,7 +7,7 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window, `cad` makes spline patches of it.
 """
 
-from . import cli, freshness, memory, preferences, queue, settings
+from . import cli, curve_cage, freshness, memory, preferences, queue, settings
 from .inspection import overlay
 from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch, undo
@@ -17,6 +17,7 @@ from .operators import (
     cancel,
     check,
     compare,
+    curves,
     ease,
     fair,
     faults,
@@ -36,6 +37,7 @@ from .strain import overlay as strain_overlay
 from .strain import settings as strain_settings
 from .ui import check as check_panel
 from .ui import compare as compare_panel
+from .ui import curves as curves_panel
 from .ui import inspect as inspect_panel
 from .ui import main as main_panel
 from .ui import menus, outliner, pictures
@@ -44,6 +46,7 @@ from .ui import strain as strain_panel
 _MODULES = (
     settings,
     memory,
+    curve_cage,
     preferences,
     inspection_settings,
     overlay,
@@ -62,6 +65,7 @@ _MODULES = (
     fill_holes,
     cancel,
     in_place,
+    curves,
     boundary,
     fixed_normals,
     compare,
@@ -75,6 +79,7 @@ _MODULES = (
     pictures,
     step,
     main_panel,
+    curves_panel,
     inspect_panel,
     strain_panel,
     check_panel,

@@ -10,6 +10,7 @@ from bpy.props import PointerProperty
 Answer: TypeAlias = set[Any]  # of an operator: {"FINISHED"} and the like
 
 if TYPE_CHECKING:
+    from .curve_cage import FAIRING_PG_curves
     from .inspection.settings import FAIRING_PG_display, FAIRING_PG_inspection
     from .live.switch import FAIRING_PG_live
     from .memory import FAIRING_PG_mesh, FAIRING_PG_surface
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
         data: Mesh
         discrete_fairing: FAIRING_PG_surface
+        discrete_fairing_curves: FAIRING_PG_curves
         discrete_fairing_live: FAIRING_PG_live
         discrete_fairing_inspection: FAIRING_PG_display
         discrete_fairing_strain: FAIRING_PG_strain

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from . import memory
+from . import curve_cage, memory
 from .blender import Context, Mesh, Object, Scene, all_objects, current_context
 from .errors import JobError
 from .memory import source_of
@@ -55,7 +55,7 @@ def know(target: Object) -> None:
     key, source = session_key(target), source_of(target)
     _surfaces.setdefault(key, Reference(target))
     if source is not None:
-        for block in (source, source.data, source.data.shape_keys):
+        for block in (source, source.data, source.data.shape_keys, *curve_cage.watched(source)):
             if block is not None:
                 _watched.setdefault(session_key(block), set()).add(key)
 
@@ -116,6 +116,10 @@ def _checksum(context: Context, source: Object, settings: Settings) -> int:
         keys = read_shape_keys(source, len(arrays.positions))
         parts.append(keys.shapes if keys is not None else None)
     words: list[Any] = [world_shape(source).rows]
+    if curve_cage.is_cage(source):
+        pieces, wish = curve_cage.made_of(source)
+        parts += pieces
+        words.append(wish)
     if is_evaluated(settings):
         words += [_values(modifier) for modifier in source.modifiers]
     total = zlib.crc32(repr(words).encode())

@@ -60,7 +60,8 @@ class Faired:
     points: np.ndarray  # (N, 3) in the object's coordinates, the vertices of `part` first
     # by selected face that was split: the points that all its triangles have, a centre or a diagonal
     splits: dict[int, list[int]]
-    labels: np.ndarray  # (N, 3) float32, no two alike; linear between those of the vertices
+    # (N, 3) float32, no two alike; linear between those of the vertices; none where faces stay
+    labels: np.ndarray
     levels: int
     faults: Faults
     noise: float = 0.0  # of measured vertices, a length
@@ -118,8 +119,11 @@ class InPlaceJob:
             free = inside(part, tried)[small.vertices] & self._free[small.vertices]
         else:
             own, free = arguments, self._free
-        found = measured.amount(own, free, self._wish.noise, **watchers)
-        return measured.smoothed(arguments, self._free, found.weight, **watchers), found.noise
+        told = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
+        runs = core.module().watching.SeveralRuns(*told)
+        found = measured.amount(own, free, self._wish.noise, runs)
+        made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
+        return made, found.noise
 
     @property
     def _key(self) -> Hashable:
@@ -157,8 +161,8 @@ class InPlaceJob:
         unseen = 0 if self._wish.measured else _UNSEEN_LEVELS
         carrier = Carrier(result, part.arrays, self._wish.levels or unseen)
         world = self._shape.of_arrays(part.arrays)
-        labels = np.random.default_rng(0).random((len(part.vertices), 3))
         levels = self._wish.levels
+        labels = np.random.default_rng(0).random((len(part.vertices) if levels else 0, 3))
         splits = _split_faces(carrier, part) if levels else {}
         if any(not common for index, common in splits.items() if self._chosen[index]):
             raise JobError(
@@ -168,9 +172,8 @@ class InPlaceJob:
         chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
         faults = find_faults_in_place(result, carrier, world, theirs, self._wish)
-        self.result = Faired(
-            part, chosen, points, splits, carrier.point(labels), levels, faults, noise
-        )
+        spread = carrier.point(labels) if levels else labels
+        self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
         self._taken = perf_counter() - begun
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:

@@ -154,6 +154,7 @@ def _plain(value: Any) -> Any:
 
 _GROUPS = (
     "discrete_fairing",
+    "discrete_fairing_curves",
     "discrete_fairing_live",
     "discrete_fairing_inspection",
     "discrete_fairing_strain",

@@ -81,9 +81,10 @@ def find_faults_in_place(
     if not wish.levels:
         vertices = carrier.point(vertices[: len(control.positions)])
     joined = wish.joint != "POSITION"
+    near = np.zeros(len(vertices), bool)
     return Faults(
         _crossing(vertices, before, carrier),
-        (_departure(vertices, carrier, control) > FAR) & (not wish.moves),
+        near if wish.moves else _departure(vertices, carrier, control) > FAR,
         folded_in_place(result, vertices, before, carrier, chosen, wish.levels, joined),
     )
 

@@ -94,6 +94,11 @@ def shown_changed() -> None:
     redraw()
 
 
+def moved(target: Object) -> None:
+    """To be called when a handler has written its mesh: Blender tells no handler of that."""
+    _entries.pop(session_key(target), None)
+
+
 def redraw() -> None:
     """All viewports, after settings have changed."""
     for window in current_context().window_manager.windows:

@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..blender import Context, Scene, current_context
 from ..redraw import Progress, tag_sidebars
-from . import registry
+from . import curve_cages, registry
 from .registry import session_key
 
 if TYPE_CHECKING:
@@ -102,6 +102,12 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
         for change in depsgraph.updates
         if change.is_updated_geometry
     }
+    moved = {
+        session_key(cast(Any, change.id).original)
+        for change in depsgraph.updates
+        if change.is_updated_transform
+    }
+    reshaped |= curve_cages.refreshed(filter(_is_awake, registry.sessions()), reshaped | moved)
 
     def step(session: Session) -> None:
         if session.needs_look(reshaped):

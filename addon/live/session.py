@@ -15,7 +15,7 @@ from .. import core, errors, memory, size
 from ..blender import Context, Mesh, Object, current_context
 from ..core import ControlArrays
 from ..errors import JobError
-from ..inspection import display
+from ..inspection import display, overlay
 from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
@@ -236,10 +236,15 @@ class Session:
             self._mesh = session_key(target.data)
         else:
             write_positions(target.data, result.vertices)
+        overlay.moved(target)
         display.remeasure(target, current_context().scene.discrete_fairing_inspection)
         self.level = self._level
         self.triangles = len(result.faces[0]) + 2 * len(result.faces[1])
         self._stale = False
+
+    def wait(self, sentence: str) -> None:
+        """Until the source is fine again: `sentence` says what is wrong with it."""
+        self._fail(sentence)
 
     def _fail(self, sentence: str) -> None:
         """The last good surface stays, until the source is fine again."""

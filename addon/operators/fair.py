@@ -9,7 +9,7 @@ from typing import cast
 
 import bpy
 
-from .. import core, prediction
+from .. import core, curve_cage, prediction
 from ..blender import Answer, Context, Object, registration
 from ..errors import JobCancelled, JobError
 from ..freshness import stale_surfaces
@@ -198,6 +198,15 @@ def faired_objects(context: Context) -> list[Object]:
     return sorted(selected, key=lambda o: o == active)
 
 
+def _again(context: Context, target: Object) -> Job:
+    """From its source as it is now, whose own curves, if there are any, come first."""
+    source = cast(Object, source_of(target))
+    remarks = curve_cage.follow(source).remarks if curve_cage.is_cage(source) else []
+    job = Job(context, source, target.discrete_fairing, target)
+    job.notes += remarks
+    return job
+
+
 class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
     """Make this surface again from its source as it is now, and keep its own materials and modifiers"""
 
@@ -217,10 +226,7 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
         return ""
 
     def make_jobs(self, context: Context) -> list[Job]:
-        return [
-            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
-            for target in faired_objects(context)
-        ]
+        return [_again(context, target) for target in faired_objects(context)]
 
 
 class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
@@ -236,10 +242,7 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
         return poll_reason(context) or ("" if stale else "No surface is out of date")
 
     def make_jobs(self, context: Context) -> list[Job]:
-        return [
-            Job(context, cast(Object, source_of(target)), target.discrete_fairing, target)
-            for target in stale_surfaces()
-        ]
+        return [_again(context, target) for target in stale_surfaces()]
 
 
 class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):

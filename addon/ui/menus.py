@@ -35,6 +35,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.menu(VIEW3D_MT_fairing_for.__name__)
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         layout.operator("object.fairing_fill")
+        layout.operator("object.fairing_curves")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
@@ -123,7 +124,14 @@ def _draw_export(menu: Any, _context: Context) -> None:
     menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
 
 
+def _draw_add(menu: Any, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.operator_context = "INVOKE_DEFAULT"
+    menu.layout.operator("object.fairing_curves", icon="SURFACE_DATA")
+
+
 _ENTRIES = {
+    "VIEW3D_MT_mesh_add": _draw_add,
     "VIEW3D_MT_object": _draw_all,
     "VIEW3D_MT_object_context_menu": _draw_one,
     "VIEW3D_MT_edit_mesh": _draw_all,

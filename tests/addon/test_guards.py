@@ -30,7 +30,7 @@ MAY_USE_FILES = {
 }
 
 # All their numbers can be tested, and used, without Blender.
-PURE_FOLDERS = ("transfer",)
+PURE_FOLDERS = ("curves", "transfer")
 PURE_FILES = (
     "choices.py",
     "core.py",
@@ -60,9 +60,11 @@ PURE_FILES = (
 ROOMS = (
     {"blender", "choices", "core", "poll", "purposes", "redraw", "size", "units"},
     {"errors", "prediction", "preferences", "queue", "settings", "transfer", "vertex_values"},
+    {"curves"},
     {"records"},
     {"memory"},
     {"mesh"},
+    {"curve_cage"},
     {"check", "freshness", "inspection", "measured"},
     {"in_place", "holes", "job"},
     {"live"},

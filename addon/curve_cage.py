@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The control mesh of a surface from curves: an object that remembers its curves and follows them."""
+
+from collections.abc import Hashable, Sequence
+from typing import Any, cast
+
+import bpy
+import numpy as np
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from .blender import Context, Mesh, Object, attach, detach
+from .curves.cubics import Curve
+from .curves.settle import Covered, Wish, covered
+from .errors import JobError
+from .mesh.object import session_key
+from .mesh.read_curves import read_curves
+
+HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothing between them
+
+
+def _look_again(settings: Any, _context: Context) -> None:
+    """Live follows what its curves do: they are told that something is new."""
+    for curve in (
+        curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ()
+    ):
+        curve.update_tag()
+
+
+class CageSettings:
+    """Mix-in of annotations for an operator or a property group."""
+
+    snap: FloatProperty(
+        name="Snap",
+        description="Curves that pass each other no farther apart than this meet, in scene units. "
+        "0: a hundredth of the size of the usual curve",
+        default=0.0,
+        min=0.0,
+        soft_max=1.0,
+        precision=4,
+        subtype="DISTANCE",
+        update=_look_again,
+    )
+    per_side: IntProperty(
+        name="Edges per Side",
+        description="Edges of the control mesh on the shorter sides of cells; longer sides have more. More follow the curves more closely",
+        default=4,
+        min=1,
+        max=64,
+        soft_max=16,
+        update=_look_again,
+    )
+    closed: BoolProperty(
+        name="Close",
+        description="Ends that are open, as those of a tube, are filled too. Not for sheets: their outside is one as well",
+        default=False,
+        update=_look_again,
+    )
+
+
+class FAIRING_PG_curve(bpy.types.PropertyGroup):
+    """One curve object of a network."""
+
+    source: PointerProperty(type=bpy.types.Object)
+
+
+def _told(group: Any, _context: Context) -> None:
+    group.id_data.update_tag()
+
+
+class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
+    """Of a control mesh: the curves that it is made from. Of a curve: how the surface crosses it."""
+
+    curves: CollectionProperty(type=FAIRING_PG_curve)
+    remarks: StringProperty(
+        name="Remarks",
+        description="What of the curves did not take part, and where, a line each",
+        options={"HIDDEN"},
+    )
+    counts: StringProperty(
+        name="Counts",
+        description="Edges on each arc of the network, numbers with spaces between",
+        options={"HIDDEN"},
+    )
+    sharp: BoolProperty(
+        name="Sharp",
+        description="A surface from curves has an edge along this one; it is smooth across all others",
+        default=False,
+        update=_told,
+    )
+
+
+def curves_of(cage: Object) -> list[Object]:
+    """The curve objects that `cage` is made from and that are still there; none: it is no such mesh."""
+    found = (cast(Object | None, one.source) for one in cage.discrete_fairing_curves.curves)
+    return [one for one in found if one is not None and one.users_scene]
+
+
+def is_cage(cage: Object | None) -> bool:
+    return cage is not None and bool(cage.discrete_fairing_curves.curves)
+
+
+def watched(cage: Object) -> list[Any]:
+    """Data-blocks whose changes concern `cage`."""
+    return [block for one in curves_of(cage) for block in (one, one.data)]
+
+
+def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
+    """All that its mesh depends on: to see whether that has changed."""
+    curves = _read(curves_of(cage))
+    return [curve.pieces for curve in curves], (
+        _wish(cage.discrete_fairing_curves),
+        tuple(curve.sharp for curve in curves),
+    )
+
+
+def new_cage(
+    context: Context, name: str, sources: Sequence[Object], settings: Any
+) -> tuple[Object, Covered]:
+    """A new object, linked beside the curves, and what it was made from; JobError says why there is
+    none.
+    """
+    found = covered(_read(sources), _wish(settings))
+    cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
+    context.collection.objects.link(cage)
+    group = cage.discrete_fairing_curves
+    for setting in CageSettings.__annotations__:
+        setattr(group, setting, getattr(settings, setting))
+    for source in sources:
+        group.curves.add().source = source
+    _fill(cage, found)
+    return cage, found
+
+
+def follow(cage: Object) -> Covered:
+    """Brings its mesh up to date with its curves; JobError says why that cannot be."""
+    sources = curves_of(cage)
+    if not sources:
+        raise JobError(f"The curves of '{cage.name}' were deleted. Undo, or choose another source.")
+    if cage.mode == "EDIT":
+        raise JobError(f"'{cage.name}' is being edited. Leave Edit Mode (Tab): it follows curves.")
+    group = cage.discrete_fairing_curves
+    found = covered(_read(sources), _wish(group), _counts(group))
+    _fill(cage, found)
+    return found
+
+
+def _read(sources: Sequence[Object]) -> list[Curve]:
+    return [curve for source in sources for curve in read_curves(source)]
+
+
+def _wish(settings: Any) -> Wish:
+    return Wish(settings.snap, settings.per_side, settings.closed)
+
+
+def remarks_of(cage: Object) -> list[str]:
+    """What did not take part when its mesh was made, a sentence each."""
+    return cage.discrete_fairing_curves.remarks.splitlines()
+
+
+def _counts(group: FAIRING_PG_curves) -> np.ndarray | None:
+    """None where a file has what is none."""
+    words = group.counts.split()
+    if not all(word.isascii() and word.isdecimal() and len(word) < 6 for word in words):
+        return None
+    return np.array(words, int)
+
+
+def _fill(cage: Object, found: Covered) -> None:
+    mesh, made = cage.data, found.mesh
+    cage.discrete_fairing_curves.remarks = "\n".join(found.remarks)
+    cage.discrete_fairing_curves.counts = " ".join(map(str, made.counts.tolist()))
+    if not _has_faces(mesh, made.faces):
+        mesh.clear_geometry()
+        mesh.from_pydata(np.zeros_like(made.points), [], made.faces.tolist())
+        groups = cage.vertex_groups
+        group = groups.get(HOLD) or groups.new(name=HOLD)
+        group.add(np.flatnonzero(made.held).tolist(), 1.0, "REPLACE")
+    mesh.vertices.foreach_set("co", made.points.astype(np.float32).ravel())
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    keys = np.sort(ends.reshape(-1, 2), axis=1) @ (len(made.points), 1)
+    creased = np.isin(keys, np.sort(made.sharp, axis=1) @ (len(made.points), 1))
+    if creased.any() or "crease_edge" in mesh.attributes:
+        attributes = mesh.attributes
+        layer = attributes.get("crease_edge") or attributes.new("crease_edge", "FLOAT", "EDGE")
+        layer.data.foreach_set("value", creased.astype(np.float32))
+    mesh.update()
+
+
+def _has_faces(mesh: Mesh, faces: np.ndarray) -> bool:
+    if len(mesh.loops) != faces.size or len(mesh.polygons) != len(faces):
+        return False
+    corners = np.empty(faces.size, np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return np.array_equal(corners, faces.ravel())
+
+
+def keys(blocks: Sequence[Any]) -> set[int | str]:
+    return {session_key(block) for block in blocks}
+
+
+def register() -> None:
+    bpy.utils.register_class(FAIRING_PG_curve)
+    attach(bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)
+
+
+def unregister() -> None:
+    detach(bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)
+    bpy.utils.unregister_class(FAIRING_PG_curve)

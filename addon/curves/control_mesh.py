@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The control mesh over a network: vertices on the curves, which hold, and free ones in the cells.
+
+Four sides: a grid, by transfinite interpolation [Coons 1967; Gordon and Hall 1973]. Other numbers: a quad
+of such grids at each corner, around a vertex in the middle.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .cells import Cell, Cells, border_arcs
+from .counts import edge_counts
+from .network import Network
+
+_CALM = 0.05  # a loop without corners: its inner square is so far drawn to where its sides would be straight
+
+
+@dataclass(frozen=True)
+class ControlMesh:
+    points: np.ndarray  # (n, 3), those on curves first
+    faces: np.ndarray  # (m, 4)
+    held: np.ndarray  # (n,) bool: on a curve
+    sharp: np.ndarray  # (k, 2) int: edges of sharp curves inside of the surface
+    cell_of_face: np.ndarray  # (m,) int
+    counts: np.ndarray  # (e,) int: edges on each arc of the network
+
+
+def control_mesh(found: Cells, per_side: int, before: np.ndarray | None = None) -> ControlMesh:
+    """`per_side`: edges on the shorter sides of cells. `before`: the `counts` of an earlier mesh over
+    these curves.
+    """
+    network = found.network
+    lengths = np.array([arc.length for arc in network.arcs])
+    used = sorted({half // 2 for cell in found.cells for half in cell.halves})
+    edge = _short_side(found.cells, lengths) / per_side
+    counts, as_drawn = edge_counts(found.cells, lengths, edge, before)
+    builder = _Builder(network, counts, used)
+    for k, cell in enumerate(found.cells):
+        if not as_drawn and len(cell.sides) not in (1, 4):
+            cell = Cell([[half] for half in cell.halves])
+        builder.fill(cell, k)
+    points = np.concatenate(builder.points)
+    faces = np.array(builder.faces, np.int64).reshape(-1, 4)
+    held = np.arange(len(points)) < builder.on_curves
+    borders = border_arcs(found.cells, network.arcs)
+    marked = [k for k in used if network.curves[network.arcs[k].curve].sharp and k not in borders]
+    pairs = [np.stack([builder.rows[k][:-1], builder.rows[k][1:]], axis=1) for k in marked]
+    sharp = np.concatenate([np.zeros((0, 2), np.int64), *pairs])
+    cells_of = np.array(builder.cells, np.int64)
+    return _looking_up(_without_idle(ControlMesh(points, faces, held, sharp, cells_of, counts)))
+
+
+def _looking_up(mesh: ControlMesh) -> ControlMesh:
+    """Turned over where it is closed and looks inwards, or open and looks down."""
+    a, b, c, d = mesh.points[mesh.faces].swapaxes(0, 1)
+    areas = np.cross(c - a, d - b)
+    pairs = np.sort(np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=-1).reshape(-1, 2))
+    closed = (np.unique(pairs, axis=0, return_counts=True)[1] == 2).all()
+    middle = mesh.points.mean(axis=0)
+    out = np.einsum("ij,ij->", (a + b + c + d) / 4 - middle, areas) if closed else areas[:, 2].sum()
+    return replace(mesh, faces=mesh.faces[:, ::-1]) if out < 0 else mesh
+
+
+def _without_idle(mesh: ControlMesh) -> ControlMesh:
+    """Without nodes that no cell has."""
+    ids, faces = np.unique(mesh.faces, return_inverse=True)
+    new = np.zeros(len(mesh.points), np.int64)
+    new[ids] = np.arange(len(ids))
+    faces = faces.reshape(mesh.faces.shape)
+    return replace(
+        mesh, points=mesh.points[ids], faces=faces, held=mesh.held[ids], sharp=new[mesh.sharp]
+    )
+
+
+def _short_side(cells: list[Cell], lengths: np.ndarray) -> float:
+    """The length that three sides of four exceed: the frames of a hull are much longer than its rails
+    between them.
+    """
+    sides = [
+        lengths[[half // 2 for half in side]].sum() / (4 if len(cell.sides) == 1 else 1)
+        for cell in cells
+        for side in cell.sides
+    ]
+    return float(np.quantile(sides, 0.25))
+
+
+class _Builder:
+    def __init__(self, network: Network, counts: np.ndarray, used: list[int]) -> None:
+        self.points = [network.nodes]
+        self.faces: list[list[int]] = []
+        self.cells: list[int] = []
+        self.rows: dict[int, np.ndarray] = {}  # vertices along each arc
+        self._count = len(network.nodes)
+        for k in used:
+            arc = network.arcs[k]
+            inner = arc.even(int(counts[k]))[1:-1]
+            self.rows[k] = np.array([arc.a, *self._add(inner), arc.b])
+        self.on_curves = self._count
+
+    def _add(self, points: np.ndarray) -> np.ndarray:
+        self.points.append(points)
+        self._count += len(points)
+        return np.arange(self._count - len(points), self._count)
+
+    def _at(self, ids: np.ndarray) -> np.ndarray:
+        return np.concatenate(self.points)[ids]
+
+    def fill(self, cell: Cell, number: int) -> None:
+        sides = [self._side(side) for side in cell.sides]
+        if len(sides) == 1:
+            sides = _in_four(sides[0])
+            self._round(sides)
+        elif len(sides) == 4:
+            self._grid(*sides)
+        else:
+            self._around(sides)
+        self.cells += [number] * (len(self.faces) - len(self.cells))
+
+    def _side(self, halves: list[int]) -> np.ndarray:
+        rows = [self.rows[h // 2][:: -1 if h % 2 else 1] for h in halves]
+        return np.concatenate([*(row[:-1] for row in rows), rows[-1][-1:]])
+
+    def _grid(
+        self, bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray
+    ) -> None:
+        """Sides of ids, one after another around."""
+        top, left = top[::-1], left[::-1]
+        inner = coons(*(self._at(ids) for ids in (bottom, right, top, left)))[1:-1, 1:-1]
+        grid = np.empty((len(left), len(bottom)), np.int64)
+        grid[0], grid[-1], grid[:, 0], grid[:, -1] = bottom, top, left, right
+        grid[1:-1, 1:-1] = self._add(inner.reshape(-1, 3)).reshape(inner.shape[:2])
+        quads = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=-1)
+        self.faces += quads.reshape(-1, 4).tolist()
+
+    def _around(self, sides: list[np.ndarray]) -> None:
+        """A grid at each corner, between the middles of its sides and the middle of the cell."""
+        half = (len(sides[0]) - 1) // 2
+        middles = np.array([side[half] for side in sides])
+        corners = np.array([side[0] for side in sides])
+        # as a Coons patch has it for four sides
+        centre = 2 * self._at(middles).mean(axis=0) - self._at(corners).mean(axis=0)
+        middle = self._add(centre[None])[0]
+        spokes = []
+        for place in middles.tolist():
+            way = np.linspace(self._at(np.array([place]))[0], centre, half + 1)[1:-1]
+            spokes.append(np.array([place, *self._add(way), middle]))
+        for k, side in enumerate(sides):
+            before = sides[k - 1]
+            self._grid(side[: half + 1], spokes[k], spokes[k - 1][::-1], before[half:])
+
+    def _round(self, sides: list[np.ndarray]) -> None:
+        """A loop without corners: a square in the middle, and a grid to each of its sides."""
+        rim = self._at(np.array([side[0] for side in sides]))
+        centre = self._at(np.concatenate([side[:-1] for side in sides])).mean(axis=0)
+        count = len(sides[0]) - 1
+        depth = max(1, count // 2)
+        corners = self._add((rim + centre) / 2)
+        spokes = []
+        for k, side in enumerate(sides):
+            way = np.linspace(rim[k], (rim[k] + centre) / 2, depth + 1)[1:-1]
+            spokes.append(np.array([side[0], *self._add(way), corners[k]]))
+        square = []
+        for k, side in enumerate(sides):
+            outer = self._at(side)
+            bent = (outer + centre) / 2
+            straight = np.linspace(bent[0], bent[-1], count + 1)
+            inner = (1 - _CALM) * straight + _CALM * bent
+            square.append(np.array([corners[k], *self._add(inner[1:-1]), corners[(k + 1) % 4]]))
+        for k, side in enumerate(sides):
+            self._grid(side, spokes[(k + 1) % 4], square[k][::-1], spokes[k][::-1])
+        self._grid(*square)
+
+
+def _in_four(side: np.ndarray) -> list[np.ndarray]:
+    quarter = (len(side) - 1) // 4
+    return [side[k * quarter : (k + 1) * quarter + 1] for k in range(4)]
+
+
+def coons(bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """(v, u, 3): between four rows of points; `bottom` and `top` (u, 3) run alike, as do `left` and
+    `right` (v, 3).
+    """
+    u = np.linspace(0, 1, len(bottom))[None, :, None]
+    v = np.linspace(0, 1, len(left))[:, None, None]
+    rows = (1 - v) * bottom[None] + v * top[None]
+    columns = (1 - u) * left[:, None] + u * right[:, None]
+    corners = (1 - v) * ((1 - u) * bottom[0] + u * bottom[-1]) + v * (
+        (1 - u) * top[0] + u * top[-1]
+    )
+    return rows + columns - corners

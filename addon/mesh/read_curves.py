@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curve objects, and edges of meshes without faces, as curves in the world."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+
+from ..blender import Object
+from ..curves.cubics import Curve, from_bezier, from_nurbs, through
+from .read import read_mesh
+
+_LOOKED_AT = 100_000  # corners: a few milliseconds
+
+
+def has_curves(source: Object) -> bool:
+    """Whether there is anything to read. Cheap: for panels."""
+    if source.type == "CURVE":
+        return bool(cast(Any, source.data).splines)
+    return source.type == "MESH" and _has_wires(source.data)
+
+
+def _has_wires(mesh: Any) -> bool:
+    """Whether an edge has no face; of large meshes nobody asks while panels are drawn."""
+    if not len(mesh.polygons) or len(mesh.loops) > _LOOKED_AT:
+        return bool(len(mesh.edges)) and not len(mesh.polygons)
+    used = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", used)
+    return len(np.unique(used)) < len(mesh.edges)
+
+
+def read_curves(source: Object) -> list[Curve]:
+    """All of `source`, with the edits of this moment, in the world's coordinates; those with a mark
+    for it are sharp.
+    """
+    found = list(_splines(source) if source.type == "CURVE" else _wires(source))
+    sharp = source.discrete_fairing_curves.sharp
+    matrix = np.array(source.matrix_world)
+    return [
+        replace(
+            curve,
+            name=source.name if len(found) == 1 else f"{source.name}, {curve.name}",
+            pieces=curve.pieces @ matrix[:3, :3].T + matrix[:3, 3],
+            sharp=curve.sharp or sharp,
+        )
+        for curve in found
+    ]
+
+
+def _splines(source: Object) -> Iterator[Curve]:
+    data: Any = source.data
+    for number, spline in enumerate(data.splines, 1):
+        closed, name = bool(spline.use_cyclic_u), f"spline {number}"
+        if spline.type == "BEZIER":
+            points, left, right = (
+                _column(spline.bezier_points, n, 3) for n in ("co", "handle_left", "handle_right")
+            )
+            yield Curve(name, from_bezier(points, left, right, closed), closed)
+            continue
+        points = _column(spline.points, "co", 4)
+        if spline.type == "NURBS":
+            pieces = from_nurbs(
+                points, spline.order_u, closed, spline.use_endpoint_u, spline.use_bezier_u
+            )
+        else:
+            pieces = through(points[:, :3], closed)
+        yield Curve(name, pieces, closed)
+
+
+def _column(rows: Any, name: str, width: int) -> np.ndarray:
+    values = np.empty(width * len(rows), np.float32)
+    rows.foreach_get(name, values)
+    return values.reshape(-1, width).astype(float)
+
+
+def _wires(source: Object) -> Iterator[Curve]:
+    """Chains of edges without faces, from one end or branching to the next."""
+    if source.mode == "EDIT":
+        source.update_from_editmode()
+    arrays = read_mesh(source.data)
+    wires = np.flatnonzero(arrays.edge_uses == 0)
+    marks = np.zeros(len(arrays.edges), bool)
+    if arrays.sharp_edge is not None:
+        marks |= arrays.sharp_edge
+    if arrays.edge_crease is not None:
+        marks |= arrays.edge_crease > 0
+    for number, (chain, sharp) in enumerate(chains(arrays.edges[wires], marks[wires]), 1):
+        closed = chain[0] == chain[-1]
+        points = arrays.positions[chain[:-1] if closed else chain]
+        yield Curve(f"edges {number}", through(points, closed), closed, sharp)
+
+
+def chains(edges: np.ndarray, marks: Sequence[bool] | np.ndarray) -> list[tuple[list[int], bool]]:
+    """Vertices along each chain of `edges` (e, 2), which ends where not two edges of one mark meet;
+    first and last are one where it is closed.
+    """
+    at: dict[int, list[int]] = {}
+    for k, pair in enumerate(edges.tolist()):
+        for vertex in pair:
+            at.setdefault(vertex, []).append(k)
+    stops = {v for v, ks in at.items() if len(ks) != 2 or marks[ks[0]] != marks[ks[1]]}
+    used = np.zeros(len(edges), bool)
+    found = []
+    for start in [*sorted(stops), *sorted(set(at) - stops)]:
+        for first in at[start]:
+            chain, k = [start], first
+            while not used[k]:
+                used[k] = True
+                a, b = edges[k].tolist()
+                chain.append(b if a == chain[-1] else a)
+                if chain[-1] in stops:
+                    break
+                k = next((n for n in at[chain[-1]] if n != k), k)
+            if len(chain) > 1:
+                found.append((chain, bool(marks[first])))
+    return found

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair Surface from Curves: the fairest surface over a network of curves, which it follows from then on."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import bpy
+from bpy.props import EnumProperty, IntProperty
+
+from .. import curve_cage
+from ..blender import Answer, Context, Object, registration
+from ..choices import ENERGIES
+from ..curve_cage import CageSettings
+from ..job import Job
+from ..mesh.read_curves import has_curves
+from ..settings import snapshot
+from .fair import Fairing, poll_reason
+
+# The surface runs through the curves, is free between them, and ends as they do.
+_OURS = {
+    "interpolation": "APPROXIMATE",
+    "tolerance": 0.0,
+    "tolerance_unit": "SCENE",
+    "tolerance_group": "",
+    "pull_group": curve_cage.HOLD,
+    "boundary": "CORNERS",
+    "symmetry_plane": "NONE",
+    "mesh_source": "ORIGINAL",
+    "use_selection": False,
+    "use_crease_attribute": True,
+    "use_sharp_edges": False,
+    "use_crease_angle": False,
+    "repair": "REFUSE",
+    "tension": 0.0,
+}
+
+
+def curve_objects(context: Context) -> list[Object]:
+    """Those of the selection that have curves, by name."""
+    return sorted((o for o in context.selected_objects if has_curves(o)), key=lambda o: o.name)
+
+
+class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
+    """Make the fairest surface over the network of the selected curves, through all of them. Wire edges of meshes are curves too"""
+
+    bl_idname = "object.fairing_curves"
+    bl_label = "Fair Surface from Curves"
+    bl_options = {"REGISTER", "UNDO"}
+
+    levels: IntProperty(
+        name="Levels",
+        description="How often every face of the control mesh is split in four",
+        default=3,
+        min=1,
+        max=10,
+        soft_max=5,
+    )
+    energy: EnumProperty(
+        name="Fairness",
+        description="What is to be as small as possible: bending, curvature, or its change along the surface",
+        items=ENERGIES,
+        default="MINIMUM_VARIATION",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode != "OBJECT":
+            return "Surfaces from curves are made in Object Mode: press Tab first"
+        if poll_reason(context):
+            return poll_reason(context)
+        return "" if curve_objects(context) else "Select curves that cross each other first"
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        for name in ("levels", "energy", *CageSettings.__annotations__):
+            layout.prop(self, name)
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        self._cage: Object | None = None
+        return self._tidied(super().invoke(context, event))
+
+    def execute(self, context: Context) -> Answer:
+        self._cage = None
+        return self._tidied(super().execute(context))
+
+    def _end(self, context: Context) -> Answer:
+        return self._tidied(super()._end(context))
+
+    def cancel(self, context: Context) -> None:
+        super().cancel(context)
+        self._tidied({"CANCELLED"})
+
+    def _tidied(self, answer: Answer) -> Answer:
+        """A control mesh without a surface is nothing that anyone has asked for."""
+        if answer == {"CANCELLED"} and self._cage is not None:
+            mesh = self._cage.data
+            bpy.data.objects.remove(self._cage)
+            bpy.data.meshes.remove(mesh)
+            self._cage = None
+        return answer
+
+    def make_jobs(self, context: Context) -> list[Job]:
+        if self._cage is None:
+            sources = curve_objects(context)
+            name = "Curves" if len(sources) > 1 else sources[0].name
+            made = curve_cage.new_cage(context, f"{name} Network", sources, self)
+            self._cage, self._found = made
+        own = vars(snapshot(context.scene.discrete_fairing)) | _OURS
+        own |= {"levels": self.levels, "energy": self.energy}
+        return [Job(context, self._cage, SimpleNamespace(**own))]
+
+    def after(self, context: Context, jobs: Any) -> None:
+        faces = len(self._found.mesh.faces)
+        self.report({"INFO"}, f"{self._found.summary}: {faces:,} faces")
+        for sentence in self._found.remarks:
+            self.report({"WARNING"}, sentence)
+        cast(Object, jobs[0].source).hide_set(True)
+
+
+register, unregister = registration(OBJECT_OT_fairing_curves)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A large mesh in blocks of faces with some of their neighbours, for what is local: each costs its size
+alone.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..core import ControlArrays
+from .cut_out import CutOut, cut_out
+
+
+def blocks(
+    arrays: ControlArrays, chosen: np.ndarray, most: int, around: float
+) -> Iterator[tuple[CutOut, np.ndarray]]:
+    """(cut-out, (f,) bool which of its faces are the block's own): together these are the faces
+    `chosen` (m,) bool, at most `most` a block. A cut-out has all faces, too, whose centres are no
+    farther than `around`, a length, from the box around its own.
+
+    Halved across the longest axis, over and over, so that no step looks at more than it cuts.
+    """
+    whole = CutOut(arrays, np.arange(len(arrays.positions)), np.arange(len(chosen)))
+    waiting = [(whole, chosen)] if chosen.any() else []
+    while waiting:
+        part, own = waiting.pop()
+        if own.sum() <= most:
+            yield part, own
+            continue
+        centres = _centres(part.arrays)
+        rows = np.flatnonzero(own)
+        axis = int(np.argmax(np.ptp(centres[rows], axis=0)))
+        order = rows[np.argsort(centres[rows, axis], kind="stable")]
+        for half in (order[len(order) // 2 :], order[: len(order) // 2]):
+            waiting.append(_cut(part, centres, half, around))
+
+
+def _cut(
+    part: CutOut, centres: np.ndarray, rows: np.ndarray, around: float
+) -> tuple[CutOut, np.ndarray]:
+    low, high = centres[rows].min(axis=0) - around, centres[rows].max(axis=0) + around
+    near = ((centres >= low) & (centres <= high)).all(axis=1)
+    found = cut_out(part.arrays, near)
+    own = np.zeros(len(near), bool)
+    own[rows] = True
+    whole = CutOut(found.arrays, part.vertices[found.vertices], part.faces[found.faces])
+    return whole, own[found.faces]
+
+
+def _centres(arrays: ControlArrays) -> np.ndarray:
+    """(m, 3): means of corners."""
+    sums = np.add.reduceat(arrays.positions[arrays.corners], arrays.offsets[:-1], axis=0)
+    return sums / arrays.face_sizes[:, None]

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fair Surface from Curves: which curves are read, what is made of them, and what follows them."""
+
+import bpy
+import networks
+import numpy as np
+import pytest
+from curve_objects import bezier, poly, scene, surface
+from mathutils import Matrix
+from scenes import activate, add, positions
+
+from addon import curve_cage, freshness
+from addon.curves.cubics import points_at
+from addon.inspection import overlay
+from addon.live import registry, switch
+from addon.mesh.object import session_key
+from addon.mesh.read_curves import chains, read_curves
+
+
+def square():
+    return networks.polygon(4)
+
+
+def even(curve, count=400):
+    return points_at(curve.pieces, np.linspace(0, curve.end, count))
+
+
+def test_it_makes_a_surface_through_the_curves():
+    made = scene(networks.three_by_four)
+    target = surface()
+    assert target.discrete_fairing.energy == "MINIMUM_VARIATION"
+    cage = target.discrete_fairing.source
+    assert curve_cage.curves_of(cage) == [made[name] for name in sorted(made)]
+    assert cage.hide_get() and not any(o.hide_get() for o in made.values())
+    x, y, z = positions(target.data).T
+    assert np.abs(z - networks.crown(x, y)).max() < 2e-3
+    assert len(target.data.polygons) == 4**3 * len(cage.data.polygons)
+
+
+def test_a_hull_and_a_bonnet_with_defaults():
+    for make, cells in ((networks.hull, 4), (networks.bonnet, 6)):
+        scene(make)
+        target = surface(levels=2)
+        assert len(target.data.polygons) == 16 * len(target.discrete_fairing.source.data.polygons)
+        assert len(target.discrete_fairing.source.data.polygons) >= 9 * cells
+        bpy.ops.object.select_all(action="DESELECT")
+
+
+@pytest.mark.parametrize("endpoint, cyclic, weighted", [(1, 0, 0), (0, 0, 0), (0, 1, 0), (1, 0, 1)])
+def test_nurbs_are_where_blender_draws_them(endpoint, cyclic, weighted):
+    random = np.random.default_rng(1)
+    points = np.stack([np.cos(np.arange(7)), np.sin(np.arange(7)), random.random(7)], axis=1)
+    drawn = poly("Curve", points, bool(cyclic), "NURBS")
+    spline = drawn.data.splines[0]
+    spline.use_endpoint_u, spline.order_u, spline.resolution_u = bool(endpoint), 4, 8
+    if weighted:
+        spline.points[3].co[3] = 3.0
+    drawn.matrix_world = Matrix([[0, -2, 0, 1], [2, 0, 0, 0], [0, 0, 2, 5], [0, 0, 0, 1]])
+    bpy.context.view_layer.update()
+    theirs = drawn.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    theirs = positions(theirs) @ np.array(drawn.matrix_world)[:3, :3].T + (1, 0, 5)
+    [ours] = read_curves(drawn)
+    ours = even(ours, 4000)
+    gaps = [np.linalg.norm(ours - point, axis=1).min() for point in theirs]
+    assert len(gaps) > 20 and max(gaps) < 5e-3
+    assert np.abs(theirs.min(axis=0) - ours.min(axis=0)).max() < 0.02
+
+
+def test_poly_curves_and_wire_edges_pass_their_points():
+    points = [(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0, 3, 7)]
+    curve = poly("Poly", points)
+    wire = add("Wire", points, [], [(k, k + 1) for k in range(6)])
+    for source in (curve, wire):
+        [read] = read_curves(source)
+        assert np.abs(np.linalg.norm(even(read), axis=1) - 1).max() < 2e-3
+        assert read.name == source.name and not read.closed
+
+
+def test_chains_end_where_edges_branch_and_marks_change():
+    edges = np.array([(0, 1), (1, 2), (2, 3), (2, 4), (5, 6), (6, 7), (7, 5)])
+    marks = np.array([1, 0, 0, 0, 0, 0, 0], bool)
+    found = sorted((len(chain), sharp) for chain, sharp in chains(edges, marks))
+    assert found == [(2, False), (2, False), (2, False), (2, True), (4, False)]
+
+
+def test_wire_edges_alone_make_a_surface():
+    points = [(x, y, networks.crown(x, y)) for x in (-1, 0, 1) for y in (-0.8, 0, 0.8)]
+    rows = [(3 * i + j, 3 * i + j + 1) for i in range(3) for j in range(2)]
+    columns = [(3 * i + j, 3 * i + j + 3) for i in range(2) for j in range(3)]
+    add("Wire", points, [], rows + columns)
+    target = surface(levels=1)
+    assert len(target.discrete_fairing.source.data.polygons) == 4 * 20
+
+
+def said(**settings):
+    """The answer of the operator, and the errors that it raises as text."""
+    try:
+        return bpy.ops.object.fairing_curves(**settings), ""
+    except RuntimeError as error:
+        return {"CANCELLED"}, str(error)
+
+
+def test_a_refusal_leaves_nothing_behind():
+    made = scene(lambda: networks.bonnet()[:4])
+    before = set(bpy.data.objects), set(bpy.data.meshes)
+    answer, text = said()
+    assert answer == {"CANCELLED"} and "no two of them come nearer" in text
+    assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and len(made) == 4
+
+
+def test_it_asks_for_curves():
+    add("Cube", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert not bpy.ops.object.fairing_curves.poll()
+
+
+def test_what_is_left_out_is_remembered_in_words():
+    scene(lambda: [*networks.three_by_four(), networks.along("Loose", 0.4, -1.0, 0.1)])
+    cage = surface(levels=1).discrete_fairing.source
+    [remark] = curve_cage.remarks_of(cage)
+    assert "'Loose' ends loose at (0.1, 0.4" in remark
+
+
+def test_recompute_follows_the_curves():
+    made = scene(networks.three_by_four)
+    target = surface(levels=2)
+    before = positions(target.data)
+    assert not freshness.why_stale(target)
+    for curve in made.values():
+        curve.location.z += 1.0
+    bpy.context.view_layer.update()
+    assert freshness.why_stale(target) == freshness.SOURCE_CHANGED
+    activate(target)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.abs(positions(target.data) - before - (0, 0, 1)).max() < 1e-5
+    assert not freshness.why_stale(target)
+
+
+def test_more_edges_a_side_are_a_change_of_the_source():
+    scene(networks.three_by_four)
+    target = surface(levels=1)
+    group = target.discrete_fairing.source.discrete_fairing_curves
+    group.per_side = 8
+    bpy.context.view_layer.update()
+    assert freshness.why_stale(target)
+    activate(target)
+    bpy.ops.object.fairing_recompute()
+    assert len(target.data.polygons) > 3 * 4 * 88
+
+
+def test_live_follows_a_handle(no_pause):
+    made = scene(networks.three_by_four)
+    target = surface(levels=2, energy="THIN_PLATE")
+    target.discrete_fairing_live.on = True
+    before = positions(target.data)
+    # between two crossings: the network stays as it is
+    point = made["Row 1"].data.splines[0].bezier_points[4]
+    for part in ("co", "handle_left", "handle_right"):
+        getattr(point, part).z += 0.2
+    bpy.context.view_layer.update()
+    after = positions(target.data)
+    assert not switch.problem(target)
+    assert len(after) == len(before) and 0.1 < np.abs(after - before)[:, 2].max() < 0.3
+
+
+def test_stripes_are_drawn_anew_where_live_has_written(no_pause):
+    made = scene(square)
+    target = surface(levels=1, energy="THIN_PLATE")
+    target.discrete_fairing_live.on = True
+    key = session_key(target)
+    overlay._entries[key] = object()
+    made["Side 0"].data.splines[0].bezier_points[1].co.z += 0.05
+    bpy.context.view_layer.update()
+    assert not switch.problem(target) and key not in overlay._entries
+
+
+def test_live_says_why_it_waits_and_goes_on(no_pause):
+    made = scene(square)
+    target = surface(levels=1, energy="THIN_PLATE")
+    target.discrete_fairing_live.on = True
+    made["Side 0"].location.z += 1.0
+    bpy.context.view_layer.update()
+    assert "enclose nothing" in switch.problem(target)
+    made["Side 0"].location.z -= 1.0
+    bpy.context.view_layer.update()
+    assert not switch.problem(target) and registry.session_of(target) is not None
+
+
+def test_a_sharp_curve_leaves_a_crease():
+    made = scene(networks.three_by_four)
+    made["Row 1"].discrete_fairing_curves.sharp = True
+    cage = surface(levels=1).discrete_fairing.source
+    values = [edge.value for edge in cage.data.attributes["crease_edge"].data]
+    points, ends = positions(cage.data), [edge.vertices[:] for edge in cage.data.edges]
+    creased = points[[pair for pair, value in zip(ends, values, strict=True) if value]]
+    assert np.abs(creased[..., 1]).max() < 1e-6
+    ways = np.linalg.norm(creased[:, 0] - creased[:, 1], axis=1)
+    assert ways.sum() == pytest.approx(2.05, abs=0.03)
+
+
+def test_deleted_curves_are_told(no_pause):
+    made = scene(square)
+    target = surface(levels=1)
+    for curve in made.values():
+        bpy.data.objects.remove(curve)
+    activate(target)
+    with pytest.raises(RuntimeError, match="The curves of .* were deleted"):
+        bpy.ops.object.fairing_recompute()
+
+
+def test_the_file_keeps_the_curves(tmp_path):
+    scene(square)
+    name = surface(levels=1).name
+    path = str(tmp_path / "kept.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    cage = bpy.data.objects[name].discrete_fairing.source
+    assert len(curve_cage.curves_of(cage)) == 4
+
+
+def test_a_curve_with_one_point_is_no_curve():
+    made = scene(square)
+    poly("Dot", [(0, 0, 0)])
+    bezier(networks.along("Far", 40.0))
+    assert len(made) == 4
+    cage = surface(levels=1).discrete_fairing.source
+    [remark] = curve_cage.remarks_of(cage)
+    assert remark.startswith("'Far' encloses nothing")

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The control mesh over a network of curves, and the surface through it. No Blender."""
+
+from dataclasses import replace
+
+import networks
+import numpy as np
+import pytest
+
+from addon.curves.cells import find_cells
+from addon.curves.control_mesh import control_mesh, coons
+from addon.curves.cubics import points_at
+from addon.curves.network import network
+from addon.curves.settle import Wish, covered
+from addon.errors import JobError
+
+df = pytest.importorskip("discrete_fairing")
+
+ALL = [
+    networks.three_by_four,
+    networks.bonnet,
+    networks.hull,
+    networks.great_circles,
+    networks.tube,
+    networks.loop,
+]
+POLYGONS = [lambda sides=sides: networks.polygon(sides) for sides in (3, 5, 6, 7)]
+
+
+def meshed(curves, per_side=4):
+    return control_mesh(find_cells(network(curves)), per_side)
+
+
+def faired(mesh, energy="minimum_variation", levels=2):
+    return df.fair(
+        mesh.points,
+        mesh.faces,
+        levels=levels,
+        energy=energy,
+        interpolation="approximate",
+        tolerance=0.0,
+        weights=np.where(mesh.held, np.inf, 0.0),
+        crease_edges=mesh.sharp,
+    )
+
+
+def off(points, curves):
+    """(n,): how far each is from the nearest of `curves`."""
+    dense = [points_at(c.pieces, np.linspace(0, c.end, 100 * len(c.pieces) + 1)) for c in curves]
+    start = np.concatenate([chain[:-1] for chain in dense])
+    way = np.concatenate([np.diff(chain, axis=0) for chain in dense])
+    found = []
+    for p in points:
+        share = np.einsum("ij,ij->i", p - start, way) / np.einsum("ij,ij->i", way, way)
+        near = start + np.clip(share, 0, 1)[:, None] * way
+        found.append(np.linalg.norm(near - p, axis=1).min())
+    return np.array(found)
+
+
+@pytest.mark.parametrize("make", [*ALL, *POLYGONS])
+@pytest.mark.parametrize("per_side", [1, 4, 5])
+def test_the_mesh_is_sound_and_its_held_vertices_lie_on_the_curves(make, per_side):
+    mesh = meshed(make(), per_side)
+    assert [d.code for d in df.check(mesh.points, mesh.faces)] == []
+    assert off(mesh.points[mesh.held], make()).max() < 1e-4
+    assert len(mesh.cell_of_face) == len(mesh.faces)
+
+
+def test_a_coons_patch_reproduces_its_sides_and_a_saddle():
+    x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
+    grid = np.stack([x, y, x * y], axis=-1)
+    assert np.allclose(coons(grid[0], grid[:, -1], grid[-1], grid[:, 0]), grid)
+
+
+def test_three_great_circles_are_a_sphere():
+    mesh = covered(networks.great_circles(), Wish()).mesh
+    surface = faired(mesh)
+    assert np.abs(np.linalg.norm(surface.vertices, axis=1) - 1).max() < 5e-4
+
+
+def test_the_missing_section_comes_back():
+    """The surface between its neighbours is that of the whole bonnet."""
+    surface = faired(covered(networks.bonnet(), Wish()).mesh)
+    x, y, z = surface.vertices.T
+    assert np.abs(z - networks.crown(x, y)).max() < 2e-3
+
+
+def test_the_surface_passes_the_curves_between_their_vertices():
+    curves = networks.three_by_four()
+    gaps = []
+    for per_side in (2, 4):
+        surface = faired(covered(curves, Wish(per_side=per_side)).mesh, levels=3)
+        dense = points_at(curves[1].pieces, np.linspace(0.5, curves[1].end - 0.5, 60))
+        gaps.append(max(np.linalg.norm(surface.vertices - p, axis=1).min() for p in dense))
+    assert gaps[1] < gaps[0] < 0.03
+
+
+def test_free_vertices_have_settled():
+    """To fair the mesh once more hardly moves them."""
+    mesh = covered(networks.bonnet(), Wish()).mesh
+    surface = faired(mesh, "thin_plate", 1)
+    assert np.abs(surface.vertices[: len(mesh.points)] - mesh.points).max() < 2e-3
+    assert 0 < mesh.held.sum() < len(mesh.points)
+
+
+def test_a_sharp_curve_is_an_edge():
+    curves = networks.three_by_four()
+    bent = [replace(c, pieces=_folded(c.pieces), sharp=c.name == "Row 1") for c in curves]
+    mesh = covered(bent, Wish()).mesh
+    assert len(mesh.sharp) and mesh.held[mesh.sharp].all()
+    assert np.abs(mesh.points[mesh.sharp][..., 1]).max() < 1e-6
+    soft = covered([replace(c, sharp=False) for c in bent], Wish()).mesh
+    # beside the fold the sharp surface follows the planes, the smooth one is round
+    off = [_off_the_fold(faired(m).vertices) for m in (mesh, soft)]
+    assert off[0] < 1e-3 < 4e-3 < off[1]
+
+
+def _folded(pieces):
+    pieces = pieces.copy()
+    pieces[..., 2] = -0.5 * np.abs(pieces[..., 1])
+    return pieces
+
+
+def _off_the_fold(points):
+    """How far points next to the fold are from its two planes, away from the outer columns."""
+    x, y, z = points.T
+    near = (np.abs(y) < 0.15) & (np.abs(x) < 0.7)
+    assert near.sum() > 20
+    return np.abs(z + 0.5 * np.abs(y))[near].max()
+
+
+def test_a_sharp_border_is_none():
+    curves = [replace(c, sharp=True) for c in networks.polygon(4)]
+    assert len(meshed(curves).sharp) == 0
+
+
+def test_it_looks_outwards_and_up():
+    for make in (networks.three_by_four, networks.great_circles):
+        mesh = meshed(make())
+        a, b, c, d = mesh.points[mesh.faces].swapaxes(0, 1)
+        out = (a + b + c + d) / 4 if make is networks.great_circles else (0, 0, 1)
+        assert (np.cross(c - a, d - b) * out).sum() > 0
+
+
+def test_what_is_no_network_is_refused_in_words():
+    with pytest.raises(JobError, match="no two of them come nearer"):
+        covered(networks.bonnet()[:4], Wish())
+    with pytest.raises(JobError, match="no curve with two points"):
+        covered([], Wish())
+    wrong = networks.polygon(3)
+    wrong[0].pieces[0, 0, 0] = np.nan
+    with pytest.raises(JobError, match="'Side 0' has a point without a proper position"):
+        covered(wrong, Wish())
+    with pytest.raises(JobError, match="Lower Edges per Side"):
+        covered(networks.three_by_four(), Wish(per_side=400))
+
+
+def test_a_mesh_keeps_its_faces_while_curves_are_drawn_about():
+    curves = networks.three_by_four()
+    first = covered(curves, Wish()).mesh
+    stretched = [c if c.name != "Column 2" else networks.across(c.name, 0.55) for c in curves]
+    assert not np.array_equal(covered(stretched, Wish()).mesh.counts, first.counts)
+    second = covered(stretched, Wish(), first.counts).mesh
+    assert np.array_equal(second.faces, first.faces)
+    assert len(covered(curves, Wish(per_side=8), first.counts).mesh.faces) > 3 * len(first.faces)

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curves, where they meet, and what they enclose. No Blender."""
+
+from dataclasses import replace
+
+import networks
+import numpy as np
+import pytest
+
+from addon.curves.cells import find_cells
+from addon.curves.crossings import meetings
+from addon.curves.cubics import Curve, from_bezier, from_nurbs, points_at, through
+from addon.curves.network import network
+from addon.curves.words import none_text, remarks
+
+
+def sizes(found):
+    return sorted(len(cell.sides) for cell in found)
+
+
+def even(curve, count=200):
+    return points_at(curve.pieces, np.linspace(0, curve.end, count))
+
+
+def test_a_spline_passes_its_points_and_bends_like_a_circle():
+    [circle] = networks.great_circles()[:1]
+    assert np.abs(np.linalg.norm(even(circle), axis=1) - 1).max() < 1e-4
+    assert np.allclose(points_at(circle.pieces, np.arange(24.0))[6], (0, 1, 0))
+
+
+def test_a_polygon_keeps_its_corners():
+    square = through(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float), True)
+    points = even(Curve("Square", square, True))
+    assert np.abs(np.abs(points[:, :2] - 0.5).max(axis=1) - 0.5).max() < 1e-12
+    assert len(network([Curve("Square", square, True)]).arcs) == 4
+
+
+def test_points_on_one_place_count_once():
+    twice = np.array([(0, 0, 0), (0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 0, 0)], float)
+    assert len(through(twice, False)) == 2
+    assert len(through(twice[:2], False)) == 0
+
+
+def test_a_bezier_is_taken_as_it_is():
+    points = np.array([(0, 0, 0), (1, 0, 0)], float)
+    pieces = from_bezier(points, points + (-0.3, 0, 1), points + (0.3, 0, 1), False)
+    assert np.allclose(points_at(pieces, np.array([0.0, 0.5, 1.0]))[1], (0.5, 0, 0.75))
+    assert len(from_bezier(points, points, points, True)) == 2
+
+
+def test_a_rational_circle_is_round():
+    w = np.sqrt(0.5)
+    around = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
+    points = np.array([(x, y, 0, w if abs(x) == abs(y) else 1) for x, y in around], float)
+    pieces = from_nurbs(points, 3, False, True, True)
+    radii = np.linalg.norm(even(Curve("Circle", pieces)), axis=1)
+    assert np.abs(radii - 1).max() < 2e-5
+
+
+def test_crossings_are_exact():
+    a = networks.along("A", 0.0)
+    b = networks.across("B", 0.3)
+    [met] = meetings([a, b], 0.01)
+    assert met.distance < 1e-4
+    assert np.allclose(met.place[:2], (0.3, 0.0), atol=1e-4)
+
+
+def test_two_crossings_of_one_pair():
+    wave = networks.drawn("Wave", lambda t: (t, np.sin(t), 0.0), 0.5, 6.5, 25)
+    line = networks.drawn("Line", lambda t: (t, 0.0, 0.0), 0.0, 7.0, 3)
+    found = [m.place[0] for m in meetings([wave, line], 0.01)]
+    assert found == pytest.approx([np.pi, 2 * np.pi], abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    "make, inner, outer",
+    [
+        (networks.three_by_four, [4] * 6, 1),
+        (networks.bonnet, [4] * 6, 1),
+        (networks.hull, [4] * 4, 1),
+        (networks.great_circles, [3] * 8, 0),
+        (networks.tube, [4] * 8, 2),
+        (networks.loop, [1], 1),
+    ],
+)
+def test_cells(make, inner, outer):
+    found = find_cells(network(make()))
+    assert sizes(found.cells) == inner and len(found.open) == outer
+    assert remarks(found.network) == []
+
+
+@pytest.mark.parametrize("sides", [3, 4, 5, 6])
+def test_a_cell_has_as_many_sides_as_corners(sides):
+    assert sizes(find_cells(network(networks.polygon(sides))).cells) == [sides]
+
+
+def test_open_ends_are_filled_on_request():
+    assert sizes(find_cells(network(networks.tube()), closed=True).cells) == [1, 1] + [4] * 8
+
+
+def test_the_cells_do_not_depend_on_how_curves_run_and_stand():
+    curves = networks.hull()
+    turned = [replace(c, pieces=c.pieces[::-1, ::-1]) for c in curves[::-1]]
+    spin = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+    moved = [replace(c, pieces=5 * c.pieces @ spin + (7, 8, 9)) for c in turned]
+    assert sizes(find_cells(network(moved)).cells) == [4] * 4
+
+
+def test_what_ends_on_another_curve_is_a_side_of_it():
+    short = networks.along("Short", 0.4, -1.0, -0.35)
+    found = find_cells(network([*networks.three_by_four(), short]))
+    assert sizes(found.cells) == [4] * 7 and remarks(found.network) == []
+
+
+def test_a_short_tail_is_snapped():
+    long = networks.along("Long", 0.4, -1.005, -0.345)
+    found = find_cells(network([*networks.three_by_four(), long], 0.01))
+    assert sizes(found.cells) == [4] * 7 and remarks(found.network) == []
+
+
+def test_a_loose_end_is_named():
+    loose = networks.along("Loose", 0.4, -1.0, 0.1)
+    found = find_cells(network([*networks.three_by_four(), loose]))
+    assert sizes(found.cells) == [4] * 7
+    [said] = remarks(found.network)
+    assert said.startswith("'Loose' ends loose at (0.1, 0.4, ")
+    assert "0.45" in said and "'Column 2' is 0.3" in said
+
+
+def test_a_near_miss_is_named_with_its_cure():
+    high = networks.across("High", 0.4)
+    high = replace(high, pieces=high.pieces + (0, 0, 0.03))
+    others = [c for c in networks.three_by_four() if c.name != "Column 2"]
+    found = find_cells(network([*others, high], 0.01))
+    assert sizes(found.cells) == [4] * 4
+    said = remarks(found.network)
+    assert sum("misses" in s and "raise Snap to 0.03" in s for s in said) == 3
+    assert any(s.startswith("'Row 1' misses 'High' by 0.0298 near (0.39") for s in said)
+    assert any(s.startswith("'High' encloses nothing") for s in said)
+    assert sizes(find_cells(network([*others, high], 0.032)).cells) == [4] * 6
+
+
+def test_a_bridge_between_two_parts_is_named():
+    left = networks.polygon(4)
+    right = [replace(c, name=f"Right {c.name}", pieces=c.pieces + (4, 0, 0)) for c in left]
+    bridge = networks.drawn("Bridge", lambda t: (t, 0.0, 0.15), 1.0, 3.0, 3)
+    found = find_cells(network([*left, *right, bridge]))
+    assert sizes(found.cells) == [4, 4]
+    assert any("'Bridge' encloses nothing" in s for s in remarks(found.network))
+
+
+def test_sections_alone_enclose_nothing():
+    found = find_cells(network(networks.bonnet()[:4]))
+    assert not found.cells
+    assert "no two of them come nearer" in none_text(found.network)
+    assert "'Section 1' encloses nothing" in none_text(found.network)
