@@ -18,6 +18,7 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import fill_million
 import jobs
 import limits
 import live
@@ -60,6 +61,7 @@ BENCHMARKS = {
     "energies": energies.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
+    "fill_million": fill_million.run,
     "drag": drag.run,
     "live": live.run,
     "uneven": uneven.run,

@@ -83,14 +83,15 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         """Changes the meshes that can be filled, and says why others cannot."""
-        done: list[Filling] = []
         reasons = list(self._reasons)
+        ready = []
         for job in jobs:
             reason = job.reason or job.why_outdated(context)
-            if reason:
-                reasons.append(reason)
-            else:
-                done.append(job.apply())
+            reasons += [reason] * bool(reason)
+            ready += [job] * (not reason)
+        if ready and context.mode == "EDIT_MESH":  # then only what is new is selected
+            bpy.ops.mesh.select_all(action="DESELECT")
+        done = [job.apply() for job in ready]
         if not done:
             self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}

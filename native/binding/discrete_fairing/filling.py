@@ -248,10 +248,6 @@ class _Mesh:
         sizes = self.offsets[faces + 1] - self.offsets[faces]
         return self.corners[_runs(self.offsets[faces], sizes)]
 
-    def corners_of(self, faces: np.ndarray) -> list[list[int]]:
-        starts, ends = self.offsets[faces].tolist(), self.offsets[faces + 1].tolist()
-        return [self.corners[a:b].tolist() for a, b in zip(starts, ends, strict=True)]
-
 
 def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """start, start + 1, … of each, `size` of them, one after another."""
@@ -302,14 +298,15 @@ class _Near:
         for _ in range(rings):
             touching = mesh.touching(ids)
             ids = np.unique(np.concatenate([rim, mesh.corners_at(touching)]))
-        faces = mesh.corners_of(touching)
         size = len(ids)
         fresh = np.arange(first, first + len(own))
         self._vertices = np.concatenate([mesh.points[ids], own])
         known = np.concatenate([ids, fresh])
-        flat = [np.searchsorted(known, face).tolist() for face in faces]
         self._new = np.searchsorted(known, triangles)
-        self._faces = flat + self._new.tolist()
+        around = np.searchsorted(known, mesh.corners_at(touching))
+        sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
+        ends = np.cumsum(np.concatenate([[0], sizes, np.full(len(triangles), 3)]))
+        self._faces = np.concatenate([around, self._new.ravel()]), ends
         self.vertex_ids = mesh.vertex_ids[ids]
         self.face_ids = mesh.face_ids[touching]
         self.grown = 1.0  # the area of the filling, over that before it was faired
