@@ -20,6 +20,8 @@ from .mesh.write_filling import write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import around, flat_faces, loops_without, sides_of, where_faces_were
 
+NO_HOLE = "NO_HOLE"  # code of a JobError: there is nothing to fill
+
 
 @dataclass(frozen=True)
 class Wish:
@@ -75,7 +77,7 @@ class Filled:
 
 class HoleJob:
     """The holes of one object: read, filled on any thread, then applied. What keeps them from being
-    filled becomes `reason`, so that other objects need not suffer.
+    filled becomes `error`, so that other objects need not suffer.
     """
 
     def __init__(self, context: Context, target: Object, wish: Wish) -> None:
@@ -83,7 +85,7 @@ class HoleJob:
         self.name, self._target, self._wish = target.name, Reference(target), wish
         self._mode, self._shape = target.mode, world_shape(target)
         self.result: Any = None
-        self.reason = ""
+        self.error: JobError | None = None  # why nothing can be filled
         with control_mesh(context, target) as mesh:
             self._arrays = arrays = read_mesh(mesh)
             gone = np.zeros(len(arrays.face_sizes), bool)
@@ -104,7 +106,7 @@ class HoleJob:
             chosen = set(map(frozenset, arrays.edges[edges].tolist()))
             self._holes = [[loop] for loop in loops if not chosen.isdisjoint(sides_of(loop))]
         if not self._holes:
-            raise JobError(f"{self.name}: {_none_text(wish, self._editing)}")
+            raise JobError(f"{self.name}: {_none_text(wish, self._editing)}", NO_HOLE)
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
 
     @property
@@ -130,7 +132,7 @@ class HoleJob:
         except JobCancelled:
             raise
         except JobError as error:
-            self.reason = str(error)
+            self.error = error
         self._taken = perf_counter() - begun
 
     def _filled(self, watchers: dict[str, Any]) -> Filled:
@@ -238,3 +240,22 @@ def _write(bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray) 
     for face in made:
         face.normal_update()
         face.select_set(True)
+
+
+def count_text(count: int) -> str:
+    return "1 hole" if count == 1 else f"{count:,} holes"
+
+
+def doubts(done: list[Filling]) -> list[str]:
+    """What their user should know of fillings, a sentence each."""
+    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
+    said = []
+    if plates:
+        said.append(
+            f"{count_text(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
+        )
+    if folded:
+        said.append(
+            f"The filling of {count_text(folded)} folds: erase more faces around it, and fill again"
+        )
+    return said

@@ -19,7 +19,7 @@ from ..blender import Mesh, Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import report, step
+from . import fill, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -51,6 +51,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
         ways = places(arguments.inputs, arguments.output, arguments.format)
         no_report_over(arguments.json, ways)
         arguments.patches = step.wanted_of(arguments, settings, ways)
+        arguments.holes = fill.wish_of(arguments, ways)
         return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
@@ -60,11 +61,11 @@ def _run_all(
     arguments: argparse.Namespace, settings: SimpleNamespace, ways: list[Place]
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
-    records = [report.new_record(way, shown(settings)) for way in ways]
+    told = shown(settings) if arguments.holes is None else fill.shown(arguments.holes)
+    records = [report.new_record(way, told) for way in ways]
     width = max(len(record["input"]) for record in records)
     if not arguments.quiet:
-        to_cad = arguments.patches is not None
-        _say(step.table_head(width) if to_cad else report.table_head(width, settings.energy))
+        _say(_table_head(arguments, settings, width))
     for way, record in zip(ways, records):
         try:
             _run_one(way, record, arguments, settings)
@@ -74,9 +75,24 @@ def _run_all(
             _say(f"{way.source}: interrupted")
             return records, INTERRUPTED
         if record["status"] == report.DONE and not arguments.quiet:
-            _say((step if is_cad(way.target) else report).table_line(record, width))
+            _say(_table(arguments, way).table_line(record, width))
     failed = any(record["status"] == report.FAILED for record in records)
     return records, SOME_FAILED if failed else ALL_DONE
+
+
+def _table_head(arguments: argparse.Namespace, settings: SimpleNamespace, width: int) -> str:
+    if arguments.holes is not None:
+        return fill.table_head(width)
+    if arguments.patches is not None:
+        return step.table_head(width)
+    return report.table_head(width, settings.energy)
+
+
+def _table(arguments: argparse.Namespace, way: Place) -> Any:
+    """The module that knows what a line of the table says."""
+    if arguments.holes is not None:
+        return fill
+    return step if is_cad(way.target) else report
 
 
 def _run_one(
@@ -87,7 +103,10 @@ def _run_one(
     try:
         if arguments.overwrite is False and is_there(way.target):
             raise FileError("EXISTS", f"{way.target} exists, and is kept.")
-        _fair_file(way, record, arguments, settings)
+        if arguments.holes is None:
+            _fair_file(way, record, arguments, settings)
+        else:
+            _fill_file(way, record, arguments)
         record["status"] = report.DONE
     except (FileError, JobError) as error:
         _fail(
@@ -138,6 +157,27 @@ def _fair_file(
         write_file(way.target)
     else:
         step.write_step_file(way, jobs, patches)
+
+
+def _fill_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
+    sources = read_file(way.source, arguments.merge)
+    progress = Progress(sys.stderr, str(way.source), len(sources))
+    watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
+    if arguments.threads is not None:
+        watchers["threads"] = arguments.threads
+    warnings: list[str] = []
+    try:
+        for source in sources:
+            entry, said = fill.fill(source, arguments.holes, **watchers)
+            record["objects"].append(entry)
+            warnings += said
+            progress.next_run()
+    finally:
+        progress.clear()
+    for warning in warnings:
+        record["warnings"].append(warning)
+        _say(f"{way.source}: warning: {warning}")
+    write_file(way.target)
 
 
 def _job(source: Object, settings: SimpleNamespace, patches: SimpleNamespace | None) -> Any:

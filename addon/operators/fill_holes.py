@@ -10,7 +10,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty
 from ..blender import Answer, Context, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, HoleJob, Wish
+from ..holes import Filling, HoleJob, Wish, count_text, doubts
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from . import fill
@@ -86,7 +86,7 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         reasons = list(self._reasons)
         ready = []
         for job in jobs:
-            reason = job.reason or job.why_outdated(context)
+            reason = str(job.error or job.why_outdated(context))
             reasons += [reason] * bool(reason)
             ready += [job] * (not reason)
         if ready and context.mode == "EDIT_MESH":  # then only what is new is selected
@@ -96,7 +96,7 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
             self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}
         self.report({"INFO"}, _said(done))
-        for sentence in reasons + _doubts(done):
+        for sentence in reasons + doubts(done):
             self.report({"WARNING"}, sentence)
         return {"FINISHED"}
 
@@ -106,27 +106,9 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _holes(count: int) -> str:
-    return "1 hole" if count == 1 else f"{count:,} holes"
-
-
 def _said(done: list[Filling]) -> str:
     holes, faces = sum(f.holes for f in done), sum(f.faces for f in done)
-    return f"{_holes(holes)} filled with {faces:,} faces"
-
-
-def _doubts(done: list[Filling]) -> list[str]:
-    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
-    said = []
-    if plates:
-        said.append(
-            f"{_holes(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
-        )
-    if folded:
-        said.append(
-            f"The filling of {_holes(folded)} folds: erase more faces around it, and fill again"
-        )
-    return said
+    return f"{count_text(holes)} filled with {faces:,} faces"
 
 
 register, unregister = registration(OBJECT_OT_fairing_fill)

@@ -152,4 +152,4 @@ def test_a_cancelled_run_changes_nothing():
     monitor.cancel()
     with pytest.raises(JobCancelled):
         job.compute(monitor=monitor)
-    assert job.result is None and job.reason == ""
+    assert job.result is None and job.error is None
