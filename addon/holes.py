@@ -11,6 +11,7 @@ import numpy as np
 
 from . import core, errors, prediction
 from .blender import Context, Object
+from .check.defects import check_object
 from .errors import JobCancelled, JobError
 from .mesh.append_filling import append_holes, can_append
 from .mesh.object import Reference
@@ -32,6 +33,7 @@ class Wish:
     replaces: (
         bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
     )
+    edge: tuple[int, int] | None = None  # the hole with this edge, whatever else is said
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ class HoleJob:
             self._arrays = arrays = read_mesh(mesh)
             gone = np.zeros(len(arrays.face_sizes), bool)
             edges = np.zeros(len(arrays.edges), bool)
-            if self._editing:
+            if self._editing and wish.edge is None:
                 mesh.polygons.foreach_get("select", gone)
                 mesh.edges.foreach_get("select", edges)
             if not wish.replaces:
@@ -98,7 +100,10 @@ class HoleJob:
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
         loops = loops_without(arrays, self._points, gone)
-        if not self._editing:
+        if wish.edge is not None:
+            side = frozenset(wish.edge)
+            self._holes = [[loop] for loop in loops if side in sides_of(loop)]
+        elif not self._editing:
             self._holes = [[loop] for loop in loops if len(loop) <= wish.most_edges]
         elif wish.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
@@ -197,6 +202,12 @@ class HoleJob:
             sum(h.folds > 0 for h in holes),
         )
 
+    def check_again(self, context: Context) -> None:
+        """Keeps the list of holes true, where one of them was filled from it."""
+        target = self._target.find()
+        if self._wish.edge is not None and target is not None:
+            check_object(context, target)
+
     @staticmethod
     def _rebuild(target: Object, patches: list[Patch], places: np.ndarray) -> None:
         mesh = target.data
@@ -218,6 +229,8 @@ def _triangles_in(edges: int, density: float) -> int:
 
 
 def _none_text(wish: Wish, editing: bool) -> str:
+    if wish.edge is not None:
+        return "this hole is no longer there. Press Check Mesh again"
     if not editing:
         return f"there is no hole of at most {wish.most_edges} edges. Raise Largest Hole"
     if wish.replaces:

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, IntVectorProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
 from ..holes import Filling, HoleJob, Wish, count_text, doubts
@@ -53,6 +53,14 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         max=16384,
     )
 
+    edge: IntVectorProperty(
+        name="Edge",
+        description="Two vertices of the rim of the one hole of the active object to be filled",
+        size=2,
+        default=(-1, -1),
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
     @staticmethod
     def poll_reason(context: Context) -> str:
         return poll_reason(context) or mesh_poll_reason(source_objects(context))
@@ -64,15 +72,19 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         if self.joint != "POSITION":
             layout.prop(self, "energy")
         layout.prop(self, "density")
-        if context.mode == "OBJECT":
+        if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
 
     def make_jobs(self, context: Context) -> list[Any]:
         replaces = bool(context.tool_settings.mesh_select_mode[2])
-        wish = Wish(self.joint, self.energy, self.density, self.largest, replaces)
+        named = (self.edge[0], self.edge[1]) if min(self.edge) >= 0 else None
+        targets = (
+            source_objects(context) if named is None else [cast(Object, context.active_object)]
+        )
+        wish = Wish(self.joint, self.energy, self.density, self.largest, replaces, named)
         jobs: list[Any] = []
         self._reasons: list[str] = []
-        for target in source_objects(context):
+        for target in targets:
             try:
                 jobs.append(HoleJob(context, target, wish))
             except JobError as error:
@@ -95,6 +107,8 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         if not done:
             self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}
+        for job in ready:
+            job.check_again(context)
         self.report({"INFO"}, _said(done))
         for sentence in reasons + doubts(done):
             self.report({"WARNING"}, sentence)

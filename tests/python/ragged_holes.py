@@ -23,8 +23,10 @@ def largest_piece(faces):
     return roots == np.bincount(roots).argmax()
 
 
-def ragged(faces, size, rng):
-    """(m,) bool: some `size` faces that hang together, and what they cut off."""
+def ragged(faces, size, rng, wander=0.0):
+    """(m,) bool: some `size` faces that hang together, and what they cut off. `wander`: how often the
+    newest face goes on, not any.
+    """
     around = {}
     for k, t in enumerate(faces.tolist()):
         for v in t:
@@ -36,8 +38,11 @@ def ragged(faces, size, rng):
     front = [rng.randrange(len(faces))]
     gone = set(front)
     while front and len(gone) < size:
-        k = front.pop(rng.randrange(len(front)))
+        newest = wander > 0 and rng.random() < wander
+        k = front.pop(-1 if newest else rng.randrange(len(front)))
         fresh = sorted(sides[k] - gone)
+        if wander > 0:
+            rng.shuffle(fresh)
         gone |= set(fresh)
         front += fresh
     found = np.zeros(len(faces), bool)
