@@ -29,6 +29,7 @@ import pads
 import paper
 import peers
 import piecewise
+import ragged
 import renumbering
 import scaling
 import shared
@@ -62,6 +63,7 @@ BENCHMARKS = {
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "fill_million": fill_million.run,
+    "ragged": ragged.run,
     "drag": drag.run,
     "live": live.run,
     "uneven": uneven.run,
