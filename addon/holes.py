@@ -19,7 +19,14 @@ from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import WorldShape, world_shape
 from .mesh.write_filling import write_hole
 from .transfer.filling import Patch
-from .transfer.hole_loops import around, flat_faces, loops_without, sides_of, where_faces_were
+from .transfer.hole_loops import (
+    around,
+    flat_faces,
+    loops_without,
+    sides_of,
+    unclear_edges,
+    where_faces_were,
+)
 
 NO_HOLE = "NO_HOLE"  # code of a JobError: there is nothing to fill
 
@@ -43,7 +50,9 @@ class Filling:
     holes: int = 0
     faces: int = 0  # new ones
     plates: int = 0  # holes that the thin plate fills in place of another energy
+    plain: int = 0  # that the first triangulation fills
     folded: int = 0
+    unclear: int = 0  # border edges around what is no hole
 
 
 @dataclass(frozen=True)
@@ -100,6 +109,11 @@ class HoleJob:
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
         loops = loops_without(arrays, self._points, gone)
+        unclear = unclear_edges(arrays, gone, loops)
+        if self._editing and not wish.replaces:  # those that somebody has selected
+            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
+            unclear = [side for side in unclear if side in chosen]
+        self._unclear = len(unclear)
         if wish.edge is not None:
             side = frozenset(wish.edge)
             self._holes = [[loop] for loop in loops if side in sides_of(loop)]
@@ -108,10 +122,11 @@ class HoleJob:
         elif wish.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
-            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
             self._holes = [[loop] for loop in loops if not chosen.isdisjoint(sides_of(loop))]
         if not self._holes:
-            raise JobError(f"{self.name}: {_none_text(wish, self._editing)}", NO_HOLE)
+            raise JobError(
+                f"{self.name}: {_none_text(wish, self._editing, self._unclear)}", NO_HOLE
+            )
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
 
     @property
@@ -199,7 +214,9 @@ class HoleJob:
             len(holes),
             sum(len(patch.triangles) for patch in patches),
             sum(h.energy not in (self._wish.energy.lower(), "none") for h in holes),
+            sum(h.energy == "none" and not h.converged for h in holes),
             sum(h.folds > 0 for h in holes),
+            self._unclear,
         )
 
     def check_again(self, context: Context) -> None:
@@ -228,14 +245,24 @@ def _triangles_in(edges: int, density: float) -> int:
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
 
 
-def _none_text(wish: Wish, editing: bool) -> str:
+def _none_text(wish: Wish, editing: bool, unclear: int) -> str:
     if wish.edge is not None:
         return "this hole is no longer there. Press Check Mesh again"
+    if unclear:
+        return _unclear_text(unclear)
     if not editing:
         return f"there is no hole of at most {wish.most_edges} edges. Raise Largest Hole"
     if wish.replaces:
         return "the selected faces leave no hole. Select faces with others around them"
     return "no border edge of a hole is selected. Select one, or in Face Mode faces to be replaced"
+
+
+def _unclear_text(count: int) -> str:
+    begin = "1 border edge is" if count == 1 else f"{count:,} border edges are"
+    return (
+        f"{begin} around no hole: more than two faces meet there at an edge, or faces beside look "
+        "different ways. Check Mesh shows where"
+    )
 
 
 def _write(bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray) -> None:
@@ -262,10 +289,16 @@ def count_text(count: int) -> str:
 def doubts(done: list[Filling]) -> list[str]:
     """What their user should know of fillings, a sentence each."""
     plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
-    said = []
+    unclear = sum(f.unclear for f in done)
+    said = [_unclear_text(unclear)] if unclear else []
     if plates:
         said.append(
             f"{count_text(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
+        )
+    plain = sum(f.plain for f in done)
+    if plain:
+        said.append(
+            f"{count_text(plain)} filled by plain triangles: everything fairer folds at this rim"
         )
     if folded:
         said.append(

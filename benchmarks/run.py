@@ -19,6 +19,7 @@ import drag
 import energies
 import exactness
 import fill_million
+import fills
 import jobs
 import limits
 import live
@@ -62,6 +63,7 @@ BENCHMARKS = {
     "energies": energies.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
+    "fills": fills.run,
     "fill_million": fill_million.run,
     "ragged": ragged.run,
     "drag": drag.run,

@@ -21,7 +21,7 @@ def dress_in_clay(control, result):
 
 
 def clay():
-    return _matte("Clay", CLAY, roughness=0.5)
+    return matte("Clay", CLAY, roughness=0.5)
 
 
 def creased_edges(mesh):
@@ -32,7 +32,7 @@ def creased_edges(mesh):
     )
 
 
-def _matte(name, colour, roughness):
+def matte(name, colour, roughness):
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     shader = material.node_tree.nodes["Principled BSDF"]
@@ -54,7 +54,7 @@ def add_wire(source, edges, name, colour, thickness):
         spline.points.add(1)
         for point, vertex in zip(spline.points, mesh.edges[edge].vertices, strict=True):
             point.co = (*mesh.vertices[vertex].co, 1)
-    curve.materials.append(_matte(name, colour, roughness=0.8))
+    curve.materials.append(matte(name, colour, roughness=0.8))
     wire = bpy.data.objects.new(name, curve)
     bpy.context.scene.collection.objects.link(wire)
     wire.matrix_world = source.matrix_world

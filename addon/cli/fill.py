@@ -96,7 +96,8 @@ def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], l
     except JobError as error:
         if error.code != NO_HOLE:
             raise
-        return entry | {"result": entry["control"], "report": {"holes": []}}, []
+        said = [] if "Largest Hole" in str(error) else [f"{error}."]
+        return entry | {"result": entry["control"], "report": {"holes": []}}, said
     job.compute(**watchers)
     if job.error is not None:
         raise job.error

@@ -35,6 +35,23 @@ def loops_without(
     return [loop for loop in loops if sides.issuperset(sides_of(loop))]
 
 
+def unclear_edges(
+    arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
+) -> list[Side]:
+    """Border edges that are around no hole, of faces that have neighbours: where more than two faces
+    meet at an edge, or neighbours look different ways, nobody could say what a hole is.
+    """
+    kept = np.repeat(~gone, arrays.face_sizes)
+    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
+    shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
+    beside = np.repeat(shared, arrays.face_sizes) & kept
+    border = np.zeros(len(arrays.edges), bool)
+    border[arrays.corner_edges[beside]] = True
+    known = {side for loop in loops for side in sides_of(loop)}
+    sides = map(frozenset, arrays.edges[border & (uses == 1)].tolist())
+    return [side for side in sides if side not in known]
+
+
 def sides_of(loop: list[int]) -> Iterable[Side]:
     return (frozenset(pair) for pair in zip(loop, [*loop[1:], loop[0]], strict=True))
 

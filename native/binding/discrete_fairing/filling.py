@@ -43,7 +43,7 @@ class FilledHole:
     joint: str
         What it took over at the rim.
     converged: bool
-        Whether its steps came to their end.
+        Whether its steps came to their end; False where the triangulation stands in.
     folds: int
         Edges at which the surface turns back, the rim's included.
     """
@@ -221,7 +221,7 @@ def _unfolded(
     for k, (own, triangles) in enumerate(bare):
         if not made[k].folds:
             continue
-        plain = NearHole(mesh, own, triangles, int(first[1][k])).as_triangulated()
+        plain = NearHole(mesh, own, triangles, int(first[1][k])).as_triangulated(True)
         others = np.concatenate(
             [t for row, (_, t) in enumerate(chosen) if row != k] or [triangles[:0]]
         )

@@ -61,14 +61,15 @@ class NearHole:
             if found[1].converged and not found[1].folds:
                 break
         else:
-            tries.append((self._own, self.as_triangulated()))
+            stands_in = joint != "position"
+            tries.append((self._own, self.as_triangulated(stands_in)))
         moved, made = min(tries, key=lambda t: (t[1].folds, not t[1].converged))
         self.grown = self._area(moved) / self._area(self._own)
         return moved, made
 
-    def as_triangulated(self) -> Made:
-        """Not faired."""
-        return Made("none", "position", True, self._folds(self._own))
+    def as_triangulated(self, stands_in: bool = False) -> Made:
+        """Not faired; `stands_in`: for a surface that was asked for."""
+        return Made("none", "position", not stands_in, self._folds(self._own))
 
     def _solved(
         self, energy: str, joint: str, watchers: dict[str, Any]
