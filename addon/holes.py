@@ -40,6 +40,7 @@ class Wish:
     replaces: (
         bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
     )
+    noisy: bool = False  # whether the faces around are measured, with noise
     edge: tuple[int, int] | None = None  # the hole with this edge, whatever else is said
 
 
@@ -160,7 +161,7 @@ class HoleJob:
         fill a hole.
         """
         chosen = np.array([v for hole in self._holes for loop in hole for v in loop])
-        part = around(self._arrays, self._gone, chosen)
+        part = around(self._arrays, self._gone, chosen, self._wish.noisy)
         number = np.full(len(self._points), -1)
         number[part.vertices] = np.arange(len(part.vertices))
         loops = [[number[loop].tolist() for loop in hole] for hole in self._holes]
@@ -168,6 +169,7 @@ class HoleJob:
             "joint": self._wish.joint.lower(),
             "energy": self._wish.energy.lower(),
             "density": self._wish.density,
+            "rim": "noisy" if self._wish.noisy else "exact",
             **watchers,
         }
         try:

@@ -16,17 +16,13 @@ import bpy
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [
-    str(ROOT),
-    str(ROOT / "examples"),
-    str(ROOT / "tests" / "python"),
-    str(ROOT / "benchmarks"),
-]
+# benchmarks before examples, which has control meshes of its own
+sys.path[:0] = [str(ROOT / name) for name in ("", "benchmarks", "examples", "tests/python")]
 
 import discrete_fairing as df  # noqa: E402
 import fill_rivals  # noqa: E402
 import fill_shapes  # noqa: E402
-import modelling_meshes  # noqa: E402
+import from_tests  # noqa: E402
 from ragged_holes import cut, largest_piece  # noqa: E402
 from render_clay import clay, matte  # noqa: E402
 from render_row import View, draw_rows, render_tile  # noqa: E402
@@ -68,7 +64,7 @@ def scan():
 
 def mug():
     """Without its bottom, and upside down."""
-    control = modelling_meshes.mug()
+    control = from_tests.modelled().mug()
     result = df.fair(control.vertices, control.faces, levels=2, measure=False)
     vertices, faces = result.vertices, result.triangles.astype(np.int64)
     corner = vertices[faces]

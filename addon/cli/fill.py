@@ -12,7 +12,12 @@ from ..holes import NO_HOLE, HoleJob, Wish, doubts
 from ..settings import NAMES
 from .places import Place, is_cad
 
-_DEFAULTS: dict[str, Any] = {"fill_joint": "curvature", "fill_density": 1.0, "largest_hole": 100}
+_DEFAULTS: dict[str, Any] = {
+    "fill_joint": "curvature",
+    "fill_density": 1.0,
+    "fill_noisy": False,
+    "largest_hole": 100,
+}
 _ENERGY = "TOTAL_CURVATURE"
 _OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
 
@@ -46,6 +51,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="new edges are so many times as short as those of the rim; 0: no new vertices "
         f"[{_DEFAULTS['fill_density']:g}]",
     )
+    group.add_argument(
+        "--fill-noisy",
+        action="store_true",
+        default=None,
+        help="the faces around are measured: more of them say how a filling goes on, and none exactly",
+    )
 
 
 def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None:
@@ -73,6 +84,7 @@ def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None
         said["fill_density"],
         said["largest_hole"],
         False,
+        said["fill_noisy"],
     )
 
 
@@ -82,6 +94,7 @@ def shown(wish: Wish) -> dict[str, Any]:
         "energy": wish.energy,
         "fill_joint": wish.joint,
         "fill_density": wish.density,
+        "fill_noisy": wish.noisy,
         "largest_hole": wish.most_edges,
     }
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, IntVectorProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, IntVectorProperty
 
 from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
@@ -45,6 +45,11 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         max=100.0,
         soft_max=4.0,
     )
+    noisy: BoolProperty(
+        name="Noisy Rim",
+        description="The faces around are measured: six rings of them say how the surface goes on, so that their noise is not carried on",
+        default=False,
+    )
     largest: IntProperty(
         name="Largest Hole",
         description="In Object Mode: holes of more edges stay open, as the border of a sheet should",
@@ -71,6 +76,7 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         layout.prop(self, "joint")
         if self.joint != "POSITION":
             layout.prop(self, "energy")
+            layout.prop(self, "noisy")
         layout.prop(self, "density")
         if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
@@ -81,7 +87,9 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         targets = (
             source_objects(context) if named is None else [cast(Object, context.active_object)]
         )
-        wish = Wish(self.joint, self.energy, self.density, self.largest, replaces, named)
+        wish = Wish(
+            self.joint, self.energy, self.density, self.largest, replaces, self.noisy, named
+        )
         jobs: list[Any] = []
         self._reasons: list[str] = []
         for target in targets:

@@ -9,7 +9,7 @@ import numpy as np
 from .. import core
 from .cut_out import CutOut, cut_out
 
-RINGS = 2  # of faces around a hole that decide what fills it
+RINGS, NOISY_RINGS = 2, 6  # of faces around a hole that decide what fills it
 
 Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
@@ -89,15 +89,17 @@ def where_faces_were(
     return [sorted(hole, key=len, reverse=True) for _, hole in sorted(holes.items())]
 
 
-def around(arrays: core.ControlArrays, gone: np.ndarray, vertices: np.ndarray) -> CutOut:
+def around(
+    arrays: core.ControlArrays, gone: np.ndarray, vertices: np.ndarray, noisy: bool = False
+) -> CutOut:
     """The faces that are near these `vertices` (k,), without those that are `gone` (m,) bool: as many
-    rings as the core reads.
+    rings as the core reads, more where the rim is `noisy`.
     """
     left = np.repeat(~gone, arrays.face_sizes)
     face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
     marked = np.zeros(len(arrays.positions), bool)
     marked[vertices] = True
-    for _ in range(RINGS):
+    for _ in range(NOISY_RINGS if noisy else RINGS):
         near = np.zeros(len(gone), bool)
         near[face_of[marked[arrays.corners] & left]] = True
         marked[arrays.corners[near[face_of]]] = True

@@ -57,9 +57,10 @@ def _draw_holes(layout: bpy.types.UILayout, holes: list[dict[str, Any]], stale: 
         return
     column = layout.column(align=True)
     column.active = not stale
+    column.label(text="Holes")
     for hole in holes[:_SHOWN]:
         row = column.row(align=True)
-        row.label(text=f"Hole of {hole['edges']:,} edges", icon="MESH_CIRCLE")
+        row.label(text=f"{hole['edges']:,} edges", icon="MESH_CIRCLE")
         show = row.operator("object.fairing_select_hole", text="", icon="RESTRICT_SELECT_OFF")
         show.edge = hole["at"]
         row.operator("object.fairing_fill", text="Fill").edge = hole["at"]

@@ -32,7 +32,7 @@ def test_holes_are_listed_the_shortest_first():
     for hole in holes:
         assert {frozenset(hole["at"])} <= {frozenset(e.vertices) for e in target.data.edges}
     drawn = draw(check_panel.VIEW3D_PT_fairing_check)
-    assert f"Hole of {holes[0]['edges']} edges" in drawn
+    assert f"{holes[0]['edges']} edges" in drawn and "Holes" in drawn
     assert drawn.count("object.fairing_fill") == drawn.count("object.fairing_select_hole") == 2
 
 

@@ -67,6 +67,7 @@ def test_a_hole_is_closed_and_the_rest_stays():
         "energy": "TOTAL_CURVATURE",
         "fill_joint": "CURVATURE",
         "fill_density": 1.0,
+        "fill_noisy": False,
         "largest_hole": 100,
     }
     before, after = read_obj("in.obj"), read_obj("out.obj")
@@ -108,6 +109,7 @@ def test_the_table_counts_holes(capsys):
     "words, said",
     [
         (("--largest-hole", 9), "--largest-hole needs --fill"),
+        (("--fill-noisy",), "--fill-noisy needs --fill"),
         (("--fill", "--levels", 2), "--levels is for fairing"),
         (("--fill", "--pieces", 2), "--pieces is for fairing"),
         (("--fill", "--largest-hole", 2), "from 3 to 16384"),

@@ -153,3 +153,16 @@ def test_a_cancelled_run_changes_nothing():
     with pytest.raises(JobCancelled):
         job.compute(monitor=monitor)
     assert job.result is None and job.error is None
+
+
+def test_noise_of_the_rim_is_not_carried_on():
+    off = []
+    for noisy in (False, True):
+        target = without(ball(), lambda c: c[2] > 0.7)
+        noise = np.random.default_rng(2).standard_normal(len(target.data.vertices))
+        for vertex, share in zip(target.data.vertices, noise, strict=True):
+            vertex.co *= 1 + 0.01 * share
+        count = len(noise)
+        assert bpy.ops.object.fairing_fill(noisy=noisy) == {"FINISHED"}
+        off.append(np.abs(radii(target)[count:] - 1).max())
+    assert off[1] < 0.6 * off[0]

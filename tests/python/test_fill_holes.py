@@ -288,6 +288,24 @@ def test_long_loops():
     assert len(df.find_holes(filled.vertices, filled.faces)) == 1
 
 
+def test_a_noisy_rim_is_not_carried_on():
+    whole, all_faces = sphere(4)
+    gone = (whole[all_faces][:, :, 2] > 0.6).all(axis=1)
+    vertices, faces = cut(whole, all_faces, gone)
+    clean, off = vertices, {"exact": 0.0, "noisy": 0.0}
+    for seed in range(4):
+        noise = np.random.default_rng(seed).standard_normal(len(clean))
+        vertices = clean * (1 + 0.005 * noise[:, None])
+        for rim in off:
+            filled = df.fill_holes(vertices, faces, rim=rim)
+            assert_kept(filled, vertices, faces)
+            assert filled.holes[0].energy == "total_curvature" and not filled.holes[0].folds
+            radii = np.linalg.norm(filled.vertices[len(vertices) :], axis=1)
+            off[rim] += np.sqrt(((radii - 1) ** 2).mean())
+    assert off["noisy"] < 0.6 * off["exact"]
+    assert refused(vertices, faces, rim="rough").code == "BAD_OPTION"
+
+
 def refused(*arguments, **settings):
     with pytest.raises(df.FairingError) as caught:
         df.fill_holes(*arguments, **settings)
@@ -320,14 +338,14 @@ def test_only_the_faces_around_are_read(monkeypatch):
     vertices, faces = cut(vertices, faces, (height > 0.9) | (height < -0.95))
     parts = []
 
-    def around(whole, holes, found=filling._around):
-        parts.append(found(whole, holes))
+    def around(whole, holes, rings, found=filling._around):
+        parts.append(found(whole, holes, rings))
         return parts[-1]
 
     monkeypatch.setattr(filling, "_around", around)
     near = df.fill_holes(vertices, faces)
     assert 0 < len(parts[0].corners) < faces.size / 4
-    monkeypatch.setattr(filling, "_around", lambda whole, holes: whole)
+    monkeypatch.setattr(filling, "_around", lambda whole, holes, rings: whole)
     whole = df.fill_holes(vertices, faces)
     assert near.vertices.tobytes() == whole.vertices.tobytes()
     assert near.faces.tobytes() == whole.faces.tobytes()

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, index_array, vertex_array
 from .errors import fairing_error
-from .near_hole import RINGS, Made, MeshPart, NearHole, RefusedAround
+from .near_hole import NOISY_RINGS, RIMS, RINGS, Made, MeshPart, NearHole, RefusedAround
 from .options import native_options
 from .watching import Progress, SeveralRuns, check_watchers
 
@@ -98,6 +98,7 @@ def fill_holes(
     joint: str = "curvature",
     energy: str = "total_curvature",
     density: float = 1.0,
+    rim: str = "exact",
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -129,6 +130,10 @@ def fill_holes(
     density : float
         New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
         new vertices, but where the mesh would get an edge twice.
+    rim : "exact" or "noisy"
+        Noisy: six rings of faces around say how the surface goes on, and all but the outermost may be
+        missed, so that the noise of a scan is not carried on. The rim itself stays, as all that was
+        there.
     threads : int
         0: all cores. The result is the same, to the last bit, for any number.
     progress : callable(fraction, phase)
@@ -150,6 +155,8 @@ def fill_holes(
     check_watchers(progress, monitor)
     if joint not in RINGS:
         raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(RINGS)}.")
+    if rim not in RIMS:
+        raise fairing_error("BAD_OPTION", f"rim is {rim!r}; it must be one of {list(RIMS)}.")
     native_options(energy=energy, threads=threads)  # refuses what fair() would
     if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
         raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
@@ -163,7 +170,7 @@ def fill_holes(
         asked = [[h] for h in _native.Filler(points, corners, offsets).find(*watchers)]
     else:
         asked = _asked(holes)
-    mesh = _around(whole, asked)
+    mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
     try:
@@ -188,7 +195,7 @@ def fill_holes(
             run = watched.run(shares[at], shares[at + 1])
             near = NearHole(mesh, own, triangles, first)
             try:
-                moved, by = near.faired(energy, joint, run)
+                moved, by = near.faired(energy, joint, rim == "noisy", run)
             except RefusedAround as refused:
                 raise _said(refused, row) from refused
             seen.append(near)
@@ -254,10 +261,8 @@ def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
     return found
 
 
-def _around(whole: MeshPart, holes: list[list[list[int]]]) -> MeshPart:
-    """The faces around these holes: as many rings as any joint reads. Two are also all that the
-    filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why.
-    """
+def _around(whole: MeshPart, holes: list[list[list[int]]], rings: int) -> MeshPart:
+    """The faces around these holes: so many rings. Two are all that the filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why."""
     flat = [v for hole in holes for loop in hole for v in loop]
     count = len(whole.points)
     if not flat or min(flat) < 0 or max(flat) >= count or not len(whole.corners):
@@ -267,7 +272,7 @@ def _around(whole: MeshPart, holes: list[list[list[int]]]) -> MeshPart:
     if whole.corners.min() < 0 or whole.corners.max() >= count:
         return whole
     ids = np.array(flat)
-    for _ in range(max(RINGS.values())):
+    for _ in range(rings):
         faces = whole.touching(ids)
         ids = np.unique(np.concatenate([ids, whole.corners_at(faces)]))
     part = whole.part(faces)

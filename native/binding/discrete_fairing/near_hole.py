@@ -15,6 +15,13 @@ from .fairing import fair
 # Rings of faces around a hole whose vertices say how the surface goes on.
 RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
+# Of a noisy rim: so many, of whose vertices the two outermost rows are held, and the others weigh so
+# much. Of weights from 0.1 to 1000 and of 4 and 6 rings the least error over seven known surfaces with
+# a noise of 0.02 and 0.1 edges: a third to a sixth of that beside an exact rim, but on a torus.
+NOISY_RINGS, HELD_ROWS, NOISY_WEIGHT = 6, 2, 1.0
+
+RIMS = ("exact", "noisy")
+
 
 @dataclass(frozen=True, slots=True)
 class Made:
@@ -46,15 +53,18 @@ class NearHole:
         self._beside = _SidesBehind(mesh, self._rim, triangles)
         self.grown = 1.0  # the area of the filling, over that before it was faired
 
-    def faired(self, energy: str, joint: str, watchers: dict[str, Any]) -> tuple[np.ndarray, Made]:
+    def faired(
+        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
+    ) -> tuple[np.ndarray, Made]:
         """The places of its own vertices, and how these were found: by the first way that converges
-        without a fold, else by that with the fewest folds.
+        without a fold, else by that with the fewest folds. `noisy`: whether more of the faces around
+        say how it goes on, and none of them exactly.
         """
         if not len(self._own):
             return self._own, self.as_triangulated()
         tries: list[tuple[np.ndarray, Made]] = []
         for functional, meeting in _ways(energy, joint):
-            found = self._solved(functional, meeting, watchers)
+            found = self._solved(functional, meeting, noisy, watchers)
             if found is None:
                 continue
             tries.append(found)
@@ -72,13 +82,18 @@ class NearHole:
         return Made("none", "position", not stands_in, self._folds(self._own))
 
     def _solved(
-        self, energy: str, joint: str, watchers: dict[str, Any]
+        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> tuple[np.ndarray, Made] | None:
         """None where fair() refuses the triangles themselves."""
         mesh, ids, touching = self._mesh, self._rim, np.empty(0, np.int64)
-        for _ in range(RINGS[joint]):
+        rows = [ids]
+        for _ in range(NOISY_RINGS if noisy else RINGS[joint]):
             touching = mesh.touching(ids)
             ids = np.unique(np.concatenate([self._rim, mesh.corners_at(touching)]))
+            rows.append(ids)
+        weights = np.full(len(ids), np.inf)
+        if noisy:
+            weights[np.isin(ids, rows[-1 - HELD_ROWS])] = NOISY_WEIGHT
         known = np.concatenate([ids, np.arange(self._first, self._first + len(self._own))])
         corners = np.concatenate([mesh.corners_at(touching), self._triangles.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
@@ -90,7 +105,7 @@ class NearHole:
                 levels=0,
                 energy=energy,
                 interpolation="approximate",
-                weights=np.where(np.arange(len(known)) < len(ids), np.inf, 0.0),
+                weights=np.concatenate([weights, np.zeros(len(self._own))]),
                 **watchers,
             )
         except _native.FairingError as error:
