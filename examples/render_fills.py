@@ -43,7 +43,7 @@ def known(name):
 
 
 def scan():
-    """Suzanne's head without the eyes, with a ragged hole in the forehead and brow."""
+    """Suzanne's head without the eyes, with a ragged hole in the forehead."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.mesh.primitive_monkey_add()
     target = bpy.context.object
@@ -54,8 +54,8 @@ def scan():
     vertices = np.array([v.co for v in mesh.vertices], float)
     faces = np.array([t.vertices for t in mesh.loop_triangles])
     vertices, faces = cut(vertices, faces, ~largest_piece(faces))
-    away = np.linalg.norm(vertices[faces].mean(1) - [0.1, -0.75, 0.62], axis=1)
-    gone = away < 0.3 + 0.08 * np.random.default_rng(4).random(len(faces))
+    away = np.linalg.norm(vertices[faces].mean(1) - [-0.05, -0.55, 0.85], axis=1)
+    gone = away < 0.24 + 0.08 * np.random.default_rng(4).random(len(faces))
     rest = np.flatnonzero(~gone)
     gone[rest[~largest_piece(faces[rest])]] = True
     vertices, faces = cut(vertices, faces, gone)

@@ -142,6 +142,7 @@ def test_menus_have_every_operator():
     # those of a line, a viewport or a preset, and what Adjust Last Operation calls
     others = {
         "select_defect",
+        "select_hole",
         "repair",
         "viewport",
         "preset_add",
