@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holes of a mesh closed in place by the fairest surface: which they are, and the faces that fill them."""
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any, cast
@@ -11,14 +11,24 @@ import numpy as np
 
 from . import core, errors, prediction
 from .blender import Context, Object
+from .check.defects import check_object
 from .errors import JobCancelled, JobError
+from .mesh.append_filling import append_holes, can_append
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
-from .mesh.world_shape import world_shape
+from .mesh.world_shape import WorldShape, world_shape
 from .mesh.write_filling import write_hole
-from .transfer.cut_out import cut_out
+from .transfer.filling import Patch
+from .transfer.hole_loops import (
+    around,
+    flat_faces,
+    loops_without,
+    sides_of,
+    unclear_edges,
+    where_faces_were,
+)
 
-Pair = frozenset[int]  # the two vertices of an edge
+NO_HOLE = "NO_HOLE"  # code of a JobError: there is nothing to fill
 
 
 @dataclass(frozen=True)
@@ -30,6 +40,8 @@ class Wish:
     replaces: (
         bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
     )
+    noisy: bool = False  # whether the faces around are measured, with noise
+    edge: tuple[int, int] | None = None  # the hole with this edge, whatever else is said
 
 
 @dataclass(frozen=True)
@@ -39,12 +51,45 @@ class Filling:
     holes: int = 0
     faces: int = 0  # new ones
     plates: int = 0  # holes that the thin plate fills in place of another energy
+    plain: int = 0  # that the first triangulation fills
     folded: int = 0
+    unclear: int = 0  # border edges around what is no hole
+
+
+@dataclass(frozen=True)
+class Filled:
+    """What `apply` needs."""
+
+    patches: list[Patch]
+    places: np.ndarray  # (k, 3) of all new vertices, in the object's coordinates
+    holes: list[Any]  # the core's reports
+
+    @classmethod
+    def of(
+        cls, found: Any, vertices: np.ndarray, points: np.ndarray, shape: WorldShape
+    ) -> "Filled":
+        """From what the core made of the part with these `vertices` (n',) of a mesh at `points`
+        (n, 3), in the world's `shape`.
+        """
+        known = len(vertices)
+        corners = found.faces[0] if isinstance(found.faces, tuple) else found.faces
+        new = corners.reshape(-1)[-3 * len(found.new_faces) :].reshape(-1, 3)
+        first = found.holes[0].faces.start
+        patches = [
+            Patch.of(new[h.faces.start - first : h.faces.stop - first], found.vertices, known)
+            for h in found.holes
+        ]
+        none = np.empty((0, 3))
+        return cls(
+            [patch.in_whole(vertices, len(points)) for patch in patches],
+            shape.back(found.vertices[known:], none, none),
+            found.holes,
+        )
 
 
 class HoleJob:
     """The holes of one object: read, filled on any thread, then applied. What keeps them from being
-    filled becomes `reason`, so that other objects need not suffer.
+    filled becomes `error`, so that other objects need not suffer.
     """
 
     def __init__(self, context: Context, target: Object, wish: Wish) -> None:
@@ -52,28 +97,37 @@ class HoleJob:
         self.name, self._target, self._wish = target.name, Reference(target), wish
         self._mode, self._shape = target.mode, world_shape(target)
         self.result: Any = None
-        self.reason = ""
+        self.error: JobError | None = None  # why nothing can be filled
         with control_mesh(context, target) as mesh:
             self._arrays = arrays = read_mesh(mesh)
             gone = np.zeros(len(arrays.face_sizes), bool)
             edges = np.zeros(len(arrays.edges), bool)
-            if self._editing:
+            if self._editing and wish.edge is None:
                 mesh.polygons.foreach_get("select", gone)
                 mesh.edges.foreach_get("select", edges)
             if not wish.replaces:
                 gone[:] = False
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
-        loops = _loops(arrays, self._points, gone)
-        if not self._editing:
+        loops = loops_without(arrays, self._points, gone)
+        unclear = unclear_edges(arrays, gone, loops)
+        if self._editing and not wish.replaces:  # those that somebody has selected
+            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
+            unclear = [side for side in unclear if side in chosen]
+        self._unclear = len(unclear)
+        if wish.edge is not None:
+            side = frozenset(wish.edge)
+            self._holes = [[loop] for loop in loops if side in sides_of(loop)]
+        elif not self._editing:
             self._holes = [[loop] for loop in loops if len(loop) <= wish.most_edges]
         elif wish.replaces:
-            self._holes = _where_faces_were(arrays, gone, loops)
+            self._holes = where_faces_were(arrays, gone, loops)
         else:
-            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
-            self._holes = [[loop] for loop in loops if not chosen.isdisjoint(_sides(loop))]
+            self._holes = [[loop] for loop in loops if not chosen.isdisjoint(sides_of(loop))]
         if not self._holes:
-            raise JobError(f"{self.name}: {_none_text(wish, self._editing)}")
+            raise JobError(
+                f"{self.name}: {_none_text(wish, self._editing, self._unclear)}", NO_HOLE
+            )
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
 
     @property
@@ -95,20 +149,39 @@ class HoleJob:
         begun = perf_counter()
         try:
             with errors.explained(self.name):
-                self.result = core.module().fill_holes(
-                    self._points,
-                    _flat(self._arrays, ~self._gone),
-                    holes=self._holes,
-                    joint=self._wish.joint.lower(),
-                    energy=self._wish.energy.lower(),
-                    density=self._wish.density,
-                    **watchers,
-                )
+                self.result = self._filled(watchers)
         except JobCancelled:
             raise
         except JobError as error:
-            self.reason = str(error)
+            self.error = error
         self._taken = perf_counter() - begun
+
+    def _filled(self, watchers: dict[str, Any]) -> Filled:
+        """From the faces around the holes alone: to hand over all of a large mesh takes longer than to
+        fill a hole.
+        """
+        chosen = np.array([v for hole in self._holes for loop in hole for v in loop])
+        part = around(self._arrays, self._gone, chosen, self._wish.noisy)
+        number = np.full(len(self._points), -1)
+        number[part.vertices] = np.arange(len(part.vertices))
+        loops = [[number[loop].tolist() for loop in hole] for hole in self._holes]
+        settings = {
+            "joint": self._wish.joint.lower(),
+            "energy": self._wish.energy.lower(),
+            "density": self._wish.density,
+            "rim": "noisy" if self._wish.noisy else "exact",
+            **watchers,
+        }
+        try:
+            found = core.module().fill_holes(
+                self._points[part.vertices], flat_faces(part.arrays), holes=loops, **settings
+            )
+        except core.module().FairingError as error:
+            if error.code != "CANCELLED":  # refused again, but with the ids that Blender shows
+                whole = flat_faces(self._arrays, ~self._gone)
+                core.module().fill_holes(self._points, whole, holes=self._holes, **settings)
+            raise
+        return Filled.of(found, part.vertices, self._points, self._shape)
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
@@ -128,28 +201,45 @@ class HoleJob:
 
     def apply(self) -> Filling:
         """Makes the faces."""
-        target, filled = cast(Object, self._target.find()), self.result
-        places = self._shape.back(filled.vertices, self._points, self._arrays.positions)
-        bm = bmesh.from_edit_mesh(target.data) if self._editing else bmesh.new()
-        try:
-            if not self._editing:
-                bm.from_mesh(target.data)
-            _write(bm, np.flatnonzero(self._gone), filled, places)
-            if self._editing:
-                bmesh.update_edit_mesh(target.data)
-            else:
-                bm.to_mesh(target.data)
-                target.data.update()
-        finally:
-            if not self._editing:
-                bm.free()
+        target = cast(Object, self._target.find())
+        patches, places, holes = self.result.patches, self.result.places, self.result.holes
+        if self._editing:
+            bm = bmesh.from_edit_mesh(target.data)
+            _write(bm, np.flatnonzero(self._gone), patches, places)
+            bmesh.update_edit_mesh(target.data)
+        elif can_append(target):
+            append_holes(target, self._arrays, patches, places)
+        else:
+            self._rebuild(target, patches, places)
         prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
         return Filling(
-            len(filled.holes),
-            len(filled.new_faces),
-            sum(h.energy not in (self._wish.energy.lower(), "none") for h in filled.holes),
-            sum(h.folds > 0 for h in filled.holes),
+            len(holes),
+            sum(len(patch.triangles) for patch in patches),
+            sum(h.energy not in (self._wish.energy.lower(), "none") for h in holes),
+            sum(h.energy == "none" and not h.converged for h in holes),
+            sum(h.folds > 0 for h in holes),
+            self._unclear,
         )
+
+    def check_again(self, context: Context) -> None:
+        """Keeps the list of holes true, where one of them was filled from it."""
+        target = self._target.find()
+        if self._wish.edge is not None and target is not None:
+            check_object(context, target)
+
+    @staticmethod
+    def _rebuild(target: Object, patches: list[Patch], places: np.ndarray) -> None:
+        mesh = target.data
+        for elements in (mesh.vertices, mesh.edges, mesh.polygons):
+            elements.foreach_set("select", np.zeros(len(elements), bool))
+        bm = bmesh.new()
+        try:
+            bm.from_mesh(mesh)
+            _write(bm, np.empty(0, int), patches, places)
+            bm.to_mesh(mesh)
+            mesh.update()
+        finally:
+            bm.free()
 
 
 def _triangles_in(edges: int, density: float) -> int:
@@ -157,35 +247,11 @@ def _triangles_in(edges: int, density: float) -> int:
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
 
 
-def _flat(arrays: core.ControlArrays, kept: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The corners and offsets of the faces `kept` (m,) bool."""
-    sizes = arrays.face_sizes
-    corners = arrays.corners[np.repeat(kept, sizes)]
-    return corners.astype(np.int64), np.concatenate([[0], np.cumsum(sizes[kept])]).astype(np.int64)
-
-
-def _loops(arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray) -> list[list[int]]:
-    """Around the holes that are there without the faces `gone`: only those at a border are looked at."""
-    kept = np.repeat(~gone, arrays.face_sizes)
-    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
-    border = arrays.edges[uses == 1]
-    at_border = np.zeros(len(points), bool)
-    at_border[border] = True
-    face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
-    near = np.zeros(len(gone), bool)
-    near[face_of[at_border[arrays.corners] & kept]] = True
-    if not near.any():
-        return []
-    part = cut_out(arrays, near)
-    found = core.module().find_holes(
-        points[part.vertices], _flat(part.arrays, np.ones(len(part.faces), bool))
-    )
-    loops = [part.vertices[loop].tolist() for loop in found]
-    sides = set(map(frozenset, border.tolist()))
-    return [loop for loop in loops if sides.issuperset(_sides(loop))]
-
-
-def _none_text(wish: Wish, editing: bool) -> str:
+def _none_text(wish: Wish, editing: bool, unclear: int) -> str:
+    if wish.edge is not None:
+        return "this hole is no longer there. Press Check Mesh again"
+    if unclear:
+        return _unclear_text(unclear)
     if not editing:
         return f"there is no hole of at most {wish.most_edges} edges. Raise Largest Hole"
     if wish.replaces:
@@ -193,64 +259,51 @@ def _none_text(wish: Wish, editing: bool) -> str:
     return "no border edge of a hole is selected. Select one, or in Face Mode faces to be replaced"
 
 
-def _sides(loop: list[int]) -> Iterable[Pair]:
-    return (frozenset(pair) for pair in zip(loop, [*loop[1:], loop[0]], strict=True))
+def _unclear_text(count: int) -> str:
+    begin = "1 border edge is" if count == 1 else f"{count:,} border edges are"
+    return (
+        f"{begin} around no hole: more than two faces meet there at an edge, or faces beside look "
+        "different ways. Check Mesh shows where"
+    )
 
 
-def _where_faces_were(
-    arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
-) -> list[list[list[int]]]:
-    """The loops around each connected part of the erased faces: its rim, the longest, then islands."""
-    faces = np.flatnonzero(gone).tolist()
-    edges_of = {f: arrays.corner_edges[arrays.offsets[f] : arrays.offsets[f + 1]] for f in faces}
-    faces_at: dict[int, list[int]] = {}
-    for face, edges in edges_of.items():
-        for edge in edges.tolist():
-            faces_at.setdefault(edge, []).append(face)
-    part_of: dict[int, int] = {}
-    for first in faces:
-        stack = [] if first in part_of else [first]
-        part_of.setdefault(first, len(part_of))
-        while stack:
-            beside = {f for e in edges_of[stack.pop()].tolist() for f in faces_at[e]}
-            fresh = [f for f in beside if f not in part_of]
-            part_of.update(dict.fromkeys(fresh, part_of[first]))
-            stack += fresh
-    uses = arrays.edge_uses
-    rim = {
-        frozenset(arrays.edges[edge].tolist()): part_of[at[0]]
-        for edge, at in faces_at.items()
-        if len(at) < uses[edge]
-    }
-    holes: dict[int, list[list[int]]] = {}
-    for loop in loops:
-        part = next((rim[side] for side in _sides(loop) if side in rim), None)
-        if part is not None:
-            holes.setdefault(part, []).append(loop)
-    return [sorted(hole, key=len, reverse=True) for _, hole in sorted(holes.items())]
-
-
-def _write(bm: Any, gone: np.ndarray, filled: Any, places: np.ndarray) -> None:
+def _write(bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray) -> None:
     """The filling, selected, in the place of the faces `gone` (ids)."""
-    old = list(bm.verts)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[f] for f in gone.tolist()], context="FACES")
-    for parts in (bm.faces, bm.edges, bm.verts):
-        for part in [p for p in parts if p.select]:
-            part.select = False
-    faces = np.asarray(_triangles(filled))
+    bm.verts.ensure_lookup_table()
+    rims = [[bm.verts[v] for v in patch.rim.tolist()] for patch in patches]
+    if len(gone):
+        bm.faces.ensure_lookup_table()
+        bmesh.ops.delete(bm, geom=[bm.faces[f] for f in gone.tolist()], context="FACES")
     made: list[Any] = []
-    for hole in filled.holes:
-        chosen = faces[hole.faces.start : hole.faces.stop]
-        made += write_hole(bm, old, filled.vertices, chosen, places)
+    at = 0
+    for patch, rim in zip(patches, rims, strict=True):
+        made += write_hole(bm, patch, rim, places[at : at + len(patch.fresh)])
+        at += len(patch.fresh)
     for face in made:
         face.normal_update()
         face.select_set(True)
 
 
-def _triangles(filled: Any) -> Any:
-    """(M, 3), of which only the rows of new faces count."""
-    if not isinstance(filled.faces, tuple):
-        return filled.faces
-    corners, offsets = filled.faces
-    return corners[offsets[:-1, None] + np.arange(3)]
+def count_text(count: int) -> str:
+    return "1 hole" if count == 1 else f"{count:,} holes"
+
+
+def doubts(done: list[Filling]) -> list[str]:
+    """What their user should know of fillings, a sentence each."""
+    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
+    unclear = sum(f.unclear for f in done)
+    said = [_unclear_text(unclear)] if unclear else []
+    if plates:
+        said.append(
+            f"{count_text(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
+        )
+    plain = sum(f.plain for f in done)
+    if plain:
+        said.append(
+            f"{count_text(plain)} filled by plain triangles: everything fairer folds at this rim"
+        )
+    if folded:
+        said.append(
+            f"The filling of {count_text(folded)} folds: erase more faces around it, and fill again"
+        )
+    return said

@@ -121,5 +121,8 @@ _FORMS = {
     ),
     "carried": _dict({}, _NAMES),
     "made": _dict({"settings": _any_dict, "source": _whole}),
-    "defects": _dict({"defects": _all(_defect), "counts": _all(_whole)}),
+    "defects": _dict(
+        {"defects": _all(_defect), "counts": _all(_whole)},
+        {"holes": _all(_dict({"edges": _id, "at": _pair}))},
+    ),
 }

@@ -18,6 +18,8 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import fill_million
+import fills
 import jobs
 import limits
 import live
@@ -28,6 +30,7 @@ import pads
 import paper
 import peers
 import piecewise
+import ragged
 import renumbering
 import scaling
 import shared
@@ -60,6 +63,9 @@ BENCHMARKS = {
     "energies": energies.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
+    "fills": fills.run,
+    "fill_million": fill_million.run,
+    "ragged": ragged.run,
     "drag": drag.run,
     "live": live.run,
     "uneven": uneven.run,

@@ -11,12 +11,14 @@ from .. import core, memory
 from ..blender import Context, Mesh, Object
 from ..mesh import mesh_changes
 from ..mesh.read import control_mesh, read_mesh
+from .holes import listed
 
 _RANK = {"vertex": 0, "edge": 1, "face": 2}
 
 
 def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
-    """Runs the core's check on the mesh of `target`, in whatever mode, and remembers what it found.
+    """Runs the core's check on the mesh of `target`, in whatever mode, and remembers what it found,
+    and the holes.
 
     Returns the defects as dicts.
     """
@@ -33,14 +35,26 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
         }
         for defect in found
     ]
-    store_defects(context, target, defects)
+    store_defects(context, target, defects, listed(arrays))
     return defects
 
 
-def store_defects(context: Context, target: Object, defects: list[dict[str, Any]]) -> None:
-    """Remembers what a check of `target`, as it is now, has found."""
+def store_defects(
+    context: Context,
+    target: Object,
+    defects: list[dict[str, Any]],
+    holes: list[dict[str, Any]] | None = None,
+) -> None:
+    """Remembers what a check of `target`, as it is now, has found. `holes`: None: those known."""
+    if holes is None:
+        holes = recall_holes(target)
     counts = mesh_changes.watch(context, target.data)
-    memory.keep(target, "defects", {"defects": defects, "counts": counts})
+    memory.keep(target, "defects", {"defects": defects, "holes": holes, "counts": counts})
+
+
+def recall_holes(target: Object) -> list[dict[str, Any]]:
+    """The holes that the last check listed: for each how many `edges`, and one of them, `at`."""
+    return (memory.recall(target, "defects") or {}).get("holes", [])
 
 
 def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:

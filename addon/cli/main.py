@@ -19,7 +19,7 @@ from ..blender import Mesh, Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import engines, report, step
+from . import engines, fill, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -54,6 +54,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
             raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
         no_report_over(arguments.json, ways)
         arguments.patches = step.wanted_of(arguments, settings, ways)
+        arguments.holes = fill.wish_of(arguments, ways)
         return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
@@ -66,7 +67,8 @@ def _run_all(
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
-    records = [report.new_record(way, shown(settings)) for way in ways]
+    told = shown(settings) if arguments.holes is None else fill.shown(arguments.holes)
+    records = [report.new_record(way, told) for way in ways]
     table = _Table(arguments, ways, records, settings.energy)
     spread = engines.is_spread(arguments)
     try:
@@ -109,17 +111,29 @@ class _Table:
         energy: str,
     ) -> None:
         self.is_wanted = not arguments.quiet
+        self._fills = arguments.holes is not None
         self._ways, self._records = ways, records
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
-            to_cad = arguments.patches is not None
-            _say(step.table_head(self._width) if to_cad else report.table_head(self._width, energy))
+            _say(self._head(arguments, energy))
+
+    def _head(self, arguments: argparse.Namespace, energy: str) -> str:
+        if self._fills:
+            return fill.table_head(self._width)
+        if arguments.patches is not None:
+            return step.table_head(self._width)
+        return report.table_head(self._width, energy)
 
     def line(self, index: int) -> None:
         record = self._records[index]
         if record["status"] == report.DONE and self.is_wanted:
-            kind = step if is_cad(self._ways[index].target) else report
-            _say(kind.table_line(record, self._width))
+            _say(self._of(index).table_line(record, self._width))
+
+    def _of(self, index: int) -> Any:
+        """The module that knows what a line of the table says."""
+        if self._fills:
+            return fill
+        return step if is_cad(self._ways[index].target) else report
 
 
 def _run_shares(
@@ -156,7 +170,10 @@ def _run_one(
     try:
         if arguments.overwrite is False and is_there(way.target):
             raise FileError("EXISTS", f"{way.target} exists, and is kept.")
-        _fair_file(way, record, arguments, settings)
+        if arguments.holes is None:
+            _fair_file(way, record, arguments, settings)
+        else:
+            _fill_file(way, record, arguments)
         record["status"] = report.DONE
     except (FileError, JobError) as error:
         _fail(
@@ -206,6 +223,27 @@ def _fair_file(
         write_file(way.target)
     else:
         step.write_step_file(way, jobs, patches)
+
+
+def _fill_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
+    sources = read_file(way.source, arguments.merge)
+    progress = Progress(sys.stderr, str(way.source), len(sources))
+    watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
+    if arguments.threads is not None:
+        watchers["threads"] = arguments.threads
+    warnings: list[str] = []
+    try:
+        for source in sources:
+            entry, said = fill.fill(source, arguments.holes, **watchers)
+            record["objects"].append(entry)
+            warnings += said
+            progress.next_run()
+    finally:
+        progress.clear()
+    for warning in warnings:
+        record["warnings"].append(warning)
+        _say(f"{way.source}: warning: {warning}")
+    write_file(way.target)
 
 
 def _job(source: Object, settings: SimpleNamespace, patches: SimpleNamespace | None) -> Any:

@@ -17,7 +17,7 @@ EDGE_MARKS = ("use_seam", "use_freestyle_mark")
 FACE_MARKS = ("use_freestyle_mark",)
 # A crease or bevel weight says what to do at one vertex. Spread over the faces around it, it would
 # say it everywhere.
-_OWN_VERTICES_ONLY = {"crease_vert", "bevel_weight_vert"}
+OWN_VERTICES_ONLY = {"crease_vert", "bevel_weight_vert"}
 
 
 @dataclass(frozen=True)
@@ -238,7 +238,7 @@ def _carried(attribute: Attribute, carrier: Carrier, origin: np.ndarray) -> np.n
         return carrier.face(values)
     if attribute.domain == "CORNER":
         return carrier.corner(values) if mixable else carrier.pick_corner(values)
-    if attribute.name in _OWN_VERTICES_ONLY:
+    if attribute.name in OWN_VERTICES_ONLY:
         return carrier.own_point(values)
     return carrier.point(values) if mixable else carrier.pick_point(values)
 

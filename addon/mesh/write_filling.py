@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces that fill a hole, made by BMesh: with what the rim has, blended over the filling."""
+"""The faces that fill a hole, made by BMesh, in Edit Mode and where keys need it: with what the rim has,
+blended over the filling.
+"""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 import numpy as np
 
+from ..transfer.filling import Patch
 from ..transfer.harmonic import spread
+from .layers import OWN_VERTICES_ONLY
 
 Read = Callable[[Any], list[float]]
 Write = Callable[[Any, list[float]], None]
@@ -14,37 +18,29 @@ Spread = list[tuple[Write, np.ndarray]]  # values of all vertices of a filling, 
 _NUMBERS = ("float", "float_vector", "color", "float_color")  # kinds of layers that can be mixed
 
 
-def write_hole(
-    bm: Any, old: list[Any], points: np.ndarray, faces: np.ndarray, places: np.ndarray
-) -> list[Any]:
-    """Makes the triangles `faces` (t, 3) and returns them. Vertices up to len(old) are `old`; the
-    others are made at `places` (N, 3), in the object's coordinates. `points` (N, 3): in the world's.
+def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> list[Any]:
+    """Makes the triangles of `patch` between its `rim` (r vertices of `bm`) and new vertices at
+    `places` (k, 3), in the object's coordinates; returns them.
 
     What can be mixed is spread from the rim. All else is that of the nearest vertex of the rim, and
     of a face there.
     """
-    ids, local = np.unique(faces, return_inverse=True)
-    local = local.reshape(-1, 3)
-    rim = ids[ids < len(old)]
-    beside = [next(iter(old[v].link_loops), None) for v in rim.tolist()]
-    spots = points[ids]
-    known = [old[v] for v in rim.tolist()]
-    of_vertices = _spread_vertices(bm, known, spots, local)
-    of_corners = _spread_corners(bm, known, spots, local)
-    nearest = [*range(len(rim))]
-    verts = list(known)
-    for v in ids[len(rim) :].tolist():
-        nearest.append(int(np.linalg.norm(points[rim] - points[v], axis=1).argmin()))
-        made = bm.verts.new(places[v], known[nearest[-1]])
-        made.co = places[v]
+    beside = [next(iter(v.link_loops), None) for v in rim]
+    of_vertices = _spread_vertices(bm, rim, patch)
+    of_corners = _spread_corners(bm, rim, patch)
+    nearest = patch.nearest.tolist()
+    verts = list(rim)
+    for row, place in enumerate(places.tolist(), start=len(rim)):
+        made = bm.verts.new(place, rim[nearest[row]])
+        made.co = place
         for key in bm.verts.layers.shape.values():
             made[key] = made.co
         verts.append(made)
     for write, rows in of_vertices:
-        for vertex, row in zip(verts[len(rim) :], rows[len(rim) :].tolist(), strict=True):
-            write(vertex, row)
+        for vertex, values in zip(verts[len(rim) :], rows[len(rim) :].tolist(), strict=True):
+            write(vertex, values)
     found = []
-    for corners in local.tolist():
+    for corners in patch.triangles.tolist():
         model = beside[nearest[corners[0]]]
         face = bm.faces.new([verts[v] for v in corners], None if model is None else model.face)
         for corner, v in zip(face.loops, corners, strict=True):
@@ -58,15 +54,17 @@ def write_hole(
     return found
 
 
-def _spread_vertices(bm: Any, rim: list[Any], spots: np.ndarray, local: np.ndarray) -> Spread:
+def _spread_vertices(bm: Any, rim: list[Any], patch: Patch) -> Spread:
     found: Spread = []
-    for read, write in _layers(bm.verts.layers):
-        found.append((write, spread(spots, local, np.array([read(v) for v in rim]))))
+    for read, write in _layers(bm.verts.layers, OWN_VERTICES_ONLY):
+        found.append(
+            (write, spread(patch.points, patch.triangles, np.array([read(v) for v in rim])))
+        )
     for deform in bm.verts.layers.deform.values():
         groups = sorted({g for v in rim for g, _ in v[deform].items()})
         if groups:
             shares = np.array([[v[deform].get(g, 0.0) for g in groups] for v in rim])
-            found.append((_weights(deform, groups), spread(spots, local, shares)))
+            found.append((_weights(deform, groups), spread(patch.points, patch.triangles, shares)))
     return found
 
 
@@ -81,20 +79,27 @@ def _weights(deform: Any, groups: list[int]) -> Write:
     return write
 
 
-def _spread_corners(bm: Any, rim: list[Any], spots: np.ndarray, local: np.ndarray) -> Spread:
+def _spread_corners(bm: Any, rim: list[Any], patch: Patch) -> Spread:
     """Of the layers whose values go on around the whole rim: across a seam there is no mean."""
     found: Spread = []
     for read, write in _layers(bm.loops.layers):
         values = [[read(corner) for corner in v.link_loops] for v in rim]
         if all(row and all(value == row[0] for value in row) for row in values):
-            found.append((write, spread(spots, local, np.array([row[0] for row in values]))))
+            found.append(
+                (write, spread(patch.points, patch.triangles, np.array([row[0] for row in values])))
+            )
     return found
 
 
-def _layers(layers: Any) -> Iterator[tuple[Read, Write]]:
-    """Ways to read and to write one element, of each layer that can be mixed."""
+def _layers(layers: Any, zero: Collection[str] = ()) -> Iterator[tuple[Read, Write]]:
+    """Ways to read and to write one element, of each layer that can be mixed; those by the names
+    `zero` are read as 0.
+    """
     for kind in _NUMBERS:
-        for layer in getattr(layers, kind).values():
+        for name, layer in getattr(layers, kind).items():
+            if name in zero:
+                yield (lambda _: [0.0]), _number(layer)[1]
+                continue
             yield _number(layer) if kind == "float" else _vector(layer)
     for layer in getattr(layers, "uv", {}).values():
         yield _uv(layer)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Mesh, and what follows from it: show a defect, mend a defect."""
+"""Check Mesh, and what follows from it: show a defect or a hole, mend a defect."""
 
 from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import IntProperty
+from bpy.props import IntProperty, IntVectorProperty
 
 from .. import core, errors
 from ..blender import Answer, Context, Object, registration
@@ -13,10 +13,13 @@ from ..check import repair
 from ..check.defects import (
     check_object,
     recall_defects,
+    recall_holes,
     select_defects,
     select_in_all,
     store_defects,
 )
+from ..check.holes import edges_of
+from ..holes import count_text
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll, mesh_poll_reason
 
@@ -47,7 +50,9 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
         for target, defects in bad:
             self.report({"WARNING"}, f"{target.name}: {errors.what(defects[0])}")
         if not bad:
-            self.report({"INFO"}, "Nothing is wrong")
+            count = sum(len(recall_holes(target)) for target, _ in found)
+            listed = "" if not count else f"; {count_text(count)} listed in the panel Check"
+            self.report({"INFO"}, f"Nothing is wrong{listed}")
             return {"FINISHED"}
         try:
             select_in_all(context, [(t, _groups(defects)) for t, defects in bad])
@@ -116,10 +121,41 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
+    """Select the edges around this hole in Edit Mode, and look at them"""
+
+    bl_idname = "object.fairing_select_hole"
+    bl_label = "Show Hole"
+    bl_options = {"REGISTER", "UNDO"}
+
+    edge: IntVectorProperty(
+        name="Edge", description="Two vertices of its rim", size=2, min=0, options={"HIDDEN"}
+    )
+
+    def execute(self, context: Context) -> Answer:
+        target = cast(Object, context.active_object)
+        edges = edges_of(context, target, list(self.edge))
+        if not edges:
+            self.report({"INFO"}, "This hole is no longer there")
+            return {"FINISHED"}
+        known = recall_defects(target)
+        select_defects(context, target, "edge", edges)
+        if known is not None and not known[1]:
+            store_defects(context, target, known[0])
+        if context.area is not None and context.area.type == "VIEW_3D":
+            bpy.ops.view3d.view_selected()
+        return {"FINISHED"}
+
+
 def _groups(defects: list[dict[str, Any]]) -> list[tuple[str, Sequence[Any]]]:
     return [(d["kind"], d["elements"]) for d in defects]
 
 
-CLASSES = (OBJECT_OT_fairing_check, OBJECT_OT_fairing_select_defect, OBJECT_OT_fairing_repair)
+CLASSES = (
+    OBJECT_OT_fairing_check,
+    OBJECT_OT_fairing_select_defect,
+    OBJECT_OT_fairing_repair,
+    OBJECT_OT_fairing_select_hole,
+)
 
 register, unregister = registration(*CLASSES)

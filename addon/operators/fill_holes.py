@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, IntVectorProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, HoleJob, Wish
+from ..holes import Filling, HoleJob, Wish, count_text, doubts
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from . import fill
@@ -45,12 +45,25 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         max=100.0,
         soft_max=4.0,
     )
+    noisy: BoolProperty(
+        name="Noisy Rim",
+        description="The faces around are measured: six rings of them say how the surface goes on, so that their noise is not carried on",
+        default=False,
+    )
     largest: IntProperty(
         name="Largest Hole",
         description="In Object Mode: holes of more edges stay open, as the border of a sheet should",
         default=100,
         min=3,
         max=16384,
+    )
+
+    edge: IntVectorProperty(
+        name="Edge",
+        description="Two vertices of the rim of the one hole of the active object to be filled",
+        size=2,
+        default=(-1, -1),
+        options={"HIDDEN", "SKIP_SAVE"},
     )
 
     @staticmethod
@@ -63,16 +76,23 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         layout.prop(self, "joint")
         if self.joint != "POSITION":
             layout.prop(self, "energy")
+            layout.prop(self, "noisy")
         layout.prop(self, "density")
-        if context.mode == "OBJECT":
+        if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
 
     def make_jobs(self, context: Context) -> list[Any]:
         replaces = bool(context.tool_settings.mesh_select_mode[2])
-        wish = Wish(self.joint, self.energy, self.density, self.largest, replaces)
+        named = (self.edge[0], self.edge[1]) if min(self.edge) >= 0 else None
+        targets = (
+            source_objects(context) if named is None else [cast(Object, context.active_object)]
+        )
+        wish = Wish(
+            self.joint, self.energy, self.density, self.largest, replaces, self.noisy, named
+        )
         jobs: list[Any] = []
         self._reasons: list[str] = []
-        for target in source_objects(context):
+        for target in targets:
             try:
                 jobs.append(HoleJob(context, target, wish))
             except JobError as error:
@@ -83,19 +103,22 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         """Changes the meshes that can be filled, and says why others cannot."""
-        done: list[Filling] = []
         reasons = list(self._reasons)
+        ready = []
         for job in jobs:
-            reason = job.reason or job.why_outdated(context)
-            if reason:
-                reasons.append(reason)
-            else:
-                done.append(job.apply())
+            reason = str(job.error or job.why_outdated(context))
+            reasons += [reason] * bool(reason)
+            ready += [job] * (not reason)
+        if ready and context.mode == "EDIT_MESH":  # then only what is new is selected
+            bpy.ops.mesh.select_all(action="DESELECT")
+        done = [job.apply() for job in ready]
         if not done:
             self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}
+        for job in ready:
+            job.check_again(context)
         self.report({"INFO"}, _said(done))
-        for sentence in reasons + _doubts(done):
+        for sentence in reasons + doubts(done):
             self.report({"WARNING"}, sentence)
         return {"FINISHED"}
 
@@ -105,27 +128,9 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _holes(count: int) -> str:
-    return "1 hole" if count == 1 else f"{count:,} holes"
-
-
 def _said(done: list[Filling]) -> str:
     holes, faces = sum(f.holes for f in done), sum(f.faces for f in done)
-    return f"{_holes(holes)} filled with {faces:,} faces"
-
-
-def _doubts(done: list[Filling]) -> list[str]:
-    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
-    said = []
-    if plates:
-        said.append(
-            f"{_holes(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
-        )
-    if folded:
-        said.append(
-            f"The filling of {_holes(folded)} folds: erase more faces around it, and fill again"
-        )
-    return said
+    return f"{count_text(holes)} filled with {faces:,} faces"
 
 
 register, unregister = registration(OBJECT_OT_fairing_fill)

@@ -8,7 +8,7 @@ import bpy
 from .. import errors
 from ..blender import Context, registration
 from ..check import repair
-from ..check.defects import recall_defects
+from ..check.defects import recall_defects, recall_holes
 from .layout import Folded
 from .notice import draw_notice
 
@@ -22,7 +22,9 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
         layout = self.layout
         layout.operator("object.fairing_check", icon="CHECKMARK")
         target = context.active_object
-        known = recall_defects(target) if target is not None and target.type == "MESH" else None
+        if target is None or target.type != "MESH":
+            return
+        known = recall_defects(target)
         if known is None:
             return
         defects, stale = known
@@ -32,6 +34,7 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
             draw_notice(layout, "Nothing is wrong with this mesh", icon="CHECKMARK")
         for index, defect in enumerate(defects[:_SHOWN]):
             _draw_defect(layout, index, defect, stale)
+        _draw_holes(layout, recall_holes(target), stale)
 
 
 def _draw_defect(
@@ -47,6 +50,22 @@ def _draw_defect(
     label = repair.label(defect["code"])
     if label:
         row.operator("object.fairing_repair", text=label, icon="TOOL_SETTINGS").index = index
+
+
+def _draw_holes(layout: bpy.types.UILayout, holes: list[dict[str, Any]], stale: bool) -> None:
+    if not holes:
+        return
+    column = layout.column(align=True)
+    column.active = not stale
+    column.label(text="Holes")
+    for hole in holes[:_SHOWN]:
+        row = column.row(align=True)
+        row.label(text=f"{hole['edges']:,} edges", icon="MESH_CIRCLE")
+        show = row.operator("object.fairing_select_hole", text="", icon="RESTRICT_SELECT_OFF")
+        show.edge = hole["at"]
+        row.operator("object.fairing_fill", text="Fill").edge = hole["at"]
+    if len(holes) > _SHOWN:
+        column.label(text=f"and {len(holes) - _SHOWN} larger ones")
 
 
 CLASSES = (VIEW3D_PT_fairing_check,)

@@ -1,69 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fill Hole Fair: which holes are filled, with what, and what the new faces take over."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
-from scenes import activate, add, positions
+from hole_scenes import ball, borders, edit, is_closed, radii, without
+from scenes import activate, positions
 
 from addon import core, holes
 from addon.errors import JobCancelled
-
-
-def ball(name="Ball"):
-    """A unit sphere of 1,280 triangles."""
-    bm = bmesh.new()
-    bmesh.ops.create_icosphere(bm, subdivisions=4, radius=1.0)
-    points = [tuple(v.co) for v in bm.verts]
-    faces = [[v.index for v in f.verts] for f in bm.faces]
-    bm.free()
-    return add(name, points, faces)
-
-
-def without(target, chosen):
-    """The faces for which chosen(centre) holds are erased."""
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    gone = [f for f in bm.faces if chosen(f.calc_center_median())]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    bm.to_mesh(target.data)
-    bm.free()
-    activate(target)
-    return target
-
-
-def radii(target):
-    return np.linalg.norm(positions(target.data), axis=1)
-
-
-def is_closed(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    closed = all(e.is_contiguous for e in bm.edges)
-    bm.free()
-    return closed
-
-
-def edit(target, mode, chosen=()):
-    """Edit Mode with the faces or edges selected that these numbers name."""
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type=mode)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(target.data)
-    parts = bm.faces if mode == "FACE" else bm.edges
-    for part in parts:
-        part.select_set(part.index in chosen)
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(target.data)
-
-
-def borders(target, chosen=lambda z: True):
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    found = [e.index for e in bm.edges if e.is_boundary and chosen(e.verts[0].co[2])]
-    bm.free()
-    return found
 
 
 def test_all_small_holes_in_object_mode():
@@ -207,4 +152,17 @@ def test_a_cancelled_run_changes_nothing():
     monitor.cancel()
     with pytest.raises(JobCancelled):
         job.compute(monitor=monitor)
-    assert job.result is None and job.reason == ""
+    assert job.result is None and job.error is None
+
+
+def test_noise_of_the_rim_is_not_carried_on():
+    off = []
+    for noisy in (False, True):
+        target = without(ball(), lambda c: c[2] > 0.7)
+        noise = np.random.default_rng(2).standard_normal(len(target.data.vertices))
+        for vertex, share in zip(target.data.vertices, noise, strict=True):
+            vertex.co *= 1 + 0.01 * share
+        count = len(noise)
+        assert bpy.ops.object.fairing_fill(noisy=noisy) == {"FINISHED"}
+        off.append(np.abs(radii(target)[count:] - 1).max())
+    assert off[1] < 0.6 * off[0]

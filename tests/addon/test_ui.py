@@ -143,6 +143,7 @@ def test_menus_have_every_operator():
     others = {
         "select_defect",
         "go_to_strained",
+        "select_hole",
         "repair",
         "viewport",
         "preset_add",

@@ -109,6 +109,17 @@ def add_suzanne():
     return bpy.data.objects["Suzanne"]
 
 
+def unfold_panels(*panels):
+    """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
+    for name in panels:
+        cls = getattr(bpy.types, name)
+        bpy.utils.unregister_class(cls)
+        cls.bl_options = set()
+        bpy.utils.register_class(cls)
+    yield from open_sidebar("Fairing")
+    yield 0.5
+
+
 def open_sidebar(category):
     """Opens the viewport's sidebar at a tab; a generator, as the sidebar has to be drawn once before."""
     area = view()["area"]

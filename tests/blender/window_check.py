@@ -14,17 +14,6 @@ import harness
 STRIPES = 0.25  # contrast of black and white stripes; clay has less than a third of it
 
 
-def unfold(*panels):
-    """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
-    for name in panels:
-        cls = getattr(bpy.types, name)
-        bpy.utils.unregister_class(cls)
-        cls.bl_options = set()
-        bpy.utils.register_class(cls)
-    yield from harness.open_sidebar("Fairing")
-    yield 0.5
-
-
 def wait_for_shading(name, least):
     """Until the middle of the viewport has that many colours: shaders take their time to compile. A generator."""
     view = harness.view()
@@ -57,7 +46,7 @@ def test_check_selects_what_is_wrong():
     bm.faces.new((a, b, bm.verts.new(0.5 * (a.co + b.co) + bm.faces[320].normal * 0.4)))
     bm.to_mesh(source.data)
     bm.free()
-    yield from unfold("VIEW3D_PT_fairing_check")
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_check")
     with bpy.context.temp_override(**harness.view(), active_object=source, object=source):
         assert bpy.ops.object.fairing_check("INVOKE_DEFAULT") == {"FINISHED"}
     yield 1.0
@@ -69,7 +58,7 @@ def test_check_selects_what_is_wrong():
 
 def test_zebra_and_curvature_are_seen():
     source = harness.add_suzanne()
-    yield from unfold("VIEW3D_PT_fairing_inspect")
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect")
     with bpy.context.temp_override(
         **harness.view(), active_object=source, selected_objects=[source]
     ):

@@ -84,7 +84,7 @@ TEST(Fill, ChordsThatMayNotBe) {
 
 TEST(Fill, RefinedTrianglesAreNearlyEquilateral) {
   const SpacePolygon polygon = circle(60);
-  Patch patch{polygon.points, std::vector<double>(60, 0.1), 60, triangulate(polygon)};
+  Patch patch{polygon.points, std::vector<double>(60, 0.1), 60, triangulate(polygon), {}};
   refine(patch, [](Index, Index) { return false; }, Relaxation::taut);
   for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(patch.points[i], polygon.points[i]);
   double sum = 0;
@@ -98,6 +98,35 @@ TEST(Fill, RefinedTrianglesAreNearlyEquilateral) {
     }
   }
   EXPECT_NEAR(sum, 30 * std::sin(2 * std::acos(-1.0) / 60), 1e-9);
+}
+
+// A comb of long teeth on a saddle: the mean of a point's neighbours often lies beyond the rim.
+TEST(Fill, RefinedTrianglesDoNotTurnOverTheRim) {
+  SpacePolygon polygon;
+  std::vector<std::pair<double, double>> corners;
+  for (int tooth = 0; tooth < 4; ++tooth) {
+    const double x = 2 * tooth;
+    for (int k = 0; k < 8; ++k) corners.emplace_back(x, 1 + 0.5 * k);
+    for (int k = 0; k < 8; ++k) corners.emplace_back(x + 0.5, 4.5 - 0.5 * k);
+  }
+  corners.emplace_back(6.5, 0);
+  corners.emplace_back(0, 0);
+  std::reverse(corners.begin(), corners.end());
+  for (const auto& [x, y] : corners) {
+    polygon.points.emplace_back(x, y, 0.05 * (x * x - y * y));
+    polygon.normals.push_back(Vec3(-0.1 * x, 0.1 * y, 1).normalized());
+  }
+  polygon.may_join = [](std::size_t, std::size_t) { return true; };
+  const std::vector<double> lengths(polygon.points.size(), 0.4);
+  Patch patch{polygon.points, lengths, Index(polygon.points.size()), triangulate(polygon),
+              polygon.normals};
+  refine(patch, [](Index, Index) { return false; }, Relaxation::taut);
+  EXPECT_GT(patch.points.size(), polygon.points.size() + 20);
+  for (const Triangle& t : patch.triangles) {
+    const Vec3& a = patch.points[std::size_t(t[0])];
+    const Vec3 n = (patch.points[std::size_t(t[1])] - a).cross(patch.points[std::size_t(t[2])] - a);
+    EXPECT_GT(n.z(), 0.3 * n.norm());
+  }
 }
 
 TEST(Fill, BothEndsOfACylinder) {

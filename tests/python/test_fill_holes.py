@@ -7,6 +7,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from discrete_fairing import filling
+from ragged_holes import cut, ragged
 from surface_measures import dihedrals
 
 
@@ -38,13 +39,6 @@ def sphere(levels=3):
         vertices = result.vertices / np.linalg.norm(result.vertices, axis=1)[:, None]
         faces = result.triangles.astype(np.int64)
     return vertices, np.asarray(faces)
-
-
-def cut(vertices, faces, gone):
-    """The mesh without the faces `gone` (m,) bool, and without loose vertices."""
-    kept = faces[~gone]
-    used, kept = np.unique(kept, return_inverse=True)
-    return vertices[used], kept.reshape(-1, 3)
 
 
 def uses(faces):
@@ -161,49 +155,6 @@ def test_known_surfaces_come_back(name):
     assert filled.holes[0].energy == "total_curvature" and filled.holes[0].folds == 0
     assert distance(filled.vertices[len(vertices) :]).max() < most * diameter(vertices[hole])
     assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > 15
-
-
-def largest_piece(faces):
-    """(m,) bool: faces of the largest piece that hangs together by edges."""
-    owner = {}
-    label = np.arange(len(faces))
-
-    def root(k):
-        while label[k] != k:
-            label[k] = label[label[k]]
-            k = label[k]
-        return k
-
-    for k, t in enumerate(faces.tolist()):
-        for a, b in zip(t, t[1:] + t[:1], strict=True):
-            other = owner.setdefault((min(a, b), max(a, b)), k)
-            label[root(k)] = root(other)
-    roots = np.array([root(k) for k in range(len(faces))])
-    return roots == np.bincount(roots).argmax()
-
-
-def ragged(faces, size, rng):
-    """(m,) bool: some `size` faces that hang together, and what they cut off."""
-    around = {}
-    for k, t in enumerate(faces.tolist()):
-        for v in t:
-            around.setdefault(v, []).append(k)
-    sides = [set() for _ in faces]
-    for k, t in enumerate(faces.tolist()):
-        for a, b in zip(t, t[1:] + t[:1], strict=True):
-            sides[k] |= (set(around[a]) & set(around[b])) - {k}
-    front = [rng.randrange(len(faces))]
-    gone = set(front)
-    while front and len(gone) < size:
-        k = front.pop(rng.randrange(len(front)))
-        fresh = sorted(sides[k] - gone)
-        gone |= set(fresh)
-        front += fresh
-    found = np.zeros(len(faces), bool)
-    found[list(gone)] = True
-    rest = np.flatnonzero(~found)
-    found[rest[~largest_piece(faces[rest])]] = True
-    return found
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -337,6 +288,24 @@ def test_long_loops():
     assert len(df.find_holes(filled.vertices, filled.faces)) == 1
 
 
+def test_a_noisy_rim_is_not_carried_on():
+    whole, all_faces = sphere(4)
+    gone = (whole[all_faces][:, :, 2] > 0.6).all(axis=1)
+    vertices, faces = cut(whole, all_faces, gone)
+    clean, off = vertices, {"exact": 0.0, "noisy": 0.0}
+    for seed in range(4):
+        noise = np.random.default_rng(seed).standard_normal(len(clean))
+        vertices = clean * (1 + 0.005 * noise[:, None])
+        for rim in off:
+            filled = df.fill_holes(vertices, faces, rim=rim)
+            assert_kept(filled, vertices, faces)
+            assert filled.holes[0].energy == "total_curvature" and not filled.holes[0].folds
+            radii = np.linalg.norm(filled.vertices[len(vertices) :], axis=1)
+            off[rim] += np.sqrt(((radii - 1) ** 2).mean())
+    assert off["noisy"] < 0.6 * off["exact"]
+    assert refused(vertices, faces, rim="rough").code == "BAD_OPTION"
+
+
 def refused(*arguments, **settings):
     with pytest.raises(df.FairingError) as caught:
         df.fill_holes(*arguments, **settings)
@@ -369,14 +338,14 @@ def test_only_the_faces_around_are_read(monkeypatch):
     vertices, faces = cut(vertices, faces, (height > 0.9) | (height < -0.95))
     parts = []
 
-    def around(whole, holes, found=filling._around):
-        parts.append(found(whole, holes))
+    def around(whole, holes, rings, found=filling._around):
+        parts.append(found(whole, holes, rings))
         return parts[-1]
 
     monkeypatch.setattr(filling, "_around", around)
     near = df.fill_holes(vertices, faces)
     assert 0 < len(parts[0].corners) < faces.size / 4
-    monkeypatch.setattr(filling, "_around", lambda whole, holes: whole)
+    monkeypatch.setattr(filling, "_around", lambda whole, holes, rings: whole)
     whole = df.fill_holes(vertices, faces)
     assert near.vertices.tobytes() == whole.vertices.tobytes()
     assert near.faces.tobytes() == whole.faces.tobytes()

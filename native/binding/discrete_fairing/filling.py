@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,16 +14,13 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, index_array, vertex_array
 from .errors import fairing_error
-from .fairing import fair
+from .near_hole import NOISY_RINGS, RIMS, RINGS, Made, MeshPart, NearHole, RefusedAround
 from .options import native_options
 from .watching import Progress, SeveralRuns, check_watchers
 
 # A filling is remeshed where fairing has made its area so many times as large: up to there its edges
 # are within a tenth of the length wanted, and to fair it twice only costs as much again.
 _GROWN = 1.2
-
-# Rings of faces around a hole whose vertices say how the surface goes on.
-_RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
 # The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
 # the density wanted, and is faired again.
@@ -41,9 +38,12 @@ class FilledHole:
     vertices, faces: range
         Ids of the new vertices and faces in `Filled`.
     energy: str
-        The energy that was minimized; "none" where no vertex was new.
+        The energy that was minimized; "none" where the first triangulation, spread as a membrane, was
+        left as it was.
+    joint: str
+        What it took over at the rim.
     converged: bool
-        Whether its steps came to their end.
+        Whether its steps came to their end; False where the triangulation stands in.
     folds: int
         Edges at which the surface turns back, the rim's included.
     """
@@ -52,6 +52,7 @@ class FilledHole:
     vertices: range
     faces: range
     energy: str
+    joint: str
     converged: bool
     folds: int
 
@@ -97,6 +98,7 @@ def fill_holes(
     joint: str = "curvature",
     energy: str = "total_curvature",
     density: float = 1.0,
+    rim: str = "exact",
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -122,11 +124,16 @@ def fill_holes(
         What the filling takes over at the rim: nothing but the place (the least area), the tangent
         planes (of one ring of faces), or the curvature (of two rings).
     energy : "total_curvature", "thin_plate" or "minimum_variation"
-        As in fair(). Where it does not converge, or folds, the thin plate takes its place
-        (FilledHole.energy).
+        As in fair(). Where it does not converge, or folds, the thin plate takes its place, where this
+        folds, too, the thin plate with the tangent alone, then the triangulation spread as a membrane,
+        and at last that without new vertices (FilledHole.energy, FilledHole.joint).
     density : float
         New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
         new vertices, but where the mesh would get an edge twice.
+    rim : "exact" or "noisy"
+        Noisy: six rings of faces around say how the surface goes on, and all but the outermost may be
+        missed, so that the noise of a scan is not carried on. The rim itself stays, as all that was
+        there.
     threads : int
         0: all cores. The result is the same, to the last bit, for any number.
     progress : callable(fraction, phase)
@@ -146,22 +153,24 @@ def fill_holes(
         CANCELLED after a cancel.
     """
     check_watchers(progress, monitor)
-    if joint not in _RINGS:
-        raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(_RINGS)}.")
+    if joint not in RINGS:
+        raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(RINGS)}.")
+    if rim not in RIMS:
+        raise fairing_error("BAD_OPTION", f"rim is {rim!r}; it must be one of {list(RIMS)}.")
     native_options(energy=energy, threads=threads)  # refuses what fair() would
     if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
         raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
-    whole = _Mesh.of(points, corners, offsets)
+    whole = MeshPart.of(points, corners, offsets)
     quiet = watched.run(0.0, 0.1)
     watchers = quiet["monitor"], quiet["progress"]
     if holes is None:
         asked = [[h] for h in _native.Filler(points, corners, offsets).find(*watchers)]
     else:
         asked = _asked(holes)
-    mesh = _around(whole, asked)
+    mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
     try:
@@ -173,32 +182,73 @@ def fill_holes(
         _native.Filler(points, corners, offsets).fill(asked, float(density), *watchers)
         raise
     shares = np.linspace(0.1, 1.0, _ROUNDS * len(loops) + 1)
-    states = [("none", True, 0)] * len(loops)
-    seen: list[_Near] = []
-    for turn in range(_ROUNDS if joint != "position" else 0):
+    made: list[Made] = []
+    seen: list[NearHole] = []
+    for turn in range(_ROUNDS):
         if turn:
-            if not any(hole.grown > _GROWN for hole in seen):
+            if not any(hole.grown > _GROWN for hole in seen) and not any(by.folds for by in made):
                 break
             found = filler.refine(np.concatenate([own for own, _ in found]), *watchers)
-        first, seen = len(mesh.points), []
+        first, seen, made = len(mesh.points), [], []
         for row, (own, triangles) in enumerate(found):
             at = turn * len(loops) + row
             run = watched.run(shares[at], shares[at + 1])
-            near = _Near(mesh, own, triangles, first, _RINGS[joint])
+            near = NearHole(mesh, own, triangles, first)
             try:
-                moved, states[row] = near.faired(energy, run)
-            except _native.FairingError as error:
-                if not error.elements:
-                    raise
-                raise _in_whole(error, row, near) from error
+                moved, by = near.faired(energy, joint, rim == "noisy", run)
+            except RefusedAround as refused:
+                raise _said(refused, row) from refused
             seen.append(near)
+            made.append(by)
             first += len(own)
             found[row] = moved, triangles
+    if any(by.folds for by in made) and density > 0.0:
+        bare = filler.fill(loops, 0.0, *watchers)
+        found, made = _unfolded(mesh, found, made, bare)
     watched.finish()
     fresh = len(points) + np.arange(sum(len(own) for own, _ in found))
     places = np.concatenate([mesh.vertex_ids, fresh])
     found = [(own, places[triangles]) for own, triangles in found]
-    return _put_together(whole, [list(map(np.array, h)) for h in asked], found, states)
+    return _put_together(whole, [list(map(np.array, h)) for h in asked], found, made)
+
+
+Filling: TypeAlias = tuple[np.ndarray, np.ndarray]  # own vertices (k, 3), triangles of ids (t, 3)
+
+
+def _unfolded(
+    mesh: MeshPart, found: list[Filling], made: list[Made], bare: list[Filling]
+) -> tuple[list[Filling], list[Made]]:
+    """`found`, and in the place of what folds the `bare` triangles between the vertices of the rim,
+    where these do not: only what any such triangles would have is left to fold.
+    """
+    count = len(mesh.points)
+    chosen, made = list(found), list(made)
+    first = [np.cumsum([count] + [len(own) for own, _ in part]) for part in (found, bare)]
+    begin = first[0][:-1].tolist()
+    for k, (own, triangles) in enumerate(bare):
+        if not made[k].folds:
+            continue
+        plain = NearHole(mesh, own, triangles, int(first[1][k])).as_triangulated(True)
+        others = np.concatenate(
+            [t for row, (_, t) in enumerate(chosen) if row != k] or [triangles[:0]]
+        )
+        if not plain.folds and not _share_edges(triangles, others, count):
+            made[k], chosen[k], begin[k] = plain, (own, triangles), int(first[1][k])
+    fresh, renumbered = count, []
+    for (own, triangles), old in zip(chosen, begin, strict=True):
+        renumbered.append((own, np.where(triangles < count, triangles, triangles - old + fresh)))
+        fresh += len(own)
+    return renumbered, made
+
+
+def _share_edges(triangles: np.ndarray, others: np.ndarray, count: int) -> bool:
+    """Whether some edge between two vertices of the mesh, which has `count`, is in both."""
+    keys = []
+    for part in (triangles, others):
+        sides = np.sort(part[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
+        sides = sides[sides[:, 1] < count]
+        keys.append(sides[:, 0] * count + sides[:, 1])
+    return bool(np.isin(keys[0], keys[1]).any())
 
 
 def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
@@ -211,57 +261,8 @@ def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
     return found
 
 
-@dataclass(frozen=True)
-class _Mesh:
-    """A mesh, or a part of one."""
-
-    points: np.ndarray  # (n, 3)
-    corners: np.ndarray  # (c,)
-    offsets: np.ndarray  # (m + 1,)
-    vertex_ids: np.ndarray  # (n,) what the whole calls its vertices, rising
-    face_ids: np.ndarray  # (m,)
-
-    @classmethod
-    def of(cls, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> _Mesh:
-        return cls(points, corners, offsets, np.arange(len(points)), np.arange(len(offsets) - 1))
-
-    def part(self, faces: np.ndarray) -> _Mesh:
-        """Some faces, and the vertices that they have, in their old order."""
-        sizes = self.offsets[faces + 1] - self.offsets[faces]
-        ids, corners = np.unique(self.corners_at(faces), return_inverse=True)
-        offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-        return _Mesh(self.points[ids], corners.astype(np.int64), offsets, ids, faces)
-
-    def renumbered(self, loop: Sequence[int]) -> list[int]:
-        """A loop of the whole mesh, all of whose vertices are here."""
-        return np.searchsorted(self.vertex_ids, loop).tolist()
-
-    def touching(self, vertices: np.ndarray) -> np.ndarray:
-        """(f,) ids of the faces with one of these vertices."""
-        marked = np.zeros(len(self.points), bool)
-        marked[vertices] = True
-        at = np.flatnonzero(marked[self.corners])
-        return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
-
-    def corners_at(self, faces: np.ndarray) -> np.ndarray:
-        """All corners of these faces, face after face."""
-        sizes = self.offsets[faces + 1] - self.offsets[faces]
-        return self.corners[_runs(self.offsets[faces], sizes)]
-
-    def corners_of(self, faces: np.ndarray) -> list[list[int]]:
-        starts, ends = self.offsets[faces].tolist(), self.offsets[faces + 1].tolist()
-        return [self.corners[a:b].tolist() for a, b in zip(starts, ends, strict=True)]
-
-
-def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """start, start + 1, … of each, `size` of them, one after another."""
-    return np.arange(sizes.sum()) + np.repeat(starts - np.cumsum(sizes) + sizes, sizes)
-
-
-def _around(whole: _Mesh, holes: list[list[list[int]]]) -> _Mesh:
-    """The faces around these holes: as many rings as any joint reads. Two are also all that the
-    filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why.
-    """
+def _around(whole: MeshPart, holes: list[list[list[int]]], rings: int) -> MeshPart:
+    """The faces around these holes: so many rings. Two are all that the filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why."""
     flat = [v for hole in holes for loop in hole for v in loop]
     count = len(whole.points)
     if not flat or min(flat) < 0 or max(flat) >= count or not len(whole.corners):
@@ -271,17 +272,16 @@ def _around(whole: _Mesh, holes: list[list[list[int]]]) -> _Mesh:
     if whole.corners.min() < 0 or whole.corners.max() >= count:
         return whole
     ids = np.array(flat)
-    for _ in range(max(_RINGS.values())):
+    for _ in range(rings):
         faces = whole.touching(ids)
         ids = np.unique(np.concatenate([ids, whole.corners_at(faces)]))
     part = whole.part(faces)
     return part if np.isin(flat, part.vertex_ids).all() else whole
 
 
-def _in_whole(error: _native.FairingError, hole: int, near: _Near) -> _native.FairingError:
-    """What fair() refused beside a hole, with the ids of the whole mesh; new elements have none."""
-    names = near.face_ids if error.kind == "face" else near.vertex_ids
-    ids = [int(names[i]) for i in error.elements if i < len(names)]
+def _said(refused: RefusedAround, hole: int) -> _native.FairingError:
+    """What fair() refused beside a hole, with the ids of the whole mesh."""
+    ids, error = refused.elements, refused.error
     said = re.sub(r" \(\d[^)]*\)", "", str(error))
     shown = ", ".join(map(str, ids[:_SHOWN])) + (", …" if len(ids) > _SHOWN else "")
     where = f" ({error.kind} {shown})" if ids else ""
@@ -289,91 +289,18 @@ def _in_whole(error: _native.FairingError, hole: int, near: _Near) -> _native.Fa
     return fairing_error(error.code, text, ids, error.kind if ids else "mesh")
 
 
-class _Near:
-    """What fills one hole, and the faces around, as a mesh of its own."""
-
-    def __init__(
-        self, mesh: _Mesh, own: np.ndarray, triangles: np.ndarray, first: int, rings: int
-    ) -> None:
-        self._own = own
-        rim = np.unique(triangles[triangles < len(mesh.points)])
-        touching = np.empty(0, np.int64)
-        ids = rim
-        for _ in range(rings):
-            touching = mesh.touching(ids)
-            ids = np.unique(np.concatenate([rim, mesh.corners_at(touching)]))
-        faces = mesh.corners_of(touching)
-        size = len(ids)
-        fresh = np.arange(first, first + len(own))
-        self._vertices = np.concatenate([mesh.points[ids], own])
-        known = np.concatenate([ids, fresh])
-        flat = [np.searchsorted(known, face).tolist() for face in faces]
-        self._new = np.searchsorted(known, triangles)
-        self._faces = flat + self._new.tolist()
-        self.vertex_ids = mesh.vertex_ids[ids]
-        self.face_ids = mesh.face_ids[touching]
-        self.grown = 1.0  # the area of the filling, over that before it was faired
-        self._weights = np.where(np.arange(len(known)) < size, np.inf, 0.0)
-
-    def faired(
-        self, energy: str, watchers: dict[str, Any]
-    ) -> tuple[np.ndarray, tuple[str, bool, int]]:
-        """The places of its own vertices; the energy, whether it converged, and folds."""
-        if not len(self._own):
-            return self._own, ("none", True, self._folds(self._vertices))
-        tries = []
-        for functional in dict.fromkeys([energy, "thin_plate"]):
-            result = fair(
-                self._vertices,
-                self._faces,
-                levels=0,
-                energy=functional,
-                interpolation="approximate",
-                weights=self._weights,
-                **watchers,
-            )
-            levels = result.report.get("curvature") or [{"converged": True}]
-            folds = self._folds(result.vertices)
-            moved = result.vertices[len(self._vertices) - len(self._own) : len(self._vertices)]
-            tries.append((moved, (functional, bool(levels[-1]["converged"]), folds)))
-            if levels[-1]["converged"] and not folds:
-                break
-        moved, state = min(tries, key=lambda t: (t[1][2], not t[1][1]))
-        vertices = np.concatenate([self._vertices[: len(self._vertices) - len(moved)], moved])
-        self.grown = self._area(vertices) / self._area(self._vertices)
-        return moved, state
-
-    def _normals(self, vertices: np.ndarray) -> np.ndarray:
-        """(t, 3) of its new triangles, twice as long as their areas."""
-        corner = vertices[self._new]
-        return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-
-    def _area(self, vertices: np.ndarray) -> float:
-        return float(np.linalg.norm(self._normals(vertices), axis=1).sum())
-
-    def _folds(self, vertices: np.ndarray) -> int:
-        """Edges between new triangles that turn by more than a right angle."""
-        normal = self._normals(vertices)
-        sides = np.sort(self._new[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        owner = np.repeat(np.arange(len(self._new)), 3)
-        order = np.lexsort(sides.T)
-        sides, owner = sides[order], owner[order]
-        same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
-        return int(((normal[owner[same]] * normal[owner[same + 1]]).sum(axis=1) < 0.0).sum())
-
-
 def _put_together(
-    mesh: _Mesh,
+    mesh: MeshPart,
     loops: list[list[np.ndarray]],
     found: list[tuple[np.ndarray, np.ndarray]],
-    states: list[tuple[str, bool, int]],
+    made: list[Made],
 ) -> Filled:
     count, faces = len(mesh.points), len(mesh.offsets) - 1
     holes = []
     vertex, face = count, faces
-    for rims, (own, triangles), state in zip(loops, found, states, strict=True):
+    for rims, (own, triangles), by in zip(loops, found, made, strict=True):
         more, filled = range(vertex, vertex + len(own)), range(face, face + len(triangles))
-        holes.append(FilledHole(rims, more, filled, *state))
+        holes.append(FilledHole(rims, more, filled, by.energy, by.joint, by.converged, by.folds))
         vertex, face = more.stop, filled.stop
     vertices = np.concatenate([mesh.points, *(own for own, _ in found)])
     new = np.concatenate([np.empty((0, 3), np.int64), *(t for _, t in found)]).astype(np.int64)

@@ -38,7 +38,10 @@ class OneHole {
     patch.rim = Index(ids_.size());
     for (const std::int64_t v : ids_) patch.points.push_back(rims_.point(v));
     patch.lengths.resize(ids_.size());
+    patch.beyond.resize(ids_.size());
     for (std::size_t l = 0; l + 1 < begin_.size(); ++l) {
+      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
+        patch.beyond[i] = rims_.normal_beside(ids_[after(i, l)], ids_[i]);
       for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
         patch.lengths[i] = ((patch.points[i] - patch.points[after(i, l)]).norm() +
                             (patch.points[i] - patch.points[before(i, l)]).norm()) /

@@ -26,8 +26,9 @@ constexpr int most_rounds = 40, settled_rounds = 6, sweeps = 4;
 
 constexpr std::size_t most_points = 100'000'000;
 
-// Cosine of the sharpest turn that a flip may leave between its two triangles, or make with one.
-constexpr double sharpest = 0.5;
+// Cosine of the sharpest turn at an edge that a flip or a step may make; where some are sharper already,
+// their sum must not grow. Up to `even` around a vertex, the triangles behind its own need not be asked.
+constexpr double sharpest = 0.5, even = 0.9;
 
 class Refinement {
  public:
@@ -155,6 +156,8 @@ class Refinement {
       if (other != kept && next != kept) {
         const Vec3 before = area(gone, other, next), after = area(kept, other, next);
         if (before.dot(after) <= sharpest * before.norm() * after.norm()) return false;
+        const Half far = mesh_.next_halfedge_handle(spoke);
+        if (turn(far, unit(after)) < std::min(turn(far, unit(before)), sharpest)) return false;
       }
       spoke = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(spoke));
     } while (spoke != h);
@@ -192,11 +195,38 @@ class Refinement {
     const double now = std::max(badness(a, b, c), badness(b, a, d));
     const double then = std::max(badness(c, d, b), badness(d, c, a));
     if (then >= now - 1e-9) return false;
-    const Vec3 old[2] = {area(a, b, c), area(b, a, d)}, fresh[2] = {area(c, d, b), area(d, c, a)};
-    const Vec3 mean = old[0] + old[1];
-    for (const Vec3& normal : fresh)
-      if (normal.dot(mean) <= sharpest * normal.norm() * mean.norm()) return false;
-    return true;
+    // the sides b-c and a-d, c-a and d-b keep what is behind them
+    const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
+    const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);
+    const Vec3 old[2] = {unit(area(a, b, c)), unit(area(b, a, d))};
+    const Vec3 fresh[2] = {unit(area(c, d, b)), unit(area(d, c, a))};
+    if (fresh[0].isZero() || fresh[1].isZero()) return false;
+    const double before = sharpness(old[0].dot(old[1])) + sharpness(turn(bc, old[0])) +
+                          sharpness(turn(ca, old[0])) + sharpness(turn(ad, old[1])) +
+                          sharpness(turn(db, old[1]));
+    const double after = sharpness(fresh[0].dot(fresh[1])) + sharpness(turn(bc, fresh[0])) +
+                         sharpness(turn(db, fresh[0])) + sharpness(turn(ca, fresh[1])) +
+                         sharpness(turn(ad, fresh[1]));
+    return after <= before;
+  }
+
+  // Of a turn with this cosine, beyond what is allowed.
+  static double sharpness(double cosine) { return std::max(0.0, sharpest - cosine); }
+
+  static Vec3 unit(const Vec3& v) {
+    const double length = v.norm();
+    return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+  }
+
+  // The cosine between a triangle's normal and the one behind its side h; 1 where nothing is there.
+  double turn(Half h, const Vec3& normal) const {
+    const Half back = mesh_.opposite_halfedge_handle(h);
+    if (mesh_.is_boundary(back)) {
+      if (patch_.beyond.empty()) return 1;
+      const Vec3& beyond = patch_.beyond[std::size_t(from(h).idx())];
+      return beyond.isZero() ? 1 : beyond.dot(normal);
+    }
+    return unit(area(from(back), to(back), opposite(back))).dot(normal);
   }
 
   void relax() {
@@ -204,24 +234,72 @@ class Refinement {
       stop_if_cancelled(std::size_t(v));
       const VertexHandle vertex(v);
       if (mesh_.status(vertex).deleted()) continue;
-      const Half first = mesh_.halfedge_handle(vertex);
+      find_ring(vertex);
       Vec3 mean = Vec3::Zero(), normal = Vec3::Zero();
       double length = 0;
-      int count = 0;
-      Half h = first;
-      do {
-        mean += point(to(h));
-        length += wanted(to(h));
-        normal += area(vertex, to(h), opposite(h));
-        ++count;
-        h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
-      } while (h != first);
+      for (std::size_t i = 0; i < ring_.size(); ++i) {
+        mean += point(to(ring_[i]));
+        length += wanted(to(ring_[i]));
+        normal += ring_area(i, point(vertex));
+      }
+      const auto count = double(ring_.size());
       Vec3 step = mean / count - point(vertex);
       if (relaxation_ == Relaxation::sliding && normal.squaredNorm() > 0)
         step -= step.dot(normal) / normal.squaredNorm() * normal;
-      patch_.points[std::size_t(v)] += step;
+      move(vertex, step);
       wanted(vertex) = length / count;
     }
+  }
+
+  // The neighbours of an inner vertex, in the order in which its triangles run.
+  void find_ring(VertexHandle vertex) {
+    ring_.clear();
+    const Half first = mesh_.halfedge_handle(vertex);
+    Half h = first;
+    do {
+      ring_.push_back(h);
+      h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+    } while (h != first);
+  }
+
+  // Of the triangle between two neighbours and the vertex itself at `middle`.
+  Vec3 ring_area(std::size_t i, const Vec3& middle) const {
+    const Half far = mesh_.next_halfedge_handle(ring_[i]);
+    return (point(from(far)) - middle).cross(point(to(far)) - middle);
+  }
+
+  // How sharply the triangles of the ring, with the vertex at `middle`, turn against the mean of all
+  // and against those behind them: the sum of what is beyond the allowed.
+  double ring_sharpness(const Vec3& middle) {
+    areas_.clear();
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      areas_.push_back(ring_area(i, middle));
+      sum += areas_.back();
+    }
+    sum = unit(sum);
+    double total = 0;
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      const Vec3 normal = unit(areas_[i]);
+      const double upright = normal.isZero() ? -1 : normal.dot(sum);
+      total += sharpness(upright);
+      const Half far = mesh_.next_halfedge_handle(ring_[i]);
+      if (upright < even || mesh_.is_boundary(mesh_.opposite_halfedge_handle(far)))
+        total += sharpness(turn(far, normal));
+    }
+    return total;
+  }
+
+  // As far along `step` as nothing leans over: beside a rim that turns inwards the mean of the
+  // neighbours may lie beyond it.
+  void move(VertexHandle vertex, const Vec3& step) {
+    Vec3& place = patch_.points[std::size_t(vertex.idx())];
+    const double before = ring_sharpness(place);
+    for (const double share : {1.0, 0.5, 0.25})
+      if (ring_sharpness(place + share * step) <= before) {
+        place += share * step;
+        return;
+      }
   }
 
   void write() {
@@ -250,6 +328,8 @@ class Refinement {
   const std::function<bool(Index, Index)>& joined_;
   Relaxation relaxation_;
   Mesh mesh_;
+  std::vector<Half> ring_;
+  std::vector<Vec3> areas_;
 };
 
 }  // namespace

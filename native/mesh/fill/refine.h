@@ -16,6 +16,9 @@ struct Patch {
   std::vector<double> lengths;  // of edges wanted at each point
   Index rim = 0;                // so many points, the first, stay where they are
   std::vector<Triangle> triangles;
+  // Of each point of the rim the normal, of unit length or zero, of the face behind the side from it
+  // to the next. Empty: there are none.
+  std::vector<Vec3> beyond;
 };
 
 enum class Relaxation {

@@ -6,25 +6,29 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/fill/ears.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-// Corners up to which all pairs are looked at: 0.4 s. A longer polygon is looked at through a
-// window of so many corners, which doubles its stride whenever it is full: 5,000 corners in 7 s.
+// Corners up to which all pairs are looked at: 0.4 s. A longer polygon loses ears first; where it is
+// too long even then, it is looked at through a window of so many corners, which doubles its stride
+// whenever it is full: 5,000 corners in 7 s.
 constexpr std::size_t most_corners = 400, window_size = 128;
 
 // Cosines that differ by less are one: the rounding of flat holes must not decide.
 constexpr double same_cosine = 1e-6;
 
 struct Best {
-  double cosine = -2;  // of the largest angle
+  double folding = std::numeric_limits<double>::infinity();  // sum over folds, of their cosines
+  double cosine = -2;                                        // of the largest angle
   double area = std::numeric_limits<double>::infinity();
   Index middle = -1;  // the third corner of the triangle on this chord; -1: none
   Vec3 normal = Vec3::Zero();
 
-  bool is_worse_than(double other_cosine, double other_area) const {
+  bool is_worse_than(double other_folding, double other_cosine, double other_area) const {
+    if (other_folding != folding) return other_folding < folding;
     return other_cosine > cosine || (other_cosine == cosine && other_area < area);
   }
 };
@@ -76,7 +80,7 @@ class Search {
     for (std::size_t i = 0; i + 1 < size; ++i) {
       Best* side = chords_.find(chords_.place(i), chords_.place(i) + 1);
       if (i + 2 == size) side = chords_.find(i, chords_.last_place());
-      if (side) *side = {1, 0, Index(i), polygon_.normals[i]};
+      if (side) *side = {0, 1, 0, Index(i), polygon_.normals[i]};
     }
     for (std::size_t level = 0; level <= chords_.top(); ++level)
       for (std::size_t gap = level ? chords_.window() / 2 + 1 : 2; gap <= chords_.window(); ++gap)
@@ -106,8 +110,9 @@ class Search {
       if (!chords_.is_corner(middle)) continue;
       const Best *left = chords_.find(low, middle), *right = chords_.find(middle, high);
       if (!left || !right || left->middle < 0 || right->middle < 0) continue;
-      const double bound = std::min(left->cosine, right->cosine);
-      if (bound < best.cosine) continue;
+      const double folding = left->folding + right->folding;
+      if (folding > best.folding) continue;
+      if (folding == best.folding && std::min(left->cosine, right->cosine) < best.cosine) continue;
       consider(first, chords_.corner(middle), last, *left, *right, best);
     }
   }
@@ -118,12 +123,16 @@ class Search {
     Vec3 normal = (p[j] - p[i]).cross(p[k] - p[i]);
     const double length = normal.norm();
     if (length > 0) normal /= length;
-    double cosine = std::min(
-        {left.cosine, right.cosine, turn(normal, left.normal), turn(normal, right.normal)});
-    if (i == 0 && k + 1 == p.size()) cosine = std::min(cosine, turn(normal, polygon_.normals[k]));
+    double turns[] = {turn(normal, left.normal), turn(normal, right.normal), 1};
+    if (i == 0 && k + 1 == p.size()) turns[2] = turn(normal, polygon_.normals[k]);
+    double folding = left.folding + right.folding, cosine = std::min(left.cosine, right.cosine);
+    for (const double t : turns) {
+      folding += std::max(0.0, -t);
+      cosine = std::min(cosine, t);
+    }
     const double area = left.area + right.area + length / 2;
-    if (best.middle < 0 || best.is_worse_than(cosine, area))
-      best = {cosine, area, Index(j), normal};
+    if (best.middle < 0 || best.is_worse_than(folding, cosine, area))
+      best = {folding, cosine, area, Index(j), normal};
   }
 
   // The cosine between two normals. A triangle without area has none, and is the worst.
@@ -157,7 +166,23 @@ class Search {
 }  // namespace
 
 std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
-  return polygon.points.size() < 3 ? std::vector<Triangle>{} : Search(polygon).run();
+  if (polygon.points.size() < 3) return {};
+  if (polygon.points.size() <= most_corners) return Search(polygon).run();
+  Shortened rest = cut_ears(polygon, most_corners);
+  SpacePolygon left;
+  for (const Index corner : rest.corners)
+    left.points.push_back(polygon.points[std::size_t(corner)]);
+  left.normals = std::move(rest.normals);
+  left.may_join = [&](std::size_t low, std::size_t high) {
+    return polygon.may_join(std::size_t(rest.corners[low]), std::size_t(rest.corners[high]));
+  };
+  const std::vector<Triangle> inner = Search(left).run();
+  if (inner.empty()) return Search(polygon).run();
+  std::vector<Triangle> found = std::move(rest.ears);
+  for (const Triangle& t : inner)
+    found.push_back({rest.corners[std::size_t(t[0])], rest.corners[std::size_t(t[1])],
+                     rest.corners[std::size_t(t[2])]});
+  return found;
 }
 
 }  // namespace fairing

@@ -21,11 +21,12 @@ struct SpacePolygon {
 
 using Triangle = std::array<Index, 3>;
 
-// Triangles of corners, running as the polygon does: those of the least largest angle between
-// neighbours, faces beyond the sides included, and of the least area among these. Empty where the
-// corners that may be joined allow none. By dynamic programming over all pairs of corners, cubic in
-// their number; of more than some hundreds only pairs far apart count that are also corners of a
-// coarser polygon, so that the work is linear.
+// Triangles of corners, running as the polygon does: those that fold least, summed over all edges,
+// those beyond the sides included; among these of the least largest angle between neighbours, and
+// then of the least area. Empty where the corners that may be joined allow none. By dynamic
+// programming over all pairs of corners, cubic in their number; of more than some hundreds the
+// sharpest corners are cut off first (ears.h), and then only pairs far apart count that are also
+// corners of a coarser polygon, so that the work is linear.
 std::vector<Triangle> triangulate(const SpacePolygon& polygon);
 
 }  // namespace fairing

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The holes that a check lists: how long each is, and where."""
+
+from typing import Any
+
+import numpy as np
+
+from .. import core
+from ..blender import Context, Object
+from ..mesh.read import control_mesh, read_mesh
+from ..transfer.hole_loops import loops_without, sides_of
+
+MOST = 50  # that are kept; a list of more helps nobody
+
+
+def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
+    """The loops of a mesh, the shortest first; none where the core makes no mesh of it."""
+    gone = np.zeros(len(arrays.face_sizes), bool)
+    try:
+        return sorted(loops_without(arrays, arrays.positions, gone), key=len)
+    except core.module().FairingError:
+        return []
+
+
+def listed(arrays: core.ControlArrays) -> list[dict[str, Any]]:
+    """Of each hole the number of its `edges`, and one of them, `at`, as a pair of vertices."""
+    return [{"edges": len(loop), "at": loop[:2]} for loop in loops_of(arrays)[:MOST]]
+
+
+def edges_of(context: Context, target: Object, at: list[int]) -> list[list[int]]:
+    """The edges of the hole that has the edge `at`, as pairs of vertices; none where it is gone."""
+    with control_mesh(context, target) as mesh:
+        arrays = read_mesh(mesh)
+    side = frozenset(at)
+    found = next((loop for loop in loops_of(arrays) if side in sides_of(loop)), None)
+    return [] if found is None else [list(pair) for pair in sides_of(found)]

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`--fill` on the command line: its options, holes closed in the meshes of a file, what the report says."""
+
+import argparse
+from collections.abc import Sequence
+from typing import Any
+
+from ..blender import Mesh, Object, current_context
+from ..choices import JOINTS
+from ..errors import JobError
+from ..holes import NO_HOLE, HoleJob, Wish, doubts
+from ..settings import NAMES
+from .places import Place, is_cad
+
+_DEFAULTS: dict[str, Any] = {
+    "fill_joint": "curvature",
+    "fill_density": 1.0,
+    "fill_noisy": False,
+    "largest_hole": 100,
+}
+_ENERGY = "TOTAL_CURVATURE"
+_OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("holes")
+    group.add_argument(
+        "--fill",
+        action="store_true",
+        help="close the holes of each mesh, and write it otherwise as it is, in the place of fairing it; "
+        "of the settings only --energy counts then [off; energy: total_curvature]",
+    )
+    group.add_argument(
+        "--largest-hole",
+        type=_edges,
+        metavar="N",
+        help="holes of more edges stay open, as the border of a sheet should "
+        f"[{_DEFAULTS['largest_hole']}]",
+    )
+    names = [identifier.lower() for identifier, *_ in JOINTS]
+    group.add_argument(
+        "--fill-joint",
+        choices=names,
+        metavar="|".join(names),
+        help=f"how a filling meets the faces around [{_DEFAULTS['fill_joint']}]",
+    )
+    group.add_argument(
+        "--fill-density",
+        type=_density,
+        metavar="X",
+        help="new edges are so many times as short as those of the rim; 0: no new vertices "
+        f"[{_DEFAULTS['fill_density']:g}]",
+    )
+    group.add_argument(
+        "--fill-noisy",
+        action="store_true",
+        default=None,
+        help="the faces around are measured: more of them say how a filling goes on, and none exactly",
+    )
+
+
+def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None:
+    """What is asked of holes; None where they stay. Raises ValueError where options contradict."""
+    given = {name: getattr(arguments, name) for name in _DEFAULTS}
+    if not arguments.fill:
+        for name, value in given.items():
+            if value is not None:
+                raise ValueError(f"{_option(name)} needs --fill")
+        return None
+    settings = [
+        name for name in vars(arguments) if name in NAMES and name not in (*_OTHERS, "energy")
+    ]
+    others = [name for name in _OTHERS if getattr(arguments, name) is not None]
+    if settings or others:
+        raise ValueError(
+            f"{_option((settings + others)[0])} is for fairing, and --fill does not fair: call twice"
+        )
+    if any(is_cad(way.target) for way in ways):
+        raise ValueError("--fill writes meshes: OUT cannot be a STEP file")
+    said = {name: _DEFAULTS[name] if value is None else value for name, value in given.items()}
+    return Wish(
+        said["fill_joint"].upper(),
+        getattr(arguments, "energy", _ENERGY),
+        said["fill_density"],
+        said["largest_hole"],
+        False,
+        said["fill_noisy"],
+    )
+
+
+def shown(wish: Wish) -> dict[str, Any]:
+    """For the report."""
+    return {
+        "energy": wish.energy,
+        "fill_joint": wish.joint,
+        "fill_density": wish.density,
+        "fill_noisy": wish.noisy,
+        "largest_hole": wish.most_edges,
+    }
+
+
+def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
+    """Closes the holes of an object; its entry for the report, and warnings. Raises JobError where
+    they cannot be closed; to have none is no error.
+    """
+    entry: dict[str, Any] = {"name": source.name, "control": _counts(source.data)}
+    try:
+        job = HoleJob(current_context(), source, wish)
+    except JobError as error:
+        if error.code != NO_HOLE:
+            raise
+        said = [] if "Largest Hole" in str(error) else [f"{error}."]
+        return entry | {"result": entry["control"], "report": {"holes": []}}, said
+    job.compute(**watchers)
+    if job.error is not None:
+        raise job.error
+    done = job.apply()
+    holes = [
+        {
+            "edges": [len(loop) for loop in hole.loops],
+            "faces": len(hole.faces),
+            "energy": hole.energy,
+            "converged": hole.converged,
+            "folds": hole.folds,
+        }
+        for hole in job.result.holes
+    ]
+    entry |= {"result": _counts(source.data), "report": {"holes": holes}}
+    return entry, [f"{source.name}: {sentence}." for sentence in doubts([done])]
+
+
+def table_head(width: int) -> str:
+    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'holes':>7} {'folded':>7}"
+
+
+def table_line(record: dict[str, Any], width: int) -> str:
+    """A finished input's line: sums over its objects."""
+    objects = record["objects"]
+    faces_in, faces_out = (
+        sum(item[side]["faces"] for item in objects) for side in ("control", "result")
+    )
+    holes = [hole for item in objects for hole in item["report"]["holes"]]
+    return (
+        f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
+        f"{len(holes):>7,} {sum(hole['folds'] > 0 for hole in holes):>7,}"
+    )
+
+
+def _counts(mesh: Mesh) -> dict[str, int]:
+    return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
+
+
+def _option(name: str) -> str:
+    return "--" + name.removeprefix("use_").replace("_", "-")
+
+
+def _edges(text: str) -> int:
+    if not text.isdecimal() or not 3 <= int(text) <= 16384:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 3 to 16384")
+    return int(text)
+
+
+def _density(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value <= 100.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 100")
+    return value

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What fills a hole, as its triangles and the vertices of the mesh that they stand on."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+_AT_ONCE = 1 << 20  # distances that are compared at a time: 8 MB
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Rows 0 … r - 1 are vertices of the rim, all others are new."""
+
+    rim: np.ndarray  # (r,) ids in the mesh, rising
+    fresh: np.ndarray  # (k,) ids of the new vertices, which follow on those of the mesh
+    points: np.ndarray  # (r + k, 3)
+    triangles: np.ndarray  # (t, 3) rows
+    nearest: np.ndarray  # (r + k,) row of the rim's vertex that is nearest
+
+    @classmethod
+    def of(cls, faces: np.ndarray, points: np.ndarray, count: int) -> "Patch":
+        """`faces` (t, 3): ids, of which those below `count` are of the mesh; `points` (N, 3)."""
+        ids, rows = np.unique(faces, return_inverse=True)
+        split = int(np.searchsorted(ids, count))
+        spots = points[ids]
+        return cls(ids[:split], ids[split:], spots, rows.reshape(-1, 3), _nearest(spots, split))
+
+    def in_whole(self, vertices: np.ndarray, count: int) -> "Patch":
+        """The same for a mesh of `count` vertices, of which those here are `vertices` (n,), rising."""
+        return replace(self, rim=vertices[self.rim], fresh=self.fresh - len(vertices) + count)
+
+
+def _nearest(points: np.ndarray, known: int) -> np.ndarray:
+    """(n,) which of the first `known` points is nearest to each."""
+    centred = points - points[:known].mean(axis=0)
+    rim = centred[:known]
+    found = np.arange(len(points))
+    step = max(1, _AT_ONCE // known)
+    for begin in range(known, len(points), step):
+        part = centred[begin : begin + step]
+        # of the squares of the distances, what differs from one vertex of the rim to another
+        found[begin : begin + step] = ((rim**2).sum(axis=1) - 2.0 * part @ rim.T).argmin(axis=1)
+    return found

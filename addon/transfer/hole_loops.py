@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which loops are holes of a mesh, or of what is left of it, and the faces around them."""
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+import numpy as np
+
+from .. import core
+from .cut_out import CutOut, cut_out
+
+RINGS, NOISY_RINGS = 2, 6  # of faces around a hole that decide what fills it
+
+Side: TypeAlias = frozenset[int]  # the two vertices of an edge
+
+
+def loops_without(
+    arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray
+) -> list[list[int]]:
+    """Around the holes that are there without the faces `gone`: only those at a border are looked at."""
+    kept = np.repeat(~gone, arrays.face_sizes)
+    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
+    border = arrays.edges[uses == 1]
+    at_border = np.zeros(len(points), bool)
+    at_border[border] = True
+    face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
+    near = np.zeros(len(gone), bool)
+    near[face_of[at_border[arrays.corners] & kept]] = True
+    if not near.any():
+        return []
+    part = cut_out(arrays, near)
+    found = core.module().find_holes(points[part.vertices], flat_faces(part.arrays))
+    loops = [part.vertices[loop].tolist() for loop in found]
+    sides = set(map(frozenset, border.tolist()))
+    return [loop for loop in loops if sides.issuperset(sides_of(loop))]
+
+
+def unclear_edges(
+    arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
+) -> list[Side]:
+    """Border edges that are around no hole, of faces that have neighbours: where more than two faces
+    meet at an edge, or neighbours look different ways, nobody could say what a hole is.
+    """
+    kept = np.repeat(~gone, arrays.face_sizes)
+    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
+    shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
+    beside = np.repeat(shared, arrays.face_sizes) & kept
+    border = np.zeros(len(arrays.edges), bool)
+    border[arrays.corner_edges[beside]] = True
+    known = {side for loop in loops for side in sides_of(loop)}
+    sides = map(frozenset, arrays.edges[border & (uses == 1)].tolist())
+    return [side for side in sides if side not in known]
+
+
+def sides_of(loop: list[int]) -> Iterable[Side]:
+    return (frozenset(pair) for pair in zip(loop, [*loop[1:], loop[0]], strict=True))
+
+
+def where_faces_were(
+    arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
+) -> list[list[list[int]]]:
+    """The loops around each connected part of the erased faces: its rim, the longest, then islands."""
+    faces = np.flatnonzero(gone).tolist()
+    edges_of = {f: arrays.corner_edges[arrays.offsets[f] : arrays.offsets[f + 1]] for f in faces}
+    faces_at: dict[int, list[int]] = {}
+    for face, edges in edges_of.items():
+        for edge in edges.tolist():
+            faces_at.setdefault(edge, []).append(face)
+    part_of: dict[int, int] = {}
+    for first in faces:
+        stack = [] if first in part_of else [first]
+        part_of.setdefault(first, len(part_of))
+        while stack:
+            beside = {f for e in edges_of[stack.pop()].tolist() for f in faces_at[e]}
+            fresh = [f for f in beside if f not in part_of]
+            part_of.update(dict.fromkeys(fresh, part_of[first]))
+            stack += fresh
+    uses = arrays.edge_uses
+    rim = {
+        frozenset(arrays.edges[edge].tolist()): part_of[at[0]]
+        for edge, at in faces_at.items()
+        if len(at) < uses[edge]
+    }
+    holes: dict[int, list[list[int]]] = {}
+    for loop in loops:
+        part = next((rim[side] for side in sides_of(loop) if side in rim), None)
+        if part is not None:
+            holes.setdefault(part, []).append(loop)
+    return [sorted(hole, key=len, reverse=True) for _, hole in sorted(holes.items())]
+
+
+def around(
+    arrays: core.ControlArrays, gone: np.ndarray, vertices: np.ndarray, noisy: bool = False
+) -> CutOut:
+    """The faces that are near these `vertices` (k,), without those that are `gone` (m,) bool: as many
+    rings as the core reads, more where the rim is `noisy`.
+    """
+    left = np.repeat(~gone, arrays.face_sizes)
+    face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
+    marked = np.zeros(len(arrays.positions), bool)
+    marked[vertices] = True
+    for _ in range(NOISY_RINGS if noisy else RINGS):
+        near = np.zeros(len(gone), bool)
+        near[face_of[marked[arrays.corners] & left]] = True
+        marked[arrays.corners[near[face_of]]] = True
+    return cut_out(arrays, near)
+
+
+def flat_faces(
+    arrays: core.ControlArrays, kept: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Corners and offsets of the faces `kept` (m,) bool, or of all, as the core takes them."""
+    sizes = arrays.face_sizes if kept is None else arrays.face_sizes[kept]
+    corners = arrays.corners if kept is None else arrays.corners[np.repeat(kept, arrays.face_sizes)]
+    return corners.astype(np.int64), np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/ears.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <queue>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr double smooth = 0.5;  // cosine of 60 degrees
+
+class Ears {
+ public:
+  explicit Ears(const SpacePolygon& polygon)
+      : polygon_(polygon), normals_(polygon.normals), count_(polygon.points.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      before_.push_back((i + count_ - 1) % count_);
+      after_.push_back((i + 1) % count_);
+    }
+    changes_.assign(count_, 0);
+    for (std::size_t i = 0; i < count_; ++i) look_at(i);
+  }
+
+  Shortened cut(std::size_t enough) {
+    Shortened found;
+    while (count_ > enough && !open_.empty()) {
+      stop_if_cancelled(count_);
+      const Candidate best = open_.top();
+      open_.pop();
+      if (best.change != changes_[best.corner]) continue;
+      const std::size_t i = best.corner, a = before_[i], b = after_[i];
+      Triangle ear{Index(a), Index(i), Index(b)};
+      std::sort(ear.begin(), ear.end());  // the same as to turn it round
+      found.ears.push_back(ear);
+      normals_[a] = normal(i);
+      after_[a] = b, before_[b] = a;
+      ++changes_[i];
+      gone_ = i;
+      --count_;
+      look_at(a), look_at(b);
+    }
+    const std::size_t first = after_[gone_];
+    std::size_t i = first;
+    do {
+      found.corners.push_back(Index(i));
+      i = after_[i];
+    } while (i != first);
+    std::rotate(found.corners.begin(), std::min_element(found.corners.begin(), found.corners.end()),
+                found.corners.end());
+    for (const Index corner : found.corners) found.normals.push_back(normals_[std::size_t(corner)]);
+    return found;
+  }
+
+ private:
+  struct Candidate {
+    double cosine;  // of the angle at the corner
+    std::size_t corner;
+    int change;  // of the corner's neighbours, so many-th
+    bool operator<(const Candidate& other) const {
+      return cosine < other.cosine || (cosine == other.cosine && corner > other.corner);
+    }
+  };
+
+  Vec3 side(std::size_t from, std::size_t to) const {
+    return polygon_.points[to] - polygon_.points[from];
+  }
+
+  // Of unit length, of the ear at a corner; zero without area.
+  Vec3 normal(std::size_t i) const {
+    const Vec3 area = side(before_[i], i).cross(side(i, after_[i]));
+    const double length = area.norm();
+    return length > 0 ? Vec3(area / length) : Vec3(Vec3::Zero());
+  }
+
+  void look_at(std::size_t i) {
+    const int change = ++changes_[i];
+    const std::size_t a = before_[i], b = after_[i];
+    const Vec3 ear = normal(i), leaving = side(i, a), arriving = side(i, b);
+    for (const Vec3& behind : {normals_[a], normals_[i]})
+      if (!behind.isZero() && ear.dot(behind) < smooth) return;
+    if (ear.isZero() || !polygon_.may_join(std::min(a, b), std::max(a, b))) return;
+    open_.push({leaving.dot(arriving) / (leaving.norm() * arriving.norm()), i, change});
+  }
+
+  const SpacePolygon& polygon_;
+  std::vector<Vec3> normals_;  // of what is behind the side from each corner
+  std::size_t count_, gone_ = 0;
+  std::vector<std::size_t> before_, after_;
+  std::vector<int> changes_;
+  std::priority_queue<Candidate> open_;
+};
+
+}  // namespace
+
+Shortened cut_ears(const SpacePolygon& polygon, std::size_t enough) {
+  return Ears(polygon).cut(enough);
+}
+
+}  // namespace fairing

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line closes holes."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cli_files import read_obj, write_obj
+from cli_runs import entries, imported, run
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
+    """A sphere of quads around its waist and triangles at its poles, open above."""
+    lines, at = ["o Ball"], {}
+    for r in range(1, rings):
+        height, radius = np.cos(np.pi * r / rings), np.sin(np.pi * r / rings)
+        for s in range(sides):
+            at[r, s] = len(at) + 1
+            angle = 2 * np.pi * s / sides
+            lines.append(
+                f"v {radius * np.cos(angle):.6f} {radius * np.sin(angle):.6f} {height:.6f}"
+            )
+    lines.append("v 0 0 -1")
+    for r in range(1, rings - 1):
+        for s in range(sides):
+            if np.cos(np.pi * r / rings) < open_above:
+                t = (s + 1) % sides
+                lines.append(f"f {at[r, s]} {at[r + 1, s]} {at[r + 1, t]} {at[r, t]}")
+    last = rings - 1
+    lines += [f"f {at[last, s]} {len(at) + 1} {at[last, (s + 1) % sides]}" for s in range(sides)]
+    Path(name).write_text("\n".join(lines) + "\n" + spoiled)
+
+
+def open_edges(path):
+    from collections import Counter
+
+    from addon.cli import main as command
+
+    uses = Counter(
+        tuple(sorted(edge))
+        for item in command.read_file(Path(path))
+        for face in item.data.polygons
+        for edge in face.edge_keys
+    )
+    return sum(count == 1 for count in uses.values())
+
+
+def test_a_hole_is_closed_and_the_rest_stays():
+    write_ball("in.obj")
+    code, (entry,) = entries("in.obj", "out.obj", "--fill")
+    assert (code, entry["status"], entry["warnings"]) == (0, "done", [])
+    (item,) = entry["objects"]
+    (hole,) = item["report"]["holes"]
+    assert hole == {
+        "edges": [24],
+        "faces": item["result"]["faces"] - item["control"]["faces"],
+        "energy": "total_curvature",
+        "converged": True,
+        "folds": 0,
+    }
+    assert entry["settings"] == {
+        "energy": "TOTAL_CURVATURE",
+        "fill_joint": "CURVATURE",
+        "fill_density": 1.0,
+        "fill_noisy": False,
+        "largest_hole": 100,
+    }
+    before, after = read_obj("in.obj"), read_obj("out.obj")
+    used = before[np.isin(np.round(before, 5), np.round(after, 5)).all(axis=1)]
+    assert len(used) and np.abs(np.linalg.norm(after, axis=1) - 1).max() < 2e-3
+    assert open_edges("out.obj") == 0
+
+
+def test_larger_holes_stay_open_and_that_is_no_failure():
+    write_ball("in.obj")
+    code, (entry,) = entries("in.obj", "out.ply", "--fill", "--largest-hole", 10)
+    assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
+    assert open_edges("out.ply") == 24
+
+
+def test_joint_energy_and_density_are_heard():
+    write_ball("in.obj")
+    words = ("--fill", "--energy", "thin_plate", "--fill-joint", "tangent", "--fill-density")
+    counts = []
+    for density in (0, 2):
+        code, (entry,) = entries("in.obj", "out.stl", *words, density)
+        assert code == 0
+        counts.append(entry["objects"][0]["report"]["holes"][0]["faces"])
+        assert entry["settings"]["fill_joint"] == "TANGENT"
+    assert entry["objects"][0]["report"]["holes"][0]["energy"] == "thin_plate"
+    assert counts[0] == 22 and counts[1] > 300
+    assert len(imported("out.stl")[1])
+
+
+def test_the_table_counts_holes(capsys):
+    write_ball("in.obj")
+    assert run("in.obj", "out.obj", "--fill") == 0
+    lines = [text for text in capsys.readouterr().err.splitlines() if "%" not in text]
+    assert lines[0].split() == ["file", "faces", "in", "faces", "out", "seconds", "holes", "folded"]
+    assert lines[-1].split()[-2:] == ["1", "0"]
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (("--largest-hole", 9), "--largest-hole needs --fill"),
+        (("--fill-noisy",), "--fill-noisy needs --fill"),
+        (("--fill", "--levels", 2), "--levels is for fairing"),
+        (("--fill", "--pieces", 2), "--pieces is for fairing"),
+        (("--fill", "--largest-hole", 2), "from 3 to 16384"),
+        (("--fill", "--fill-density", -1), "from 0 to 100"),
+    ],
+)
+def test_wrong_usage_is_said(words, said, capsys):
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj", *words) == 2
+    assert said in capsys.readouterr().err
+    assert not Path("out.obj").exists()
+
+
+def test_fillings_are_no_step_files(capsys):
+    write_obj("in.obj")
+    assert run("in.obj", "out.step", "--fill") == 2
+    assert "STEP" in capsys.readouterr().err

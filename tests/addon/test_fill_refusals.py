@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Borders that are no holes are said, not passed over: in Blender and on the command line."""
+
+from pathlib import Path
+
+import bmesh
+import bpy
+import pytest
+from cli_runs import entries
+from hole_scenes import ball, borders, edit, is_closed, without
+
+
+def with_a_fin():
+    """A ball with two holes; at the rim of one a third face stands on an edge."""
+    target = without(ball(), lambda c: abs(c[2]) > 0.7)
+    bm = bmesh.new()
+    bm.from_mesh(target.data)
+    edge = next(e for e in bm.edges if e.is_boundary and e.verts[0].co[2] > 0)
+    inner = next(e for v in edge.verts for e in v.link_edges if not e.is_boundary)
+    tip = bm.verts.new(2 * inner.verts[0].co)
+    bm.faces.new([*inner.verts, tip])
+    bm.to_mesh(target.data)
+    bm.free()
+    return target
+
+
+def test_the_other_hole_is_filled_and_this_one_said(capfd):
+    target = with_a_fin()
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert "around no hole: more than two faces meet there" in capfd.readouterr().out
+    assert not is_closed(target.data)
+    assert borders(target, lambda z: z < 0) == []
+
+
+def test_alone_it_is_refused_in_object_and_edit_mode():
+    target = with_a_fin()
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    faces = len(target.data.polygons)
+    with pytest.raises(RuntimeError, match="around no hole: more than two"):
+        bpy.ops.object.fairing_fill()
+    edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])
+    with pytest.raises(RuntimeError, match="1 border edge is around no hole"):
+        bpy.ops.object.fairing_fill()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(target.data.polygons) == faces
+
+
+def test_an_edge_inside_is_no_hole():
+    target = without(ball(), lambda c: c[2] > 0.7)
+    inside = next(e.index for e in target.data.edges if e.index not in borders(target))
+    edit(target, "EDGE", [inside])
+    with pytest.raises(RuntimeError, match="no border edge of a hole is selected"):
+        bpy.ops.object.fairing_fill()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_command_line_warns(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    target = with_a_fin()
+    bpy.ops.wm.obj_export(filepath="in.obj", export_selected_objects=True)
+    assert target.data.polygons and Path("in.obj").exists()
+    code, (entry,) = entries("in.obj", "out.obj", "--fill")
+    assert code == 0 and len(entry["objects"][0]["report"]["holes"]) == 1
+    assert "around no hole" in entry["warnings"][0]
+    code, (entry,) = entries("out.obj", "again.obj", "--fill")
+    assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
+    assert "around no hole" in entry["warnings"][0]

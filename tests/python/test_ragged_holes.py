@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ragged holes: closed by a manifold without a fold, but for those that any triangles over the rim would
+have. benchmarks/ragged.py has two hundred.
+"""
+
+import random
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from mesh_files import read_mesh
+from ragged_holes import cut, ragged
+from shared_data import SHARED
+
+
+def torus(n=120, m=60):
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    a, b = 2 * np.pi * i.ravel() / n, 2 * np.pi * j.ravel() / m
+    away = 2 + 0.8 * np.cos(b)
+    points = np.stack([away * np.cos(a), away * np.sin(a), 0.8 * np.sin(b)], 1)
+    at = np.arange(n * m).reshape(n, m)
+    right, up = np.roll(at, -1, axis=0), np.roll(at, -1, axis=1)
+    both = np.roll(right, -1, axis=1)
+    faces = [np.stack([at, right, both], -1), np.stack([at, both, up], -1)]
+    return points, np.concatenate([f.reshape(-1, 3) for f in faces])
+
+
+def uses(faces):
+    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)[1]
+
+
+def assert_sound(vertices, faces):
+    """Closed, and folded only where the rim alone makes that so; the holes."""
+    filled = df.fill_holes(vertices, faces)
+    assert (uses(filled.faces) == 2).all()
+    assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
+    bare = df.fill_holes(vertices, faces, joint="position", density=0)
+    for hole, plain in zip(filled.holes, bare.holes, strict=True):
+        assert not hole.folds or plain.folds
+    return filled.holes
+
+
+@pytest.mark.parametrize("wander", [0.0, 0.9])
+@pytest.mark.parametrize("seed", range(4))
+def test_on_a_torus_total_curvature_closes_them_without_a_fold(seed, wander):
+    """The mean of a vertex's neighbours often lies beyond such a rim, in the mesh."""
+    rng = random.Random(seed)
+    points, faces = torus()
+    taken = ragged(faces, rng.choice([100, 300, 900]), rng, wander)
+    for hole in assert_sound(*cut(points, faces, taken)):
+        assert (hole.energy, hole.joint) == ("total_curvature", "curvature")
+        assert hole.converged and not hole.folds
+
+
+REAL = [
+    ("cages/trimesh__fuze.ply", 3, 60),
+    ("cages/geometry-central__fox.ply", 0, 12),
+    ("cages/odedstein-meshes__fish_fish_low_resolution.obj", 5, 90),
+    ("mechanical/trimesh__round.stl", 27, 60),
+    ("mechanical/cinolib__cube_minus_sphere.obj", 24, 90),
+    ("mechanical/gpytoolbox__fandisk.obj", 1, 90),
+]
+
+
+@pytest.mark.parametrize("name, seed, size", REAL)
+def test_real_meshes(name, seed, size):
+    path = SHARED / "good" / name
+    if not path.exists():
+        pytest.skip("the collection of meshes is not here")
+    points, polygons = read_mesh(path)
+    triangles = np.array([t for p in polygons for t in zip([p[0]] * len(p), p[1:], p[2:])])
+    assert_sound(*cut(points, triangles, ragged(triangles, size, random.Random(seed), 0.5)))
