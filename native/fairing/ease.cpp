@@ -91,11 +91,17 @@ class Easing {
       move_worst(loads, control);
     } else {
       find_movable();
-      if (take(curve_, curve_system(control))) {
+      // A curve has few vertices to tell scatter from shape by: no more than scatters beside it.
+      const EaseSystem inner = inner_system(loads), curve = curve_system(control);
+      double s = amount(curve);
+      if (wanted_.amount < 0 && inner.unknowns() > 0)
+        s = with_noise_up_to(curve, s, inner.noise(amount(inner)));
+      if (take(curve_, curve, s)) {
         control = problem_->control_positions(at_);
         loads = loads_of(control);
       }
-      take(inner_, inner_system(loads));
+      const EaseSystem again = inner_system(loads);
+      take(inner_, again, amount(again));
     }
     const ControlPositions after = problem_->control_positions(at_);
     Strain left = gauge_->read(loads_of(after), after.working);
@@ -208,8 +214,7 @@ class Easing {
   }
 
   // Moves them, and says whether any does.
-  bool take(const Movable& movable, const EaseSystem& system) {
-    const double s = amount(system);
+  bool take(const Movable& movable, const EaseSystem& system, double s) {
     if (!(s > 0)) return false;
     const Columns moves =
         wanted_.tolerance.empty() ? system.moves(s) : system.moves_within(s, bounds_of(movable));

@@ -136,6 +136,11 @@ double EaseSystem::trace(double s) const {
   return sum;
 }
 
+double EaseSystem::noise(double s) const {
+  const double all = trace(s);
+  return all > 0 ? std::sqrt(squared_moves(s) / all) : 0;
+}
+
 double EaseSystem::squared_trace(double s) const {
   double sum = 0;
   for (std::size_t k = 0; k < of_trace_.node.size(); ++k) {
@@ -225,6 +230,12 @@ double cross_validated(const EaseSystem& system) {
     }
   }
   return best;
+}
+
+double with_noise_up_to(const EaseSystem& system, double s, double noise) {
+  for (int i = 0; i < amounts && s > 0; ++i, s /= ten_a_decade)
+    if (system.noise(s) <= noise) return s;
+  return 0;
 }
 
 }  // namespace fairing

@@ -41,6 +41,8 @@ class EaseSystem {
   double squared_moves(double s) const;
   double trace(double s) const;
   double squared_trace(double s) const;
+  // Of the scatter that an amount takes out, root mean square.
+  double noise(double s) const;
 
  private:
   // Nodes and weights of a sum over G'G's eigenvalues.
@@ -67,5 +69,8 @@ class EaseSystem {
 // Wahba (1979), with a weight on how much F keeps, as the plain one now and then takes scatter for
 // shape where there are few unknowns.
 double cross_validated(const EaseSystem& system);
+
+// The amount s, or the largest below that takes out no more than so much scatter; 0: none does.
+double with_noise_up_to(const EaseSystem& system, double s, double noise);
 
 }  // namespace fairing
