@@ -35,6 +35,7 @@ import side_by_side
 import sizes
 import subdivision
 import uneven
+import variation
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -58,6 +59,7 @@ BENCHMARKS = {
     "offsets": offsets.run,
     "bevels": bevels.run,
     "energies": energies.run,
+    "variation": variation.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "drag": drag.run,
