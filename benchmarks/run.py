@@ -38,7 +38,6 @@ import side_by_side
 import sizes
 import subdivision
 import uneven
-import variation
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
@@ -62,7 +61,6 @@ BENCHMARKS = {
     "offsets": offsets.run,
     "bevels": bevels.run,
     "energies": energies.run,
-    "variation": variation.run,
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "fills": fills.run,

@@ -65,60 +65,25 @@ double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own
   return energy;
 }
 
-// The three lanes of a run's tensors from those of its points and their neighbours: y[c][s] is
-// component c at slot s.
+// z <- the rows of a run on y, whose neighbours' tensors are at y[s] + 3 i.
 template <class T>
-void turn(const RowRun<const float>& rows, T damping, const T* const* const* y, T* z,
-          std::size_t begin) {
-  const std::size_t count = rows.count;
-  for (std::size_t i = begin; i < count; ++i) {
-    const T diagonal = T(rows.at(0, 0, i)) + damping;
-    T sum[3] = {diagonal * y[0][0][i], diagonal * y[1][0][i], diagonal * y[2][0][i]};
-    for (int s = 1; s < rows.slots; ++s) {
-      const T weight = rows.at(0, s, i), cosine = rows.at(1, s, i), sine = rows.at(2, s, i);
-      const T a = y[1][s][i], b = y[2][s][i];
-      sum[0] += weight * y[0][s][i];
-      sum[1] += cosine * a - sine * b;
-      sum[2] += sine * a + cosine * b;
+void apply_run(const RowRun<const float>& run, T damping, const T* const* y, T* z) {
+  for (std::size_t i = 0; i < run.count; ++i) {
+    const T* own = y[0] + 3 * i;
+    const T diagonal = T(run.at(0, 0, i)) + damping;
+    for (int c = 0; c < 3; ++c) z[3 * i + std::size_t(c)] = diagonal * own[c];
+  }
+  for (int s = 1; s < run.slots; ++s) {
+    const float *weight = &run.at(0, s, 0), *cosine = &run.at(1, s, 0), *sine = &run.at(2, s, 0);
+    const T* from = y[s];
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const T* o = from + 3 * i;
+      z[3 * i] += T(weight[i]) * o[0];
+      z[3 * i + 1] += T(cosine[i]) * o[1] - T(sine[i]) * o[2];
+      z[3 * i + 2] += T(sine[i]) * o[1] + T(cosine[i]) * o[2];
     }
-    for (std::size_t c = 0; c < 3; ++c) z[c * count + i] = sum[c];
   }
 }
-
-// The same in packs, up to `end`.
-template <class T, int Bytes>
-struct TurnLoop {
-  using P = Packs<T, Bytes>;
-  using Pack = typename P::Pack;
-
-  DF_INLINE static void run(const RowRun<const float>* rows, T damping, const T* const* const* y,
-                            T* z, std::size_t end) {
-    const std::size_t count = rows->count, row = std::size_t(rows->slots) * count;
-    for (std::size_t i = 0; i < end; i += P::size) {
-      const float* a = rows->coefficient + i;
-      Pack weight, cosine, sine, from, other, sum[3];
-      P::load(a, weight);
-      weight += damping;
-      for (int c = 0; c < 3; ++c) {
-        P::load(y[c][0] + i, from);
-        sum[c] = weight * from;
-      }
-      for (int s = 1; s < rows->slots; ++s) {
-        a += count;
-        P::load(a, weight);
-        P::load(a + row, cosine);
-        P::load(a + 2 * row, sine);
-        P::load(y[0][s] + i, from);
-        sum[0] += weight * from;
-        P::load(y[1][s] + i, from);
-        P::load(y[2][s] + i, other);
-        sum[1] += cosine * from - sine * other;
-        sum[2] += sine * from + cosine * other;
-      }
-      for (std::size_t c = 0; c < 3; ++c) P::store(sum[c], z + c * count + i);
-    }
-  }
-};
 
 // What a thread gathers of the surface: the points and their rings.
 struct SurfaceGather {
@@ -158,22 +123,16 @@ double Connection::set(const Surface& surface, const double* tensor, Workers& wo
   return energy.total();
 }
 
-void turn_run(const RowRun<const float>& rows, float damping, const Run& run,
-              TensorGather<float>& gather) {
-  const float* const* y[3];
-  for (int c = 0; c < 3; ++c) y[c] = gather.component[c](run);
-  const std::size_t whole = rows.count / lane_block * lane_block;
-  if (whole > 0)
-    run_loop<TurnLoop, float>(&rows, damping, static_cast<const float* const* const*>(y),
-                              gather.turned.data(), whole);
-  turn(rows, damping, y, gather.turned.data(), whole);
+template <class T>
+void Connection::apply(double damping, Workers& workers, const T* y, T* z) const {
+  for_each_run(
+      rows_.grid(), workers, [&] { return RunGather<T, 3>(rows_.grid(), y); },
+      [&](const Run& run, RunGather<T, 3>& gather) {
+        apply_run(rows_.of(run), T(damping), gather(run), z + 3 * run.first);
+      });
 }
 
-void turn_run(const RowRun<const float>& rows, double damping, const Run& run,
-              TensorGather<double>& gather) {
-  const double* const* y[3];
-  for (int c = 0; c < 3; ++c) y[c] = gather.component[c](run);
-  turn(rows, damping, y, gather.turned.data(), 0);
-}
+template void Connection::apply<float>(double, Workers&, const float*, float*) const;
+template void Connection::apply<double>(double, Workers&, const double*, double*) const;
 
 }  // namespace fairing

@@ -29,6 +29,10 @@ class Connection {
   // over the root of the area; returns tensor . L tensor.
   double set(const Surface& surface, const double* tensor, Workers& workers, double* force);
 
+  // z <- (L + damping) y
+  template <class T>
+  void apply(double damping, Workers& workers, const T* y, T* z) const;
+
   // Slot 0: the sum of weights; the others: minus the weight, and that times cosine and sine of
   // twice the angle between the charts.
   const RingJacobian& rows() const { return rows_; }
@@ -36,27 +40,5 @@ class Connection {
  private:
   RingJacobian rows_;
 };
-
-// What a thread keeps while it walks the tensors of a level: `planes` are three, one a component, of
-// one number a point each.
-template <class T>
-struct TensorGather {
-  TensorGather(const GridLevel& grid, const T* planes)
-      : component{{grid, planes, buffer[0]},
-                  {grid, planes + grid.size(), buffer[1]},
-                  {grid, planes + 2 * grid.size(), buffer[2]}},
-        turned(3 * std::size_t(grid.n())) {}
-  TensorGather(const TensorGather&) = delete;
-
-  std::vector<T> buffer[3];
-  RunGather<T> component[3];
-  std::vector<T> turned;  // room for a run's three lanes
-};
-
-// gather.turned <- (L + damping) y on the points of a run, whose rows are Connection::rows().
-void turn_run(const RowRun<const float>& rows, float damping, const Run& run,
-              TensorGather<float>& gather);
-void turn_run(const RowRun<const float>& rows, double damping, const Run& run,
-              TensorGather<double>& gather);
 
 }  // namespace fairing

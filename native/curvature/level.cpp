@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature/level.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "parallel/memory_news.h"
 #include "parallel/reductions.h"
@@ -48,20 +46,19 @@ NormalMatrix& CurvatureLevel::square() const {
 template <class T>
 void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
   if (varies()) {
-    const std::size_t points = grid_.size();
-    Array<T>& moment = shared_.moments<T>();
-    if (moment.size() < 3 * points) moment.resize(3 * points);
+    auto& [moment, turned] = shared_.moments<T>();
+    if (moment.size() < 3 * grid_.size()) {
+      moment.resize(3 * grid_.size());
+      turned.resize(3 * grid_.size());
+    }
     visit_moments(rows_, shared_.workers, x, [&](const Run& run, const T* lanes) {
-      for (std::size_t c = 0; c < 3; ++c)
-        std::copy_n(lanes + c * run.count, run.count, moment.data() + c * points + run.first);
+      for (std::size_t i = 0; i < run.count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
     });
-    accumulate_runs(
-        grid_, shared_.workers, slots, &shared_.unknowns, y,
-        [&] { return TensorGather<T>(grid_, moment.data()); },
-        [&](const Run& run, T* const* target, TensorGather<T>& tensors) {
-          turn_run(connection_->rows().of(run), T(shared_.total_curvature_share), run, tensors);
-          backward(std::as_const(rows_).of(run), tensors.turned.data(), target);
-        });
+    connection_->apply(shared_.total_curvature_share, shared_.workers, moment.data(),
+                       turned.data());
+    apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
   } else {
     apply_rows(x, y);

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include "curvature/area.h"
 #include "curvature/connection.h"
@@ -37,9 +38,8 @@ struct CurvatureShared {
   const Unknowns* pad_rows = nullptr;
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
-  // Of minimum variation's products: three planes, one a component, of one number a point each.
-  Array<double> double_moments{};
-  Array<float> float_moments{};
+  std::pair<Array<double>, Array<double>> double_moments{};
+  std::pair<Array<float>, Array<float>> float_moments{};
 
   template <class T>
   auto& moments() {
@@ -96,9 +96,7 @@ class CurvatureLevel final : public LevelOperator {
   // y <- K x on `rows` without the weights, for an x that is zero off the unknowns. Total curvature
   // only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
-  bool single_precision_suffices() const override {
-    return grid_.n() <= (varies() ? most_of_single_in_sixth_order : most_of_single);
-  }
+  bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
   SymmetricRows rows() const override;

@@ -17,7 +17,7 @@ namespace fairing {
 enum class CurvatureEnergy { total_curvature, minimum_variation };
 
 struct GaussNewtonOptions {
-  // What the finest level's surface minimizes. Coarse levels minimize total curvature first.
+  // What the finest level's surface minimizes. Coarser levels minimize total curvature always.
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
   // So many times the surface's area is minimized with total curvature; 0 for minimum variation.
   double tension = 0;
@@ -68,7 +68,7 @@ struct CurvatureLevelReport {
   double plate_energy = 0;  // total curvature of the thin plate's surface
   double start_energy = 0;  // of the surface that the steps started from
   double energy = 0;        // of the surface returned
-  // Minimum variation's energy before its steps and after them, on levels that have any.
+  // Minimum variation's energy before its steps and after them; on the finest level alone.
   double start_variation = 0, variation = 0;
   double constraint_gap = 0;  // of the last step
   // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
@@ -79,8 +79,7 @@ struct CurvatureLevelReport {
   // (left_to_move.h); infinity where they tell nothing.
   double left = std::numeric_limits<double>::infinity();
   // The one meaning of converged, for both energies: the surface is as near to the solution of its
-  // equation as was promised. On the finest level `left` is below the step tolerance, or, after
-  // minimum variation's steps, below what can be seen (variation.h). Surfaces of
+  // equation as was promised. On the finest level `left` is below the step tolerance. Surfaces of
   // other levels only start the next one; there a decrement of 3e-2 at the most is promised.
   bool converged = false;
   // The steps ended at a worse surface than they began at, which is kept in its place.

@@ -20,14 +20,6 @@ constexpr int long_patience = 14;
 // changes.
 constexpr double start_decrement = 1e-2;
 
-// Steps to the least variation below the finest level: what they leave is less than what the next
-// level changes.
-constexpr int most_coarse_steps = 5;
-// On the finest level less than this share of what its steps have moved cannot be seen: the level
-// itself is as far from the next one. Who asks for movements below the other one, in sizes of the
-// mesh, wants more than what can be seen.
-constexpr double seen_share = 0.05, visible_movement = 2e-6;
-
 // After control vertices have moved: a change of the energy, relative, at which what only
 // preconditions may stay as it is.
 constexpr double nearby = 0.02;
@@ -82,7 +74,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
       steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
-      variation_(iterate_) {
+      variation_(iterate_, options_) {
   system_.hold_by(&hold_);
 }
 
@@ -96,7 +88,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
-  if (!varies_from_below(start, report)) solve_total_curvature(start, plate, report);
+  solve_total_curvature(start, plate, report);
   if (is_finest()) remember(report);
   leave_out_tension(start, plate, report);
   report.work = system_.work(level) - before;
@@ -112,38 +104,6 @@ void GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Arra
     minimize(start, effort_of_level(), report);
   if (is_finest()) return finish(start, plate, report);
   keep_start_if_worse(start, plate, report);
-  begin_variation(report);
-}
-
-void GaussNewtonSolver::vary(CurvatureLevelReport& report) {
-  if (is_finest())
-    variation_.run(steps_.accurate_end(), options_.max_steps,
-                   is_varied_ && options_.step_tolerance >= visible_movement ? seen_share : 0,
-                   report);
-  else
-    variation_.run({start_decrement, 0}, std::min(options_.max_steps, most_coarse_steps), 0,
-                   report);
-}
-
-// Where the steps of total curvature have been plain so far, all finer levels minimize the
-// variation alone.
-void GaussNewtonSolver::begin_variation(CurvatureLevelReport& report) {
-  if (!varies() || hold_.any() || stepping_ != Stepping::plain || report.kept_start) return;
-  if (iterate_.level < std::clamp(widths_level, system_.base(), system_.finest())) return;
-  vary(report);
-  is_varied_ = !report.kept_start;
-}
-
-bool GaussNewtonSolver::varies_from_below(const StepStart& start, CurvatureLevelReport& report) {
-  if (!is_varied_) return false;
-  vary(report);
-  if (report.converged && (!is_finest() || unfolding_.find().count() == 0)) return true;
-  is_varied_ = false;
-  iterate_.is_linearized = false;
-  surface() = start.points;
-  iterate_.current.held = start.held;
-  report = start.report;
-  return false;
 }
 
 StepEnd GaussNewtonSolver::end_of(Effort effort) {
@@ -262,7 +222,7 @@ void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plat
   unfolding_.run(start, report);
   if (hold_.any()) fix_held(report);
   keep_start_if_worse(start, plate, report);
-  if (varies()) vary(report);
+  if (varies()) variation_.run(steps_.accurate_end(), report);
 }
 
 void GaussNewtonSolver::remember(CurvatureLevelReport& report) {
@@ -360,7 +320,7 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
   report.converged = true;
   const double start_tension = tension_of(surface());
   if (varies())
-    vary(report);
+    variation_.run(steps_.accurate_end(), report);
   else
     steps_.run_plain(steps_.accurate_end(), short_patience, report);
   report.folds_before = report.folds = unfolding_.find().count();

@@ -62,13 +62,6 @@ class GaussNewtonSolver {
   void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
   void solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
-  // Steps to the least variation, as far as the level wants them.
-  void vary(CurvatureLevelReport& report);
-  // After total curvature has been minimized on a coarse level.
-  void begin_variation(CurvatureLevelReport& report);
-  // The level's least variation from the level below's. False: that does not go well, and the
-  // surface is at the start again.
-  bool varies_from_below(const StepStart& start, CurvatureLevelReport& report);
   bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
   void remember(CurvatureLevelReport& report);
   // What the surface of a level may have of total curvature.
@@ -94,7 +87,6 @@ class GaussNewtonSolver {
   Unfolding unfolding_;
   VariationSteps variation_;
   Stepping stepping_ = Stepping::undecided;  // what went well on the latest level
-  bool is_varied_ = false;                   // the level below has the least variation
   Array<double> plate_below_;                // the thin plate's surface on the level before
 
   // Of the finest level's latest solution.

@@ -7,7 +7,7 @@
 
 #include "curvature/left_to_move.h"
 #include "curvature/local_damping.h"
-#include "curvature/step_space.h"
+#include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
@@ -20,10 +20,6 @@ constexpr double late = 1e-3;
 // was predicted, one that had to be shortened, one that was rejected.
 constexpr double first_nu = 0.1, least_nu = 1e-6;
 constexpr double good_gain = 0.5, decay = 0.25, shortened = 2, rejected = 4;
-
-// Decrement, at the most, of a last step that leaves more than the tolerance and less than can be
-// seen: it gains a 40,000th of the energy.
-constexpr double nearly_settled = 5e-3;
 
 // Where the linear solves end too early for a step to lessen the decrement by half, the next ones
 // would gain as little.
@@ -70,15 +66,12 @@ class VariationScope {
 
 class VariationStep final : public StepMethod {
  public:
-  VariationStep(SurfaceIterate& iterate, const StepEnd& end, double& nu, const Bending& bending,
-                double seen_share)
+  VariationStep(SurfaceIterate& iterate, const StepEnd& end, double& nu, const Bending& bending)
       : it_(iterate),
         end_(end),
         nu_(nu),
         damping_(iterate.grid(), iterate.system.shared().unknowns, iterate.workers()),
-        anderson_({&iterate}, accelerated_steps),
-        bending_(bending),
-        seen_share_(seen_share) {
+        bending_(bending) {
     it_.trial.points.resize(3 * it_.grid().size());
     it_.current.linearization.with_axes = it_.trial.linearization.with_axes = true;
     it_.linearize();
@@ -103,18 +96,15 @@ class VariationStep final : public StepMethod {
     step.energy = it_.current.energy;
     predicted_gain_ = it_.system.solve(it_.level, it_.current, fresh, it_.step, not_held_, step);
     step.decrement = std::sqrt(predicted_gain_ / scale_);
-    if (step.decrement < accelerated_decrement)
-      it_.step = anderson_.change({std::move(it_.step), {}}).along;
     it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
   double try_length(StepReport& step, const StepCount& count) override {
     const double energy = it_.try_step(step.length);
     step.movement = it_.movement(step.length);
-    if (step.length == 1 &&
-        damping_.judge(predicted_, it_.current.linearization, it_.trial.linearization,
-                       count.rejected, count.accepted, step.decrement))
-      anderson_.forget();
+    if (step.length == 1)
+      damping_.judge(predicted_, it_.current.linearization, it_.trial.linearization, count.rejected,
+                     count.accepted, step.decrement);
     return energy;
   }
 
@@ -127,7 +117,6 @@ class VariationStep final : public StepMethod {
               CurvatureLevelReport& report) override {
     const double gain =
         predicted_gain_ > 0 ? (it_.current.energy - it_.trial.energy) / predicted_gain_ : 1;
-    if (step.length < 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
     if (step.length < 1)
       nu_ *= shortened;
@@ -137,11 +126,8 @@ class VariationStep final : public StepMethod {
     const double before = remainder_.last_decrement();
     report.left = remainder_.after(step.decrement, step.movement / step.length, step.solved);
     // One step alone does not tell how much it has left, nor one that was held back.
-    moved_ += step.movement;
     const bool tells = nu_ <= first_nu && (count.accepted > 1 || step.decrement <= plain_decrement);
-    report.converged =
-        tells && (end_.is_reached(step.decrement, report.left) ||
-                  (step.decrement <= nearly_settled && report.left <= seen_share_ * moved_));
+    report.converged = tells && end_.is_reached(step.decrement, report.left);
     const bool is_stuck = !step.solved && before > 0 && step.decrement > stuck * before;
     return report.converged || is_stuck;
   }
@@ -149,7 +135,6 @@ class VariationStep final : public StepMethod {
   bool reject() override {
     nu_ = std::max(rejected * nu_, first_nu);
     remainder_.forget();
-    anderson_.forget();
     it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
     return true;
   }
@@ -159,33 +144,30 @@ class VariationStep final : public StepMethod {
   StepEnd end_;
   double& nu_;
   LocalDamping damping_;
-  Anderson<StepSpace> anderson_;
   Bending bending_;
   Array<float> predicted_;
   Multipliers<1> not_held_;
   double scale_ = 0;  // what decrements are relative to
   double predicted_gain_ = 0;
-  double seen_share_;
-  double moved_ = 0;  // by all steps
   LeftToMove remainder_;
 };
 
 }  // namespace
 
-VariationSteps::VariationSteps(SurfaceIterate& iterate) : iterate_(iterate), nu_(first_nu) {}
+VariationSteps::VariationSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
+    : iterate_(iterate), options_(options), nu_(first_nu) {}
 
-void VariationSteps::run(const StepEnd& end, int most, double seen_share,
-                         CurvatureLevelReport& report) {
+void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
   const Bending bending = bending_of(iterate_.current.linearization.shape, iterate_.workers());
   if (!(bending.square > flat_energy)) return;
   const Array<double> start = iterate_.current.points;
   {
     const VariationScope scope(iterate_.system);
     nu_ = std::min(nu_, first_nu);
-    VariationStep method(iterate_, end, nu_, bending, seen_share);
+    VariationStep method(iterate_, end, nu_, bending);
     report.start_variation = iterate_.current.energy;
     report.converged = report.kept_start = false;
-    run_steps(method, most, report);
+    run_steps(method, options_.max_steps, report);
     report.variation = iterate_.current.energy;
   }
   if (!(report.variation <=

@@ -15,18 +15,18 @@ namespace fairing {
 
 class VariationSteps {
  public:
-  // `iterate` must outlive it.
-  explicit VariationSteps(SurfaceIterate& iterate);
+  // Both must outlive it.
+  VariationSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options);
 
-  // From iterate.current, which must be linearized for total curvature, to the surface that at most
-  // so many steps end at: at `end`, or where a few steps have left less to move than `seen_share` of
-  // what all have moved; or where they began if that varies less; it is linearized for total curvature
+  // From iterate.current, which must be linearized for total curvature, to the surface that the
+  // steps end at, or where they began if that varies less; it is linearized for total curvature
   // again. `report` has the steps added; energy, both variations, `left` and `converged` are set. A
   // surface without any curvature stays as it is. Throws ErrorCode::cancelled.
-  void run(const StepEnd& end, int most, double seen_share, CurvatureLevelReport& report);
+  void run(const StepEnd& end, CurvatureLevelReport& report);
 
  private:
   SurfaceIterate& iterate_;
+  const GaussNewtonOptions& options_;
   double nu_;  // kept from one surface to the next
 };
 

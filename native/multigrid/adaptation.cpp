@@ -54,9 +54,7 @@ bool Hierarchy::knows_factor_below(std::size_t index) const {
 }
 
 bool Hierarchy::may_factor(std::size_t index) const {
-  if (is_bounded_)  // below the finest level each step factors anew
-    return unknowns_[index] <=
-           (index + 1 == unknowns_.size() ? options_.cheap_factor : direct_limit);
+  if (is_bounded_) return unknowns_[index] <= options_.cheap_factor;
   if (unknowns_[index] <= direct_limit_of_hard) return true;
   if (!knows_factor_below(index)) return false;
   const double growth =
@@ -120,7 +118,7 @@ void Hierarchy::take_blocks(std::size_t index) {
     if (level.blocks || (l == cycle_.base && coarse_->direct())) continue;
     level.blocks = BlockJacobi::make(*level.op, workers_);
     options_.may_block = level.blocks != nullptr;
-    if (level.blocks) level.largest_eigenvalue = 0;
+    if (level.blocks) level.largest_eigenvalue = 0;  // of another matrix; without blocks it stays
   }
   if (options_.may_block) cycle_.degree = degree_of_blocks;
 }

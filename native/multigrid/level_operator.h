@@ -20,7 +20,6 @@ constexpr std::size_t vector_room = 16;
 // The finest subdivision of control edges for which fourth differences of smooth vectors survive in
 // single precision, which has 24 bits: they shrink with n^-4, and 32^4 takes 20 of them.
 constexpr int most_of_single = 32;
-constexpr int most_of_single_in_sixth_order = 8;  // n^-6
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr std::size_t matrix_entry = sizeof(double) + sizeof(int);  // bytes, as it is stored

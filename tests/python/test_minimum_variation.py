@@ -39,16 +39,6 @@ def test_variation_falls_and_total_curvature_started_it(name):
     assert kinds == sorted(kinds, reverse=True) and kinds[-1] == "minimum_variation"
 
 
-def test_fine_levels_go_on_from_the_level_below():
-    """Total curvature is minimized on the coarsest levels only, where that goes well."""
-    vertices, faces = meshes.ALL["torus_quads"]()
-    levels = tight.fair(vertices, faces, 4, "minimum_variation").report["curvature"]
-    kinds = {level["level"]: {step["functional"] for step in level["steps"]} for level in levels}
-    assert kinds[2] == {"total_curvature", "minimum_variation"}
-    assert kinds[3] == kinds[4] == {"minimum_variation"}
-    assert levels[-1]["converged"] and len(levels[-1]["steps"]) <= 6
-
-
 def test_a_patch_of_a_sphere_is_found():
     """Six by six quads whose vertices lie on a sphere. The boundary's curves do not, so only the
     middle is compared."""
