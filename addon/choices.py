@@ -46,8 +46,7 @@ INTERPOLATIONS = (
     (
         "APPROXIMATE",
         "Near",
-        "The surface may miss each vertex of the source by at most the tolerance, and bends as little as that allows. "
-        "It uses all of it: for points that are scattered or wrong, Ease Control Mesh leaves the shape",
+        "Bends as little as the tolerance of each vertex allows; for scattered or wrong points take Ease Control Mesh",
         1,
     ),
     (

@@ -38,8 +38,7 @@ class CageSettings:
 
     snap: FloatProperty(
         name="Snap",
-        description="Curves that pass each other no farther apart than this meet, in scene units. "
-        "0: a hundredth of the size of the usual curve",
+        description="Curves no farther apart than this meet, in scene units; 0 takes a hundredth of the usual curve's size",
         default=0.0,
         min=0.0,
         soft_max=1.0,
@@ -49,7 +48,7 @@ class CageSettings:
     )
     per_side: IntProperty(
         name="Edges per Side",
-        description="Edges of the control mesh on the shorter sides of cells; longer sides have more. More follow the curves more closely",
+        description="Edges of the control mesh on the shorter sides of cells; more of them follow the curves more closely",
         default=4,
         min=1,
         max=64,
@@ -58,7 +57,7 @@ class CageSettings:
     )
     closed: BoolProperty(
         name="Close",
-        description="Ends that are open, as those of a tube, are filled too. Not for sheets: their outside is one as well",
+        description="Open ends, as those of a tube, are filled too; a sheet's outside would be one as well",
         default=False,
         update=_look_again,
     )

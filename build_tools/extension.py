@@ -136,8 +136,8 @@ def faults(path: Path) -> list[str]:
         ),
         "a wheel is for another platform": {platform(Path(w)) for w in wheels}
         == set(manifest["platforms"]),
-        "not the one permission that files need": list(manifest.get("permissions", {}))
-        == ["files"],
+        "other permissions than for files and a cluster": sorted(manifest.get("permissions", {}))
+        == ["files", "network"],
         "the tagline is too long or ends in a period": len(tagline) <= 64
         and not tagline.endswith("."),
         "no licence": names.issuperset(LICENCES),

@@ -16,7 +16,6 @@ from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPool
 from concurrent.futures import as_completed as completed
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from importlib import import_module
 from operator import methodcaller
 from pathlib import Path
 from typing import Any
@@ -106,13 +105,13 @@ def _run(
 def _dask(arguments: Namespace) -> Iterator[Engine]:
     address = arguments.scheduler
     try:
-        distributed: Any = import_module("distributed")
+        import distributed
     except ImportError as error:
         raise NoEngine(
             f"--scheduler needs the package distributed in Blender's own Python ({error})."
         ) from error
     try:
-        client = distributed.Client(address, timeout="10s")
+        client: Any = distributed.Client(address, timeout="10s")  # type: ignore[no-untyped-call]
     except (OSError, TimeoutError, ValueError) as error:
         raise NoEngine(f"No Dask scheduler answers at {address} ({error}).") from error
     with client:

@@ -41,7 +41,7 @@ def curve_objects(context: Context) -> list[Object]:
 
 
 class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
-    """Make the fairest surface over the network of the selected curves, through all of them. Wire edges of meshes are curves too"""
+    """Make the fairest surface through the selected curves that cross; wire edges of meshes are curves too"""
 
     bl_idname = "object.fairing_curves"
     bl_label = "Fair Surface from Curves"

@@ -50,7 +50,7 @@ class _Easing(Fairing):
 
 
 class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
-    """Move the vertices of the control mesh a little, so that the surface through them is fair: offsets that are wrong, and the scatter of all. The result is the shape key Eased; the mesh itself stays as it is"""
+    """Move vertices a little, as the shape key Eased, so that the surface is fair: scatter goes, wrong offsets come right"""
 
     bl_idname = "object.fairing_ease"
     bl_label = "Ease Control Mesh"
@@ -96,8 +96,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
     )
     go_on: BoolProperty(
         name="Go On from Eased",
-        description="Starts from the shape key Eased, if there is one, and not from the mesh: first the worst vertices, "
-        "then the scatter of all",
+        description="Starts from the shape key Eased, if there is one: first the worst vertices, then the scatter of all",
         default=False,
     )
     result: EnumProperty(
@@ -107,7 +106,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
             (
                 "SHAPE_KEY",
                 "Shape Key",
-                "The shape key Eased of the mesh, fully on. Its slider mixes; Shape Key > Apply All makes it the mesh",
+                "The shape key Eased of the mesh, fully on; its slider mixes",
             ),
             ("COPY", "Copy", "A new object beside the source"),
         ),
@@ -146,7 +145,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
-    """Move the selected vertices to where the surface through all others wants them. Those on open borders and creases stay"""
+    """Move selected vertices, but for those on borders and creases, to where the surface through all others wants them"""
 
     bl_idname = "object.fairing_ease_selected"
     bl_label = "Ease Selected"
@@ -154,7 +153,7 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
 
     factor: FloatProperty(
         name="Factor",
-        description="How far the vertices go. 1: to where the surface wants them",
+        description="How far the vertices go, up to 1, where the surface wants them",
         default=1.0,
         soft_min=0.0,
         soft_max=1.0,

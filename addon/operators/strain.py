@@ -59,7 +59,7 @@ class _Straining(Fairing):
 
 
 class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
-    """Show at each vertex how far the surface would spring away, were that vertex let go: wrong offsets stand out. Again: hide it"""
+    """Show or hide how far the surface would spring away at each vertex, were it let go: wrong offsets stand out"""
 
     bl_idname = "object.fairing_strain"
     bl_label = "Inspect: Strain"
@@ -170,7 +170,7 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_strain_table(_Straining, ExportHelper, bpy.types.Operator):
-    """Write vertices, their strain and, where the mesh has been eased, their new places and moves as a table (CSV), in scene units"""
+    """Write vertices, their strain and, if eased, new places and moves as a table (CSV), in scene units"""
 
     bl_idname = "object.fairing_strain_table"
     bl_label = "Table of Strain (CSV)"

@@ -25,9 +25,7 @@ class FAIRING_PG_strain(bpy.types.PropertyGroup):
 
     show: BoolProperty(
         name="Show Strain",
-        description="Draws a dot and a needle at each vertex: how far the surface would spring away there, "
-        "were this vertex alone let go. A vertex that is out of line with its neighbours has a long one. Strain is "
-        "that of Thin Plate, whatever the surface's fairness",
+        description="Draws a needle at each vertex: how far the thin plate would spring away there, were this vertex let go",
         update=_show_changed,
         options=set(),
     )

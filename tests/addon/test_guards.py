@@ -13,6 +13,7 @@ BINDING = ROOT / "native" / "binding" / "discrete_fairing"
 
 # What each file needs of the file system.
 MAY_USE_FILES = {
+    "addon/cli/engines.py",  # `os` and the folder that the command was called in
     "addon/cli/files.py",  # looks whether an input can be read, makes the output and its folder
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
     "addon/cli/places.py",  # paths, to see whether two are the same file, and patterns of them
@@ -28,6 +29,12 @@ MAY_USE_FILES = {
     "native/binding/discrete_fairing/piecewise/part.py",  # the same, rounded
     "native/binding/discrete_fairing/piecewise/joining.py",  # reads a part at a time
 }
+
+# Starts this command again for a share of the inputs, and hands pieces to other processes.
+MAY_START_PROCESSES = {"addon/cli/engines.py"}
+
+# Packages of the extra "cluster", asked for where they are needed: what cuts meshes, what holds pieces.
+OF_CLUSTERS = {"partition.py": {"pymetis"}, "files.py": {"zarr"}, "engines.py": {"distributed"}}
 
 # All their numbers can be tested, and used, without Blender.
 PURE_FOLDERS = ("curves", "transfer")
@@ -96,7 +103,9 @@ def pure_files():
 @pytest.mark.parametrize("path", FILES, ids=named)
 def test_nothing_dangerous(path):
     assert not guards.faults(
-        path.read_text(encoding="utf-8"), allow_files=named(path) in MAY_USE_FILES
+        path.read_text(encoding="utf-8"),
+        allow_files=named(path) in MAY_USE_FILES,
+        allow_processes=named(path) in MAY_START_PROCESSES,
     )
 
 
@@ -111,6 +120,7 @@ def test_whoever_may_use_files_does():
 def test_own_modules_are_imported_relatively(path):
     outside = guards.outside_imports(path.read_text(encoding="utf-8"))
     core = {"discrete_fairing"} if path == ADDON / "core.py" else set()
+    core |= OF_CLUSTERS.get(path.name, set()) & outside
     assert {name for name in outside if not guards.is_allowed_outside(name)} == core
 
 
@@ -140,8 +150,7 @@ def test_no_blender_where_numbers_are_made(path):
 @pytest.mark.parametrize("path", sorted(BINDING.rglob("*.py")), ids=named)
 def test_the_core_knows_nothing_of_blender(path):
     outside = guards.outside_imports(path.read_text(encoding="utf-8"))
-    if path.name == "partition.py":
-        outside -= {"pymetis"}  # of the extra "cluster", asked for when a mesh is cut
+    outside -= OF_CLUSTERS.get(path.name, set())
     assert all(guards.is_allowed_outside(name) for name in outside) and not outside & guards.BLENDER
 
 
@@ -189,6 +198,12 @@ def test_the_guard_sees(snippet):
 )
 def test_the_guard_sees_where_files_are_allowed(snippet):
     assert guards.faults(snippet, allow_files=True)
+
+
+def test_the_guard_sees_where_processes_are_allowed():
+    for snippet in ("eval('1')", "import pickle", "import socket", "import importlib"):
+        assert guards.faults(snippet, allow_files=True, allow_processes=True)
+    assert not guards.faults("import subprocess", allow_processes=True)
 
 
 @pytest.mark.parametrize(

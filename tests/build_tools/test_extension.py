@@ -103,9 +103,10 @@ def test_wheels_that_make_no_zip_are_refused(tags):
 def test_the_permission_has_a_reason():
     """Commands, exports and presets read and write files; Blender shows the reason to who installs."""
     text = extension.staged_manifest([wheel("cp311-cp311-win_amd64")])
-    reason = tomllib.loads(text)["permissions"]["files"]
-    assert all(word in reason for word in ("command", "export", "preset"))
-    assert len(reason) <= 64 and reason[-1].isalnum()
+    reasons = tomllib.loads(text)["permissions"]
+    assert all(word in reasons["files"] for word in ("command", "export", "preset"))
+    assert "--scheduler" in reasons["network"]
+    assert all(len(reason) <= 64 and reason[-1].isalnum() for reason in reasons.values())
 
 
 def test_wheels_of_a_folder_are_sorted_by_platform(tmp_path):
@@ -162,7 +163,7 @@ def change(old, new):
         (lambda folder: (folder / "wheels" / "other.whl").write_bytes(b""), "other wheels"),
         (change("linux-x64", "windows-x64"), "platform"),
         (change(f'version = "{VERSION}"', 'version = "999.0.0"'), "version"),
-        (change("files = ", "network = "), "permission"),
+        (change("files = ", "camera = "), "permission"),
         (change('through it"', 'through it."'), "tagline"),
     ],
 )
