@@ -5,7 +5,8 @@ It exists while Blender runs. Nothing runs while nothing is shown; without a win
 measure.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from time import monotonic
 from typing import Any, cast
 
@@ -85,7 +86,8 @@ class _Watch:
     def _begin(self, context: Context, source: Object) -> bool:
         self.stale, self._settings = False, snapshot(settings_for(context, source))
         try:
-            self._next = StrainJob(context, source, self.job)
+            with _unnoticed(context, source):
+                self._next = StrainJob(context, source, self.job)
         except JobError as error:
             self.error = str(error)
             return True
@@ -111,6 +113,7 @@ class _Watch:
 _watches: dict[int | str, _Watch] = {}
 _shown: list[Reference] | None = None  # None: to be looked for
 _count = 0  # of the file's objects, when they were looked through
+_reading = False  # whether changes that Blender tells of are our own reading
 
 
 def job_for(context: Context, source: Object) -> StrainJob:
@@ -188,9 +191,22 @@ def _on_timer() -> float | None:
     return INTERVAL if sources else None
 
 
+@contextmanager
+def _unnoticed(context: Context, source: Object) -> Iterator[None]:
+    """To read a mesh in Edit Mode tells Blender that it has changed, which is no edit."""
+    global _reading
+    _reading = True
+    try:
+        yield
+    finally:
+        if source.mode == "EDIT":
+            context.view_layer.update()
+        _reading = False
+
+
 @persistent
 def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
-    if not _watches:
+    if not _watches or _reading:
         return
     changed = {
         session_key(cast(Any, update.id).original)
