@@ -62,7 +62,7 @@ def ease(
 ) -> Eased:
     """Move control vertices of the thin plate so little, and so, that they stop fighting it.
 
-    Minimizes amount² |loads|² + |moves|², a low pass: shapes stay, scatter goes. Vertices on borders
+    Minimizes amount² ‖loads‖² + ‖moves‖², a low pass: shapes stay, scatter goes. Vertices on borders
     and creases move along their curves' planes, towards a curve without jumps of its third
     derivative. Corners, ends of curves, straight borders and what is outside a region stay.
 
