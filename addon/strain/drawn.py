@@ -10,6 +10,7 @@ from .strained import Strained
 
 # needles are drawn so many times as long at most: what is shorter still is rounding
 _MOST = 1000.0
+_VIVID = 1.5  # the ends of the scale are too dark for lines on a grey surface
 _CORNERS = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)], np.float32)
 
 
@@ -28,7 +29,7 @@ def magnification(strained: Strained, length: float = 1.0) -> float:
 
 def colours(strained: Strained, ids: np.ndarray) -> np.ndarray:
     """(k, 4) float32 sRGBA: red where the surface wants to be outside of a vertex, blue inside."""
-    limit = strained.largest or 1.0
+    limit = _VIVID * strained.largest or 1.0
     return shades_of(strained.lengths[ids], (-limit, limit), signed=True)
 
 

@@ -32,7 +32,8 @@ batch_for_shader: Any = _batch.batch_for_shader
 _RADIUS = 5.0  # pixels, of a dot
 _LINE = 2.5  # pixels, of a needle
 _TEXT = 12.0  # points
-_BEHIND = 0.25  # opacity of what the surface hides
+_BEHIND = 0.25  # opacity of dots that the surface hides
+_INWARDS = 0.65  # and of needles: those inwards all are, among them perhaps the worst
 _OLD = 0.4  # and of what is being measured anew
 _AWAY = 8  # pixels from a needle to its label
 
@@ -162,7 +163,7 @@ def _needle_batch(strained: Strained, times: float) -> tuple[Any, Any]:
     """Solid, and pale: the shader takes its opacity from the colours."""
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     points, solid = needles(strained, times)
-    pale = solid * np.array((1.0, 1.0, 1.0, _BEHIND), np.float32)
+    pale = solid * np.array((1.0, 1.0, 1.0, _INWARDS), np.float32)
     solid_batch, pale_batch = (
         batch_for_shader(shader, "LINES", {"pos": points, "color": colours})
         for colours in (solid, pale)

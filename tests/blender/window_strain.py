@@ -35,6 +35,12 @@ def orange(picture):
     return int(np.count_nonzero((r > 200) & (r - b > 90) & (abs(g - (r + b) // 2) < 40)))
 
 
+def blue(picture):
+    """How many pixels have the colour of the longest needle, inwards, as it shines through the sheet."""
+    r, g, b = (picture[:, :, i].astype(int) for i in range(3))
+    return int(np.count_nonzero((b > 120) & (b - r > 60) & (g > r) & (g < b)))
+
+
 def sheet():
     """A smooth sheet of quads, one vertex of which stands out."""
     bpy.data.objects.remove(harness.add_suzanne())
@@ -82,11 +88,14 @@ def test_dots_needles_and_labels():
     target = sheet()
     yield from harness.open_sidebar("Fairing")
     yield 0.5
-    before = orange(pixels("strain_before"))
+    picture = pixels("strain_before")
+    before, before_inwards = orange(picture), blue(picture)
     show(target)
     yield from until_measured(target)
-    shown = orange(pixels("strain"))
+    picture = pixels("strain")
+    shown = orange(picture)
     assert shown > before + 40, (before, shown)
+    assert blue(picture) > before_inwards + 60, "the worst is to be seen best"
     assert room().found_of(target).wrong.tolist() == [WRONG]
     with bpy.context.temp_override(**harness.view(), active_object=target):
         bpy.ops.ed.undo_push(message="Strain")
