@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What else closes a hole today, each in the way that its own documents advise, in a process of its
+"""What else closes a hole today, each in one way, whose settings nobody has tuned, in a process of its
 own: two of these libraries may not bear each other.
 
     python fill_rivals.py MAKER IN.npz OUT.npz

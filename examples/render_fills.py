@@ -54,12 +54,14 @@ def scan():
     vertices = np.array([v.co for v in mesh.vertices], float)
     faces = np.array([t.vertices for t in mesh.loop_triangles])
     vertices, faces = cut(vertices, faces, ~largest_piece(faces))
-    away = np.linalg.norm(vertices[faces].mean(1) - [-0.05, -0.55, 0.85], axis=1)
+    middle = [-0.05, -0.55, 0.85]
+    away = np.linalg.norm(vertices[faces].mean(1) - middle, axis=1)
     gone = away < 0.24 + 0.08 * np.random.default_rng(4).random(len(faces))
     rest = np.flatnonzero(~gone)
     gone[rest[~largest_piece(faces[rest])]] = True
     vertices, faces = cut(vertices, faces, gone)
-    return vertices, faces, max(df.find_holes(vertices, faces), key=len)
+    loops = df.find_holes(vertices, faces)  # the eyes' sockets are two of them
+    return vertices, faces, min(loops, key=lambda h: np.linalg.norm(vertices[h].mean(0) - middle))
 
 
 def mug():

@@ -19,8 +19,7 @@ def loops_without(
 ) -> list[list[int]]:
     """Around the holes that are there without the faces `gone`: only those at a border are looked at."""
     kept = np.repeat(~gone, arrays.face_sizes)
-    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
-    border = arrays.edges[uses == 1]
+    border = arrays.edges[_uses(arrays, gone) == 1]
     at_border = np.zeros(len(points), bool)
     at_border[border] = True
     face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
@@ -41,15 +40,27 @@ def unclear_edges(
     """Border edges that are around no hole, of faces that have neighbours: where more than two faces
     meet at an edge, or neighbours look different ways, nobody could say what a hole is.
     """
-    kept = np.repeat(~gone, arrays.face_sizes)
-    uses = np.bincount(arrays.corner_edges[kept], minlength=len(arrays.edges))
-    shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
-    beside = np.repeat(shared, arrays.face_sizes) & kept
-    border = np.zeros(len(arrays.edges), bool)
-    border[arrays.corner_edges[beside]] = True
+    uses = _uses(arrays, gone)
     known = {side for loop in loops for side in sides_of(loop)}
-    sides = map(frozenset, arrays.edges[border & (uses == 1)].tolist())
-    return [side for side in sides if side not in known]
+    left = [e for e in np.flatnonzero(uses == 1).tolist() if _side(arrays, e) not in known]
+    if not left:
+        return []
+    shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
+    beside = np.zeros(len(arrays.edges), bool)
+    beside[arrays.corner_edges[np.repeat(shared & ~gone, arrays.face_sizes)]] = True
+    return [_side(arrays, e) for e in left if beside[e]]
+
+
+def _side(arrays: core.ControlArrays, edge: int) -> Side:
+    return frozenset(arrays.edges[edge].tolist())
+
+
+def _uses(arrays: core.ControlArrays, gone: np.ndarray) -> np.ndarray:
+    """(e,) faces at each edge without those that are `gone`."""
+    corners = arrays.corner_edges
+    if gone.any():
+        corners = corners[np.repeat(~gone, arrays.face_sizes)]
+    return np.bincount(corners, minlength=len(arrays.edges))
 
 
 def sides_of(loop: list[int]) -> Iterable[Side]:

@@ -16,8 +16,8 @@ from .fairing import fair
 RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
 # Of a noisy rim: so many, of whose vertices the two outermost rows are held, and the others weigh so
-# much. Of weights from 0.1 to 1000 and of 4 and 6 rings the least error over seven known surfaces with
-# a noise of 0.02 and 0.1 edges: a third to a sixth of that beside an exact rim, but on a torus.
+# much. Chosen of 4 and 6 rings on spheres, and of weights from 0.3 to 10 on seven surfaces, with a noise
+# of 0.02 and 0.1 edges (docs/how-to/filling.md).
 NOISY_RINGS, HELD_ROWS, NOISY_WEIGHT = 6, 2, 1.0
 
 RIMS = ("exact", "noisy")
