@@ -3,6 +3,9 @@
 
 # of the operator, the panel and the command line alike
 DEFAULT_ENERGY = "THIN_PLATE"
+ENERGY_MEANING = (
+    "What is to be as small as possible: bending, curvature, or its change along the surface"
+)
 
 # numbered, because files keep the number
 ENERGIES = (

@@ -19,6 +19,7 @@ from .choices import (
     BOUNDARIES,
     DEFAULT_ENERGY,
     ENERGIES,
+    ENERGY_MEANING,
     INTERPOLATIONS,
     JOINTS,
     MESH_SOURCES,
@@ -73,7 +74,7 @@ class FairingSettings:
     )
     energy: EnumProperty(
         name="Fairness",
-        description="What is to be as small as possible: bending, curvature, or its change along the surface",
+        description=ENERGY_MEANING,
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )

@@ -9,7 +9,7 @@ from bpy.props import EnumProperty, IntProperty
 
 from .. import curve_cage
 from ..blender import Answer, Context, Object, registration
-from ..choices import ENERGIES
+from ..choices import ENERGIES, ENERGY_MEANING
 from ..curve_cage import CageSettings
 from ..job import Job
 from ..mesh.read_curves import has_curves
@@ -57,7 +57,7 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
     )
     energy: EnumProperty(
         name="Fairness",
-        description="What is to be as small as possible: bending, curvature, or its change along the surface",
+        description=ENERGY_MEANING,
         items=ENERGIES,
         default="MINIMUM_VARIATION",
     )

@@ -13,12 +13,11 @@ from ..mesh.read import source_objects
 from ..poll import edit_mode_reason, mesh_poll_reason
 from ..strain.ease import EaseJob, EaseSelectedJob, Wish
 from ..units import length_text
-from . import fill
-from .fair import Fairing, poll_reason
+from .fair import WholeFairing, poll_reason
 from .strain import sources_at_hand
 
 
-class _Easing(Fairing):
+class _Easing(WholeFairing):
     """What both share: what was computed is written if it still fits, and said in words."""
 
     cancelled_text = "Easing was cancelled: nothing has changed"
@@ -39,14 +38,6 @@ class _Easing(Fairing):
     def write(self, context: Context, jobs: list[Any]) -> None:
         """For the operator to say."""
         raise NotImplementedError
-
-    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
-        """From Adjust Last Operation, which cannot wait: the mesh stays for now as it was before, and
-        the same run begins anew by itself.
-        """
-        name = self.bl_idname.rpartition("_OT_")[2]
-        fill.repeat_soon(context, self, getattr(bpy.ops.object, name))
-        return {"FINISHED"}
 
 
 class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):

@@ -182,6 +182,16 @@ class FairSurface(Fairing, FairingSettings):
                 source.hide_set(True)
 
 
+class WholeFairing(Fairing):
+    """A run that nothing smaller stands in for. From Adjust Last Operation, which cannot wait, all stays
+    for now as it was before, and the same run begins anew by itself.
+    """
+
+    def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
+        fill.repeat_soon(context, self)
+        return {"FINISHED"}
+
+
 class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
     """Make the fairest surface through the vertices of this mesh as a new object, and leave the mesh as it is"""
 

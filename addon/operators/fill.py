@@ -107,10 +107,11 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
     bpy.app.timers.register(begin, first_interval=0.01)
 
 
-def repeat_soon(context: Context, operator: Any, call: Any) -> None:
+def repeat_soon(context: Context, operator: Any) -> None:
     """Lets `operator`, which Adjust Last Operation has called and which would take too long there,
-    begin anew by `call`, its function of bpy.ops, with the same properties.
+    begin anew with the same properties.
     """
+    call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
     invoke_soon(
         context, call, {name: getattr(operator, name) for name in type(operator).__annotations__}
     )

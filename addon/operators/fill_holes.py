@@ -13,11 +13,10 @@ from ..errors import JobError
 from ..holes import Filling, HoleJob, Wish, count_text, doubts
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
-from . import fill
-from .fair import Fairing, poll_reason
+from .fair import WholeFairing, poll_reason
 
 
-class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
     """Close holes so that nobody sees where they were: all small ones, or in Edit Mode those that are selected"""
 
     bl_idname = "object.fairing_fill"
@@ -120,11 +119,6 @@ class OBJECT_OT_fairing_fill(Fairing, bpy.types.Operator):
         self.report({"INFO"}, _said(done))
         for sentence in reasons + doubts(done):
             self.report({"WARNING"}, sentence)
-        return {"FINISHED"}
-
-    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
-        """From Adjust Last Operation: the holes stay open for now, and the same run begins anew."""
-        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_fill)
         return {"FINISHED"}
 
 

@@ -9,10 +9,9 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import in_place
 from ..blender import Answer, Context, Object, registration
-from ..choices import DEFAULT_ENERGY, ENERGIES, JOINTS
+from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
-from . import fill
-from .fair import Fairing, poll_reason
+from .fair import WholeFairing, poll_reason
 
 
 def _joints() -> tuple[tuple[str, str, str], ...]:
@@ -24,7 +23,7 @@ def _joints() -> tuple[tuple[str, str, str], ...]:
     return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
 
 
-class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
     """Fair the selected faces of this mesh itself: move their vertices, or refine them too, and nothing around"""
 
     bl_idname = "object.fairing_in_place"
@@ -85,7 +84,7 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
     )
     energy: EnumProperty(
         name="Fairness",
-        description="What is to be as small as possible: bending, curvature, or its change along the surface",
+        description=ENERGY_MEANING,
         items=ENERGIES,
         default=DEFAULT_ENERGY,
     )
@@ -155,13 +154,6 @@ class OBJECT_OT_fairing_in_place(Fairing, bpy.types.Operator):
                 self.report({"INFO"}, sentence)
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        return {"FINISHED"}
-
-    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
-        """From Adjust Last Operation, which cannot wait: the mesh stays for now as it was before,
-        and the same run begins anew by itself.
-        """
-        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_in_place)
         return {"FINISHED"}
 
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """To CAD: File > Export > Fair Surface (.step), and Show Patches."""
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import bpy
 from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper
 
 from .. import prediction
 from ..blender import Answer, Context, Object, registration
@@ -15,6 +14,7 @@ from ..cad.step import summary, write_jobs
 from ..memory import source_of
 from ..mesh.read import source_objects
 from . import fair, fill
+from .by_browser import ByFileBrowser
 
 
 def _to_fit(context: Context) -> list[Object]:
@@ -42,7 +42,7 @@ class _Fitting(fair.Fairing):
         return {"CANCELLED"} if jobs is None else self._block(context, jobs)
 
 
-class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.types.Operator):
+class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.types.Operator):
     """Write the selected objects as spline patches for CAD: surfaces by their own settings, meshes by the scene's"""
 
     bl_idname = "export_scene.fairing_step"
@@ -51,21 +51,9 @@ class EXPORT_SCENE_OT_fairing_step(_Fitting, StepSettings, ExportHelper, bpy.typ
     cancelled_text = "The export was cancelled: nothing was written"
     filename_ext = ".step"
 
-    if TYPE_CHECKING:
-        filepath: str  # what ExportHelper adds
-
     filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
-    _from_browser = False
 
-    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        self._from_browser = True
-        helper: Any = ExportHelper  # whose stub says None
-        return helper.invoke(self, context, event)
-
-    def execute(self, context: Context) -> Answer:
-        """The file browser calls it too; then the window stays alive."""
-        if not self._from_browser or bpy.app.background:
-            return super().execute(context)
+    def begin(self, context: Context) -> Answer:
         jobs = self._prepare(context)
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 

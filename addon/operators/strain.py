@@ -2,12 +2,11 @@
 """Strain: shown, selected, jumped to, and written as a table."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
 from .. import core
@@ -21,8 +20,8 @@ from ..strain import known, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
 from ..units import length_text
-from . import fill
-from .fair import Fairing, poll_reason
+from .by_browser import ByFileBrowser
+from .fair import WholeFairing, poll_reason
 
 
 def sources_at_hand(context: Context) -> list[Object]:
@@ -33,7 +32,7 @@ def sources_at_hand(context: Context) -> list[Object]:
     return [] if source is None else [source]
 
 
-class _Straining(Fairing):
+class _Straining(WholeFairing):
     """What is measured first, if it has changed since the last time."""
 
     cancelled_text = "Measuring was cancelled: nothing has changed"
@@ -139,11 +138,6 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
             return strained.worst(self.count)
         return strained.wrong if self.by == "FLOOR" else above(strained.lengths, self.threshold)
 
-    def _begin_small(self, context: Context, _tried: list[Any]) -> Answer:
-        """From Adjust Last Operation: the selection stays for now, and the same run begins anew."""
-        fill.repeat_soon(context, self, cast(Any, bpy.ops.object).fairing_select_strained)
-        return {"FINISHED"}
-
 
 class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
     """Select this vertex in Edit Mode and bring it to the middle of the viewport"""
@@ -169,7 +163,7 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_fairing_strain_table(_Straining, ExportHelper, bpy.types.Operator):
+class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operator):
     """Write vertices, their strain and, if eased, new places and moves as a table (CSV), in scene units"""
 
     bl_idname = "object.fairing_strain_table"
@@ -178,22 +172,7 @@ class OBJECT_OT_fairing_strain_table(_Straining, ExportHelper, bpy.types.Operato
     cancelled_text = "Measuring was cancelled: nothing was written"
     filename_ext = ".csv"
 
-    if TYPE_CHECKING:
-        filepath: str  # what ExportHelper adds
-
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
-    _from_browser = False
-
-    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        self._from_browser = True
-        helper: Any = ExportHelper  # whose stub says None
-        return helper.invoke(self, context, event)
-
-    def execute(self, context: Context) -> Answer:
-        """The file browser calls it too; then the window stays alive."""
-        if self._from_browser and not bpy.app.background:
-            return super().invoke(context, cast(Any, None))
-        return super().execute(context)
 
     def make_jobs(self, context: Context) -> list[Any]:
         """Of the mesh itself, whatever its shape keys make of it."""

@@ -220,10 +220,16 @@ def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 @persistent
-def _distrust_all(*_: Any) -> None:
-    shown_changed()
+def _distrust(*_: Any) -> None:
     for watch in _watches.values():
         watch.stale = True
+
+
+@persistent
+def _distrust_all(*_: Any) -> None:
+    """What is shown, too."""
+    shown_changed()
+    _distrust()
 
 
 @persistent
@@ -243,7 +249,7 @@ def _resume(*_: Any) -> None:
 
 _HANDLERS = {
     "depsgraph_update_post": _note_changes,
-    "frame_change_post": _distrust_all,
+    "frame_change_post": _distrust,
     "undo_post": _distrust_all,
     "redo_post": _distrust_all,
     "load_pre": _forget,

@@ -16,7 +16,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras import batch as _batch
 from mathutils import Matrix, Vector
 
-from ..blender import Object, current_context
+from ..blender import Context, Object, current_context
 from ..inspection.overlay_arrays import pulled
 from ..live.switch import surfaces_of
 from ..mesh.object import session_key
@@ -88,13 +88,20 @@ def _seen(space: Any) -> list[tuple[Object, Strained]]:
     ]
 
 
-def _draw_points() -> None:
-    context = current_context()
+def _viewport(context: Context) -> tuple[Any, Any] | None:
+    """The space and the view that are drawn now; None where overlays are off."""
     space, view = cast(Any, context.space_data), cast(Any, context.region_data)
     if space is None or space.type != "VIEW_3D" or view is None:
+        return None
+    return (space, view) if space.overlay.show_overlays else None
+
+
+def _draw_points() -> None:
+    context = current_context()
+    viewport = _viewport(context)
+    if viewport is None:
         return
-    if not space.overlay.show_overlays:
-        return
+    space, view = viewport
     length = context.scene.discrete_fairing_strain.needle_length
     for source, strained in _seen(space):
         if len(strained.held):
@@ -173,11 +180,10 @@ def _needle_batch(strained: Strained, times: float) -> tuple[Any, Any]:
 
 def _draw_labels() -> None:
     context = current_context()
-    space, view = cast(Any, context.space_data), cast(Any, context.region_data)
-    if space is None or space.type != "VIEW_3D" or view is None:
+    viewport = _viewport(context)
+    if viewport is None:
         return
-    if not space.overlay.show_overlays:
-        return
+    space, view = viewport
     drawing, region = context.scene.discrete_fairing_strain, context.region
     blf.size(0, _TEXT * _scale())
     blf.enable(0, blf.SHADOW)
