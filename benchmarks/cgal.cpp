@@ -12,36 +12,16 @@
 
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "cgal_mesh.h"
 
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-Mesh read_mesh(const char* path) {
-  std::ifstream in(path);
-  std::size_t vertices = 0, faces = 0;
-  in >> vertices >> faces;
-  Mesh mesh;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    double x = 0, y = 0, z = 0;
-    in >> x >> y >> z;
-    mesh.add_vertex({x, y, z});
-  }
-  for (std::size_t f = 0; f < faces; ++f) {
-    std::uint32_t size = 0, corner[3];
-    in >> size >> corner[0] >> corner[1] >> corner[2];
-    if (size != 3) throw std::runtime_error("only triangles");
-    mesh.add_face(Mesh::Vertex_index(corner[0]), Mesh::Vertex_index(corner[1]),
-                  Mesh::Vertex_index(corner[2]));
-  }
-  if (!in) throw std::runtime_error(std::string("cannot read ") + path);
-  return mesh;
-}
 
 double seconds_to_fair(Mesh mesh, std::size_t fixed) {
   std::vector<Mesh::Vertex_index> free;
@@ -62,7 +42,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    const Mesh mesh = read_mesh(arguments[1]);
+    const Mesh mesh = read_mesh<Mesh>(arguments[1]);
     std::printf("{\"wall\": [");
     for (int r = 0; r < std::stoi(arguments[3]); ++r)
       std::printf("%s%.6g", r ? ", " : "", seconds_to_fair(mesh, std::stoul(arguments[2])));

@@ -18,31 +18,13 @@
 #include <string>
 #include <vector>
 
+#include "cgal_mesh.h"
+
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = Mesh::Vertex_index;
-
-Mesh read_mesh(const char* path) {
-  std::ifstream in(path);
-  std::size_t vertices = 0, faces = 0;
-  in >> vertices >> faces;
-  Mesh mesh;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    double x = 0, y = 0, z = 0;
-    in >> x >> y >> z;
-    mesh.add_vertex({x, y, z});
-  }
-  for (std::size_t f = 0; f < faces; ++f) {
-    std::uint32_t size = 0, corner[3];
-    in >> size >> corner[0] >> corner[1] >> corner[2];
-    if (size != 3) throw std::runtime_error("only triangles");
-    mesh.add_face(Vertex(corner[0]), Vertex(corner[1]), Vertex(corner[2]));
-  }
-  if (!in) throw std::runtime_error(std::string("cannot read ") + path);
-  return mesh;
-}
 
 void write_mesh(const Mesh& mesh, const char* path) {
   std::ofstream out(path);
@@ -71,7 +53,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    Mesh mesh = read_mesh(arguments[1]);
+    Mesh mesh = read_mesh<Mesh>(arguments[1]);
     const auto rim = border(mesh, Vertex(std::uint32_t(std::stoul(arguments[2]))),
                             Vertex(std::uint32_t(std::stoul(arguments[3]))));
     std::vector<Mesh::Face_index> faces;

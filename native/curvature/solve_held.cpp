@@ -139,11 +139,11 @@ struct GaussNewtonSystem::HeldSolve {
   bool loads_settled() {
     if (!pads) return true;
     NormalLoads product;
-    const std::vector<double> give =
-        hold ? give_of_springs(system.shared_.unknowns, system.shared_.weights, system.stiffness_,
-                               *pads)
+    const std::vector<double> compliance_ratio =
+        hold ? compliance_ratios(system.shared_.unknowns, system.shared_.weights, system.stiffness_,
+                                 *pads)
              : std::vector<double>{};
-    pads->divide_by_mass<1>(forces, correction.loads, give);
+    pads->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
     pads->multiply_mass<1>(held.loads, product);
     const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
                  size = std::sqrt(std::max(0.0, dot<1>(held.loads, product)));

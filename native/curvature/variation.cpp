@@ -14,7 +14,7 @@ namespace {
 
 // As for total curvature (steps.cpp); decrements are smaller here, where every step is damped.
 constexpr double allowed_rise = 0.1;
-constexpr double late = 1e-3;
+constexpr double least_judged_decrement = 1e-3;
 
 // nu: where nothing is known of the surface; after a step that gained more than good_gain of what
 // was predicted, one that had to be shortened, one that was rejected.
@@ -27,7 +27,7 @@ constexpr double stuck = 0.5;
 
 // Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
 // measured against itself and this share of the mean squared curvature.
-constexpr double still = 1e-4;
+constexpr double flat_share = 1e-4;
 
 // The integral of |M|^2, and the area.
 struct Bending {
@@ -84,7 +84,7 @@ class VariationStep final : public StepMethod {
   }
 
   void find_step(StepReport& step) override {
-    scale_ = it_.current.energy + still * bending_.square / bending_.area;
+    scale_ = it_.current.energy + flat_share * bending_.square / bending_.area;
     it_.system.shared().total_curvature_share = nu_ * scale_ / bending_.square;
     const bool fresh = it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
@@ -110,7 +110,7 @@ class VariationStep final : public StepMethod {
 
   bool is_acceptable(const StepReport& step, double energy) const override {
     return energy <= it_.current.energy + allowed_rise * step.decrement * scale_ ||
-           step.decrement < late;
+           step.decrement < least_judged_decrement;
   }
 
   bool accept(const StepReport& step, const StepCount& count,
@@ -171,7 +171,7 @@ void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
     report.variation = iterate_.current.energy;
   }
   if (!(report.variation <=
-        equal_energy * report.start_variation + still * bending.square / bending.area)) {
+        equal_energy * report.start_variation + flat_share * bending.square / bending.area)) {
     iterate_.current.points = start;
     report.variation = report.start_variation;
     report.left = std::numeric_limits<double>::infinity();

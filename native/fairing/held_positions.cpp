@@ -2,6 +2,7 @@
 #include "fairing/held_positions.h"
 
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "fairing/control_positions.h"
@@ -29,15 +30,14 @@ std::vector<double> HeldPositions::of(std::span<const double> coordinates) const
   return {coordinates.begin(), coordinates.end()};
 }
 
-HeldPositions held_positions(const PolygonMesh& input, const ControlMesh& mesh,
-                             const FairOptions& options) {
+HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
+                        const FairOptions& options) {
   if (options.interpolation != Interpolation::limit) return {.world = mesh.positions};
-  HeldPositions held{true, LimitPositions(input, mesh, options.features.corner_vertices,
+  HeldPositions rule{true, LimitPositions(input, mesh, options.features.corner_vertices,
                                           options.sharpness, options.limit)};
-  const std::vector<double> moved = held.of(input.coordinates);
+  const std::vector<double> moved = rule.of(input.coordinates);
   check_limits({moved, input.corners, input.offsets}, options.repair);
-  held.world = all_positions(mesh, mesh.positions, moved);
-  return held;
+  return {std::move(rule), all_positions(mesh, mesh.positions, moved)};
 }
 
 }  // namespace fairing

@@ -13,15 +13,19 @@ namespace fairing {
 
 struct HeldPositions {
   bool at_limits = false;
-  LimitPositions limits{};    // where that is so
-  std::vector<Vec3> world{};  // one a control vertex: the input's, copies of them, centres
+  LimitPositions limits{};  // where that is so
 
   // Of other positions of the input's vertices, 3 numbers each: where these are held.
   std::vector<double> of(std::span<const double> coordinates) const;
 };
 
+struct HeldMesh {
+  HeldPositions rule{};
+  std::vector<Vec3> world{};  // one a control vertex: the input's, copies of them, centres
+};
+
 // `mesh` is made of `input`. Throws FairingError where limit positions have no shape.
-HeldPositions held_positions(const PolygonMesh& input, const ControlMesh& mesh,
-                             const FairOptions& options);
+HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
+                        const FairOptions& options);
 
 }  // namespace fairing

@@ -64,8 +64,7 @@ void take_edges(const ControlMesh& mesh, Outline& out) {
 }
 
 // Curves and centres, of the mesh and of each shape. `held`: where the mesh is, one a control vertex.
-void take_surfaces(const ControlMesh& mesh, const HeldPositions& held, double exponent,
-                   Outline& out) {
+void take_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
   const int subdivisions = 1 << out.options.levels;
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
     for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
@@ -84,7 +83,7 @@ void take_surfaces(const ControlMesh& mesh, const HeldPositions& held, double ex
   const std::size_t size = out.mesh.coordinates.size();
   for (std::size_t s = 0; s * size < out.shapes.size(); ++s) {
     const std::span<const double> shape = std::span(out.shapes).subspan(s * size, size);
-    const std::vector<Vec3> world = all_positions(mesh, held.world, held.of(shape));
+    const std::vector<Vec3> world = all_positions(mesh, held.world, held.rule.of(shape));
     append(refine_feature_edges(mesh, held.world, world, subdivisions, exponent), world);
   }
 }
@@ -104,7 +103,7 @@ Outline outline_of(const Mending& mending) {
   take_faces(mesh, out);
   take_edges(mesh, out);
   const double exponent = options.paper.metric_exponent(options.metric_exponent);
-  HeldPositions held = held_positions(mending.mesh(), mesh, options);
+  HeldMesh held = held_positions(mending.mesh(), mesh, options);
   take_surfaces(mesh, held, exponent, out);
   mesh.positions = std::move(held.world);
   out.units = measure_units(mesh, exponent);

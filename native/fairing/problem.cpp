@@ -109,9 +109,9 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   expect_memory(report);
   const auto& given = problem->mesh.positions;
   std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
-  problem->held = held_positions(input, problem->mesh, options);
-  std::vector<Vec3> world = problem->held.world;
-  make_about(std::move(world), std::move(cage), watch, *problem);
+  HeldMesh held_mesh = held_positions(input, problem->mesh, options);
+  problem->held = std::move(held_mesh.rule);
+  make_about(std::move(held_mesh.world), std::move(cage), watch, *problem);
   return problem;
 }
 

@@ -41,7 +41,7 @@ class Anderson {
 
  private:
   struct Pair {
-    Vector bent, gone;  // dF and dx
+    Vector step_change, iterate_change;  // dF and dx
   };
   // Of the least squares' diagonal: steps near the end may be linearly dependent.
   static constexpr double regularization = 1e-12;
@@ -57,7 +57,7 @@ template <class Space>
 typename Space::Vector Anderson<Space>::change(const Vector& step) {
   if (any_) {
     Pair pair{step, std::move(last_change_)};
-    space_.subtract(last_, pair.bent);
+    space_.subtract(last_, pair.step_change);
     pairs_.push_back(std::move(pair));
     if (pairs_.size() > depth_) pairs_.pop_front();
   }
@@ -69,17 +69,17 @@ typename Space::Vector Anderson<Space>::change(const Vector& step) {
     Eigen::MatrixXd gram(count, count);
     Eigen::VectorXd right(count);
     for (Eigen::Index a = 0; a < count; ++a) {
-      const Vector product = space_.product(pairs_[std::size_t(a)].bent);
+      const Vector product = space_.product(pairs_[std::size_t(a)].step_change);
       right(a) = space_.dot(product, step);
       for (Eigen::Index b = 0; b < count; ++b)
-        gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].bent);
+        gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].step_change);
     }
     gram.diagonal() *= 1 + regularization;
     const Eigen::VectorXd share = gram.ldlt().solve(right);
     if (share.allFinite())
       for (Eigen::Index a = 0; a < count; ++a) {
         const Pair& pair = pairs_[std::size_t(a)];
-        space_.add(-share(a), pair.bent, pair.gone, out);
+        space_.add(-share(a), pair.step_change, pair.iterate_change, out);
       }
   }
   last_change_ = out;

@@ -12,7 +12,7 @@ namespace {
 constexpr double least_energy = 1e-3;
 constexpr double idle = 1e-9;  // of the tolerance: rounding
 // A spring so many times softer than the surface leaves its load to itself.
-constexpr double most_give = 1e6;
+constexpr double largest_compliance_ratio = 1e6;
 
 }  // namespace
 
@@ -79,12 +79,12 @@ Unknowns ControlHold::without_held() const {
   return out;
 }
 
-std::vector<double> give_of_springs(const Unknowns& unknowns, const VertexWeights& weights,
-                                    std::span<const double> stiffness, const Pads& pads) {
+std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
+                                      std::span<const double> stiffness, const Pads& pads) {
   std::vector<double> out;
   for (std::size_t v = 0; v < stiffness.size(); ++v)
     out.push_back(unknowns.vertex[v] && pads.under(v)
-                      ? std::min(most_give * weights[v], stiffness[v]) / weights[v]
+                      ? std::min(largest_compliance_ratio * weights[v], stiffness[v]) / weights[v]
                       : 0.0);
   return out;
 }

@@ -81,8 +81,8 @@ class ControlHold {
 
 // How much each spring gives way before its load, s / w, with `stiffness` s of the surface. Empty
 // where that is empty.
-std::vector<double> give_of_springs(const Unknowns& unknowns, const VertexWeights& weights,
-                                    std::span<const double> stiffness, const Pads& pads);
+std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
+                                      std::span<const double> stiffness, const Pads& pads);
 
 // What holds control vertices at their points, into the rows of r: of a fixed one the force that its
 // row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On

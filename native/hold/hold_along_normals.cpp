@@ -47,7 +47,7 @@ bool HoldAlongNormals::settled(double energy, double wanted, const double* h) {
   double gap = 0, farthest = 0;
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
-    const double outside = beyond(v, h[v]);
+    const double outside = excess(v, h[v]);
     if (sides_[v] != 0) {
       gap += 4 * std::max(0.0, -pressure(v, h[v])) * reach_[v];
     } else if (outside > 0) {
@@ -64,7 +64,7 @@ bool HoldAlongNormals::turn(const double* h) {
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
     const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0 && turns_[v] < most_turns;
-    const bool arrives = sides_[v] == 0 && beyond(v, h[v]) > 0;
+    const bool arrives = sides_[v] == 0 && excess(v, h[v]) > 0;
     if (!leaves && !arrives) continue;
     sides_[v] = leaves ? 0 : along_[v] + h[v] > 0 ? 1 : -1;
     ++turns_[v];

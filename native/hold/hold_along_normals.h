@@ -40,7 +40,7 @@ class HoldAlongNormals : public ControlHold {
   double pressure(std::size_t v, double h) const {
     return sides_[v] * weights_[v] * (h - way(v)) - base_[v] * reach_[v];
   }
-  double beyond(std::size_t v, double h) const { return std::abs(along_[v] + h) - reach_[v]; }
+  double excess(std::size_t v, double h) const { return std::abs(along_[v] + h) - reach_[v]; }
   void choose_weight(std::size_t v);
 
   std::vector<double> along_;  // p - c along the normals, one a control vertex

@@ -15,12 +15,12 @@ constexpr double first_weight = 1e4, least_weight = 1e-10;
 constexpr double most_away = 10, farthest_away = 2;
 // A weight falls to so much of itself in a step; only what is so small beside its neighbours' may
 // vanish.
-constexpr double few = 0.1;
+constexpr double largest_weight_drop = 0.1;
 // By how much one step changes a weight at most: the surface has yet to follow.
 constexpr double largest_weight_change = 10;
 // Multipliers that are so many times the surface's stiffness hold a vertex on its ball: so small a
 // tolerance is that only directions are to be found. How many vertices may be others.
-constexpr double stiffer = 50, few_soft = 0.2;
+constexpr double stiffer = 50, most_soft = 0.2;
 constexpr double caution = 2;       // of their turns, in stiffnesses: neighbours turn as well
 constexpr double pin_factor = 1e4;  // stiffer than any surface: holds what is left over on the ball
 
@@ -102,7 +102,9 @@ void HoldInSpace::change(std::vector<double>& by) {
     if (!bound(v)) continue;
     const double before = multiplier_[v],
                  most = largest_weight_change * (weights_[v] + stiffness_[v]);
-    const double least = weights_[v] > few * around_[v] ? few * weights_[v] : -stiffness_[v];
+    const double least = weights_[v] > largest_weight_drop * around_[v]
+                             ? largest_weight_drop * weights_[v]
+                             : -stiffness_[v];
     multiplier_[v] = std::clamp(before + by[v], least, most);
     by[v] = multiplier_[v] - before;
     weights_[v] = std::max({base_[v], multiplier_[v], least_weight * unit_});
@@ -117,7 +119,7 @@ bool HoldInSpace::is_stiff() const {
     ++count;
     soft += multiplier_[v] - base_[v] < stiffer * of_surface_[v];
   }
-  return double(soft) <= few_soft * double(count);
+  return double(soft) <= most_soft * double(count);
 }
 
 void HoldInSpace::place(const double* x) {

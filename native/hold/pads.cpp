@@ -318,7 +318,7 @@ void Pads::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
 // Chebyshev's semi-iteration on the diagonally scaled matrix.
 template <int N>
 void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
-                          const std::vector<double>& give) const {
+                          const std::vector<double>& compliance_ratio) const {
   constexpr double middle = 0.5 * (largest_eigenvalue + least_eigenvalue),
                    half = 0.5 * (largest_eigenvalue - least_eigenvalue), shape = middle / half;
   LoadsOf<N> step(forces.size(), LoadsOf<N>::value_type::Zero()), product;
@@ -330,7 +330,7 @@ void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
                  gain = k == 0 ? 1 / middle : 2 * next / half;
     for (std::size_t v = 0; v < forces.size(); ++v) {
       if (!under(v)) continue;
-      const double r = give.empty() ? 0 : give[v], own = r * total_[v];
+      const double r = compliance_ratio.empty() ? 0 : compliance_ratio[v], own = r * total_[v];
       step[v] = carry * step[v] +
                 gain / (diagonal_[v] + own) * ((1 + r) * forces[v] - product[v] - own * loads[v]);
       loads[v] += step[v];

@@ -76,11 +76,11 @@ class Pads {
   template <int N>
   void multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const;
   // loads <- (M + R T)^-1 (1 + R) forces, by a fixed number of Chebyshev steps: a linear map, to
-  // 1e-3 or better. R is a diagonal matrix, `give`, one number a control vertex; empty: zero. T has
-  // the total of each hat.
+  // 1e-3 or better. R is a diagonal matrix, `compliance_ratio`, one number a control vertex; empty:
+  // zero. T has the total of each hat.
   template <int N>
   void divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
-                      const std::vector<double>& give = {}) const;
+                      const std::vector<double>& compliance_ratio = {}) const;
   // The whole of a hat, sum_i Omega_i phi_c(i): the force of a unit load.
   double total(std::size_t v) const { return total_[v]; }
 

@@ -37,12 +37,12 @@ constexpr std::size_t most_numbers_of_narrow = 20;
 constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
 
 // The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
-// what a factor costs, and above hopeless_degree a factor is cheaper whatever it costs.
+// what a factor costs, and above most_degree_of_hard a factor is cheaper whatever it costs.
 constexpr int least_degree_of_hard = 8;
-constexpr std::size_t hopeless_degree = 60;
+constexpr std::size_t most_degree_of_hard = 60;
 int degree_of_hard(std::size_t unknowns, bool is_cheap) {
-  const std::size_t dear = is_cheap ? unknowns / 5000 : unknowns / 1000;
-  return int(std::min<std::size_t>(least_degree_of_hard + dear, hopeless_degree));
+  const std::size_t for_its_size = is_cheap ? unknowns / 5000 : unknowns / 1000;
+  return int(std::min<std::size_t>(least_degree_of_hard + for_its_size, most_degree_of_hard));
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ bool Hierarchy::factors_cheaply(std::size_t index) const {
           coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
 }
 
-Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start) const {
+Hierarchy::Convergence Hierarchy::Convergence::after(const PcgResult& result,
+                                                     bool from_start) const {
   const double last = result.history.back();
   double gain = last > 0 ? std::log(result.history.front() / last) : 0.0;
   if (from_start && result.energy_error > 0) gain = std::max(gain, -std::log(result.energy_error));
@@ -76,14 +77,14 @@ Hierarchy::Pace Hierarchy::Pace::after(const PcgResult& result, bool from_start)
 }
 
 bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
-  if (wants_blocks(index, pace_[index].after(so_far, limits.from_start))) return false;
+  if (wants_blocks(index, convergence_[index].after(so_far, limits.from_start))) return false;
   if (so_far.iterations % probe_interval == first_probe)
     raise_degree(index, so_far, limits.tolerance);
   return !blocks_fail(index) && !is_too_hard(index);
 }
 
 bool Hierarchy::changes_smoother(std::size_t index) {
-  if (!blocks_fail(index)) return wants_blocks(index, pace_[index]);
+  if (!blocks_fail(index)) return wants_blocks(index, convergence_[index]);
   options_.may_block = false;
   leave_blocks();
   return true;
@@ -99,11 +100,11 @@ bool Hierarchy::is_too_hard(std::size_t index) const {
 }
 
 // Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
-bool Hierarchy::wants_blocks(std::size_t index, const Pace& pace) const {
+bool Hierarchy::wants_blocks(std::size_t index, const Convergence& so_far) const {
   if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
   if (options_.operators_change && factors_cheaply(index)) return false;
   return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
-         (pace.iterations >= first_probe && pace.gained < slow_gain * pace.iterations);
+         (so_far.iterations >= first_probe && so_far.gained < slow_gain * so_far.iterations);
 }
 
 // Where a factor may follow, and blocks want as many steps as the diagonal.

@@ -33,7 +33,7 @@ void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t un
   level.state.resize(op.size());
   cycle_.levels.push_back(std::move(level));
   unknowns_.push_back(unknowns);
-  pace_.emplace_back();
+  convergence_.emplace_back();
 }
 
 void Hierarchy::complete() {
@@ -107,16 +107,16 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
                              const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
   PcgLimits rest = limits;
-  if (options_.operators_change) pace_[index] = {};
+  if (options_.operators_change) convergence_[index] = {};
   for (;;) {
-    if (adapt && wants_blocks(index, pace_[index])) take_blocks(index);
+    if (adapt && wants_blocks(index, convergence_[index])) take_blocks(index);
     estimate_eigenvalues(index, system.r);
     PcgResult result = conjugate_gradients(cycle_, index, workers_, rest, system, pcg_,
                                            [&](const PcgResult& so_far) {
                                              each(so_far);
                                              return !adapt || goes_on(index, so_far, rest);
                                            });
-    if (adapt) pace_[index] = pace_[index].after(result, rest.from_start);
+    if (adapt) convergence_[index] = convergence_[index].after(result, rest.from_start);
     out.iterations += result.iterations;
     const bool first = out.residuals.empty();
     out.residuals.insert(out.residuals.end(), result.history.begin() + (first ? 0 : 1),

@@ -87,10 +87,10 @@ class Hierarchy {
   // Of a level's solves: iterations, and what they have gained, as a logarithm. A solve from its own
   // start is judged by the error as well: where loads have changed, what is left of the residual
   // says little.
-  struct Pace {
+  struct Convergence {
     int iterations = 0;
     double gained = 0;
-    Pace after(const PcgResult& result, bool from_start) const;
+    Convergence after(const PcgResult& result, bool from_start) const;
   };
 
   void refactor();
@@ -108,7 +108,7 @@ class Hierarchy {
   // After one that did not: whether it is to go on with another smoother.
   bool changes_smoother(std::size_t index);
   bool is_too_hard(std::size_t index) const;
-  bool wants_blocks(std::size_t index, const Pace& pace) const;
+  bool wants_blocks(std::size_t index, const Convergence& so_far) const;
   void take_blocks(std::size_t index);
   bool blocks_fail(std::size_t index) const;
   void leave_blocks();
@@ -125,7 +125,7 @@ class Hierarchy {
   bool blocks_allowed_ = true;
   bool is_bounded_ = false;
   std::vector<std::size_t> unknowns_;
-  std::vector<Pace> pace_;  // with the diagonal
+  std::vector<Convergence> convergence_;  // with the diagonal
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;
   bool is_factor_old_ = false;  // of another K than its level's

@@ -203,9 +203,9 @@ struct ThinPlateSolver::Rounds {
   Sizes correct_loads() {
     const Loads& loads = run.state.loads;
     Loads product;
-    const std::vector<double> give = give_of_springs(shared().unknowns, shared().weights,
-                                                     run.solver.supports_.stiffness(), *pads);
-    pads->divide_by_mass<3>(forces, correction.loads, give);
+    const std::vector<double> compliance_ratio = compliance_ratios(
+        shared().unknowns, shared().weights, run.solver.supports_.stiffness(), *pads);
+    pads->divide_by_mass<3>(forces, correction.loads, compliance_ratio);
     pads->multiply_mass<3>(loads, product);
     return {dot<3>(correction.loads, forces), dot<3>(loads, product)};
   }
