@@ -46,10 +46,13 @@ PURPOSES = (
     (
         "POINTS",
         "Points (measured)",
-        "A surface near points that were measured, within a tenth of an edge (Thin Plate)",
+        "Points with an error: eased first, as the shape key Eased, then a surface through them (Thin Plate)",
         5,
     ),
 )
+
+
+EASED_FIRST = {"POINTS"}
 
 
 def preset_file(purpose: str) -> Path | None:

@@ -23,6 +23,7 @@ import fills
 import jobs
 import limits
 import live
+import measured_points
 import memory
 import million
 import offsets
@@ -56,6 +57,7 @@ BENCHMARKS = {
     "subdivision": subdivision.run,
     "limits": limits.run,
     "jobs": jobs.run,
+    "measured_points": measured_points.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "offsets": offsets.run,

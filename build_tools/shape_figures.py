@@ -117,6 +117,17 @@ def jobs_table() -> str:
     return table(["job", "model", *tools], rows)
 
 
+def measured_points_table() -> str:
+    """How far surfaces are off a dome whose points were measured."""
+    tools = ("through", "Subdivision Surface", "near", "eased")
+    rows = [
+        [*dome.split(" · "), *(f"{found[tool]:.2g}" for tool in tools)]
+        for dome, found in result("measured_points").items()
+    ]
+    names = ("through", "Subdivision Surface", "*Near*, a tenth", "*Points*")
+    return table(["height", "turn", "scatter", *names], rows)
+
+
 PEAKS = {
     "creature": "creature, 3 levels",
     "bob": "Bob, 3 levels",
@@ -236,6 +247,7 @@ SHAPE: dict[str, Callable[[], str]] = {
     "jobs.table": jobs_table,
     "jobs.panels": lambda: best_of_jobs("panel"),
     "jobs.seconds": lambda: seconds("jobs", "minimum variation"),
+    "points.table": measured_points_table,
     "jobs.hulls": lambda: best_of_jobs("hull"),
     "peaks.table": peaks_table,
     "pads.fender.table": fender_table,

@@ -12,7 +12,9 @@ from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import edit_mode_reason, mesh_poll_reason
 from ..strain.ease import EaseJob, EaseSelectedJob, Wish
+from ..ui.main import remembered
 from ..units import length_text
+from . import fill
 from .fair import WholeFairing, poll_reason
 from .strain import sources_at_hand
 
@@ -103,6 +105,12 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         ),
     )
 
+    fair_afterwards: BoolProperty(
+        name="Fair Afterwards",
+        description="Makes the surface, or makes it again, once the vertices are eased",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
     @staticmethod
     def poll_reason(context: Context) -> str:
         if poll_reason(context):
@@ -131,6 +139,11 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         if self.result == "SHAPE_KEY":
             for job in jobs:
                 job.write_key()
+            if self.fair_afterwards:
+                operators: Any = bpy.ops.object
+                again = remembered(context) is not None
+                operator = operators.fairing_recompute if again else operators.fairing_surface
+                fill.invoke_soon(context, operator, {})
         else:
             select_only(context, [job.write_copy() for job in jobs])
 

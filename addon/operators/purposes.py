@@ -8,7 +8,7 @@ from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, registration
 from ..poll import ExplainedPoll
-from ..purposes import PURPOSES, preset_file
+from ..purposes import EASED_FIRST, PURPOSES, preset_file
 from ..ui.main import remembered, settings_at_hand
 from .fair import poll_reason
 
@@ -48,6 +48,10 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
                 bpy.ops.mesh.select_all(action="SELECT")
             return operators.fairing_in_place(how, vertices="MEASURED", levels=0)
         operators.fairing_preset_apply(filepath=str(path))
+        if self.purpose in EASED_FIRST:
+            if how == "INVOKE_DEFAULT":
+                return operators.fairing_ease(how, fair_afterwards=True)
+            operators.fairing_ease(how)
         if remembered(context) is not None:
             return operators.fairing_recompute(how)
         settings: Any = settings_at_hand(context)

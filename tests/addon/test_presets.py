@@ -98,8 +98,8 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     add("Box", *CUBE)
     target = fair(levels=1)
     levels = bpy.context.scene.discrete_fairing.levels
-    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Points.py"))
-    assert target.discrete_fairing.interpolation == "APPROXIMATE"
+    bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Character.py"))
+    assert target.discrete_fairing.interpolation == "LIMIT"
     assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
     assert bpy.context.scene.discrete_fairing.levels == levels
 

@@ -39,8 +39,37 @@ def test_a_surface_that_is_there_gets_the_settings_and_is_made_again():
     surface, before = bpy.context.active_object, len(bpy.data.objects)
     assert bpy.ops.object.fairing_for(purpose="POINTS") == {"FINISHED"}
     assert len(bpy.data.objects) == before
-    assert surface.discrete_fairing.interpolation == "APPROXIMATE"
+    assert surface.discrete_fairing.interpolation == "EXACT"
     assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
+
+
+def dome(x, y):
+    return 0.55 * np.cos(1.2 * x) * np.cos(1.2 * y)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_measured_points_lose_their_scatter(seed):
+    even = np.linspace(-1, 1, 9)
+    x, y = np.meshgrid(even, even, indexing="ij")
+    z = dome(x, y) + np.random.default_rng(seed).normal(0, 0.012, x.shape)
+    points = np.stack([x, y, z], axis=2).reshape(-1, 3)
+    cells = [(i, j) for i in range(8) for j in range(8)]
+    faces = [(9 * i + j, 9 * i + 9 + j, 9 * i + 10 + j, 9 * i + 1 + j) for i, j in cells]
+    source = add("Dome", points.tolist(), faces)
+
+    def off(surface):
+        shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        places = positions(shown.data)
+        return np.sqrt(((places[:, 2] - dome(*places[:, :2].T)) ** 2).mean())
+
+    bpy.ops.object.fairing_surface(interpolation="APPROXIMATE", relative_tolerance=0.1)
+    near = off(bpy.context.active_object)
+    source.hide_set(False)
+    activate(source)
+    assert bpy.ops.object.fairing_for(purpose="POINTS") == {"FINISHED"}
+    assert off(bpy.context.active_object) < 0.7 * near
+    np.testing.assert_allclose(positions(source.data), points, atol=1e-7)
+    assert source.data.shape_keys.key_blocks["Eased"].value == 1
 
 
 def noisy_sphere(noise=0.004):

@@ -140,7 +140,8 @@ def test_character():
 def test_points():
     source, surface = yield from one_click("POINTS", points)
     assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.interpolation == "APPROXIMATE"
+    assert surface.discrete_fairing.interpolation == "EXACT"
+    assert "Eased" in source.data.shape_keys.key_blocks
 
 
 def test_scan_patch():
