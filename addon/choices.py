@@ -36,6 +36,19 @@ ENERGY_MEANINGS = {
     "MINIMUM_VARIATION": "Calmest reflections",
 }
 
+# for buttons side by side
+SHORT_ENERGIES = {
+    "THIN_PLATE": "Thin Plate",
+    "TOTAL_CURVATURE": "Curvature",
+    "MINIMUM_VARIATION": "Variation",
+}
+SHORT_INTERPOLATIONS = {
+    "AUTO": "Auto",
+    "EXACT": "Through",
+    "APPROXIMATE": "Near",
+    "LIMIT": "Limit",
+}
+
 # numbered as files from before the third have them
 INTERPOLATIONS = (
     (

@@ -169,12 +169,16 @@ QUICK = {
 }
 
 
+# without the few tests of these files that take as long as all others
+NOT_LONG = ("-m", "not long")
+
+
 def quick_suite() -> dict[str, Tally]:
     """What a change needs daily: form, the core, and a few files of each other suite."""
     tallies = {"style": style_suite(), "native": native_suite("release", *NO_FAULTS)}
     for suite, files in QUICK.items():
         if suite != "addon" or has_bpy():
-            tallies[suite] = pytest_suite(suite, *ON_ALL_CORES, only=files)
+            tallies[suite] = pytest_suite(suite, *ON_ALL_CORES, *NOT_LONG, only=files)
     return tallies
 
 

@@ -13,6 +13,8 @@ if(MSVC) # its Clang, which takes the options in Microsoft's spelling
   target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8 /bigobj)
 else()
   target_compile_options(fairing_flags INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra)
+  # no folder of this machine in what is made: any other makes the same bytes
+  target_compile_options(fairing_flags INTERFACE -ffile-prefix-map=${CMAKE_SOURCE_DIR}=.)
   # a constructor's parameter may be called as the member it sets: GCC's plain -Wshadow objects, Clang's does not
   target_compile_options(fairing_flags INTERFACE $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>)
 endif()

@@ -43,7 +43,7 @@ def compose(pairs, path):
             _lay(
                 sheet[top : top + height, column * width : (column + 1) * width], load_pixels(tile)
             )
-    _save(sheet, path)
+    save(sheet, path)
 
 
 def _lay(paper, tile):
@@ -64,9 +64,10 @@ def load_pixels(path):
     return values.reshape(height, width, 4)[::-1]
 
 
-def _save(sheet, path):
+def save(sheet, path, alpha=False):
+    """Writes (height, width, 4) as displayed, top row first, as a PNG."""
     height, width, _ = sheet.shape
-    image = bpy.data.images.new("Picture", width, height, alpha=False)
+    image = bpy.data.images.new("Picture", width, height, alpha=alpha)
     image.pixels.foreach_set(np.ascontiguousarray(sheet[::-1]).ravel())
     image.filepath_raw, image.file_format = str(path), "PNG"
     image.save()

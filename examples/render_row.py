@@ -69,9 +69,9 @@ def _draw_row(row, path):
 def render_tile(path, label, view, control, surfaces, wired):
     """The current scene's `surfaces`, `wired` with their edges drawn; the scene is used up."""
     width, height = (2 * pixels for pixels in TILE)
-    _place(view, surfaces)
+    place(view, surfaces)
     build_studio(width, height)
-    _aim(view)
+    aim(view)
     for surface in surfaces:
         if view.look == "clay":
             dress(surface, clay())
@@ -91,7 +91,7 @@ def compose_row(tiles, path):
     write_indexed_png(path, row.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3)))
 
 
-def _place(view, surfaces):
+def place(view, surfaces):
     """Scales and turns everything, and puts the surfaces on the floor."""
     turn = Matrix.Rotation(radians(view.turn), 4, "Z") @ Matrix.Scale(WIDTH / view.span, 4)
     bpy.context.view_layer.update()
@@ -104,7 +104,8 @@ def _place(view, surfaces):
     bpy.context.view_layer.update()
 
 
-def _aim(view):
+def aim(view):
+    """Points the studio's camera."""
     camera = bpy.context.scene.camera
     camera.data.ortho_scale = WIDTH
     elevation = radians(view.elevation)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..choices import ENERGY_MEANINGS
+from ..choices import ENERGY_MEANINGS, SHORT_ENERGIES, SHORT_INTERPOLATIONS
 from ..settings import Settings, is_evaluated, is_limit, is_near
+from .pictures import draw_choices, draw_ends
 
 
 class Sidebar:
@@ -62,9 +63,9 @@ def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOT
 
 def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
     """What makes the surface, beside that."""
-    layout.prop(settings, "energy")
+    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
-    layout.prop(settings, "interpolation")
+    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)
@@ -114,6 +115,8 @@ def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:
     row.prop(settings, "pad_size")
     if start_only:
         _reason(layout, "It helps the start only")
+    else:
+        draw_ends(layout, settings.energy, f"{settings.energy}_SOFTLY")
 
 
 def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:

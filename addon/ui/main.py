@@ -32,7 +32,7 @@ from ..units import length_text
 from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
-from .pictures import draw_pictures
+from .pictures import draw_pictures, draw_purposes
 
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
@@ -50,6 +50,8 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
     def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
         """The user's own: those that come with the extension are there as pictures."""
         own = [path for path in searchpaths if not is_shipped(path)]
+        if not own:  # of which Blender would say that paths are missing
+            return None
         return bpy.types.Menu.path_menu(cast(Any, self), own, *args, **names)
 
 
@@ -72,6 +74,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         elif followed is not None:
             layout.label(text=f"Live: {followed.name}", icon="REC")
         settings = settings_at_hand(context)
+        if memory is None and followed is None:
+            _draw_purposes(layout)
         sources = _sources(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
         known = Known(
@@ -101,9 +105,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_faults(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(
-                layout, "object.fairing_surface", "SURFACE_DATA", text, "VIEW3D_MT_fairing_for"
-            )
+            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
             if not sources:
                 layout.label(text="Select a mesh object first", icon="INFO")
             if context.mode == "EDIT_MESH" and settings.use_selection:
@@ -267,15 +269,19 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
         draw_notice(layout, mended, icon="INFO")
 
 
-def _draw_button(
-    layout: bpy.types.UILayout, operator: str, icon: Any, text: str, menu: str = ""
-) -> None:
-    """The one large button, and a menu of what else it may do."""
+def _draw_purposes(layout: bpy.types.UILayout) -> None:
+    """What the surface is for, before any setting."""
+    header, body = layout.panel("fairing.purposes")
+    header.label(text="Fair for")
+    if body is not None:
+        draw_purposes(body)
+
+
+def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
+    """The one large button."""
     row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
-    if menu:
-        row.menu(menu, text="For")
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:

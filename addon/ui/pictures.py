@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of what surfaces are for."""
+"""Pictures of what surfaces are for, and of what settings with a choice do.
 
+examples/render_panel_pictures.py draws those of the settings.
+"""
+
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -8,36 +12,70 @@ import bpy.utils.previews
 
 from ..purposes import FOLDER, PURPOSES, preset_file, stem
 
+PRESETS = FOLDER / "pictures"
+SETTINGS = Path(__file__).resolve().parent / "setting_pictures"
 # of a picture, in heights of a line
-_SCALE = 4.5
+_LARGE, _SMALL = 4.5, 2.6
 
 _loaded: Any = None
 
 
-def icon(purpose: str) -> int:
-    """The number of a purpose's picture, for Blender's layouts."""
-    return _loaded[stem(purpose)].icon_id
+def icon(key: str) -> int:
+    """The number of the picture of a purpose or a choice, for Blender's layouts; 0 if it is not there."""
+    picture = _loaded.get(stem(key)) if _loaded is not None else None
+    return picture.icon_id if picture is not None else 0
 
 
 def draw_pictures(layout: bpy.types.UILayout) -> None:
-    """Those with settings, two in a row."""
+    """The purposes with settings, two in a row."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True)
     for purpose, label, *_ in PURPOSES:
         path = preset_file(purpose)
         if path is None:
             continue
         column = grid.column(align=True)
-        column.template_icon(icon_value=icon(purpose), scale=_SCALE)
+        column.template_icon(icon_value=icon(purpose), scale=_LARGE)
         button: Any = column.operator("object.fairing_preset_apply", text=label)
         button.filepath = str(path)
+
+
+def draw_purposes(layout: bpy.types.UILayout) -> None:
+    """All purposes, three in a row: a click fairs."""
+    grid = layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
+    for purpose, label, *_ in PURPOSES:
+        column = grid.column(align=True)
+        column.template_icon(icon_value=icon(purpose), scale=_SMALL)
+        button: Any = column.operator("object.fairing_for", text=label.partition(" (")[0])
+        button.purpose = purpose
+
+
+def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
+    """What a setting offers side by side, each under its picture; `labels`: names short enough."""
+    layout.label(text=owner.bl_rna.properties[name].name)
+    row = layout.row(align=True)
+    row.use_property_split = False
+    for key, label in labels.items():
+        column = row.column(align=True)
+        column.template_icon(icon_value=icon(key), scale=_SMALL)
+        column.prop_enum(owner, name, key, text=label)
+
+
+def draw_ends(layout: bpy.types.UILayout, low: str, high: str) -> None:
+    """Pictures of what a slider does at its two ends."""
+    row = layout.row()
+    for key, text in ((low, "0"), (high, "1")):
+        column = row.column()
+        column.template_icon(icon_value=icon(key), scale=_SMALL)
+        label = column.row()
+        label.alignment = "CENTER"
+        label.label(text=text)
 
 
 def register() -> None:
     global _loaded
     _loaded = bpy.utils.previews.new()
-    for purpose, *_ in PURPOSES:
-        name = stem(purpose)
-        _loaded.load(name, str(FOLDER / "pictures" / f"{name}.png"), "IMAGE")
+    for path in (*PRESETS.glob("*.png"), *SETTINGS.glob("*.png")):
+        _loaded.load(path.stem, str(path), "IMAGE")
 
 
 def unregister() -> None:

@@ -25,7 +25,7 @@ constexpr double least_reach = 1.0 / (1 << 16);
 
 Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
            Workers& workers, const VertexWeights& weights)
-    : mesh_(&mesh), workers_(&workers), size_(size), unknowns_(unknowns), rows_(unknowns) {
+    : mesh_(&mesh), workers_(&workers), unknowns_(unknowns), rows_(unknowns) {
   for (const FlatFace& flat : charts.flat()) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
   share_.assign(vertices, 0.0);

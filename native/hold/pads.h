@@ -126,7 +126,6 @@ class Pads {
 
   const ControlMesh* mesh_;
   Workers* workers_;
-  double size_;
   const GridLevel* grid_ = nullptr;
   std::vector<double> area_;                    // of each control face, in the control metric
   std::vector<double> share_;                   // of each control vertex' pad; 0: none

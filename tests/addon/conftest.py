@@ -15,6 +15,12 @@ from addon import prediction  # noqa: E402
 from addon.live import full_level  # noqa: E402
 
 
+def pytest_configure(config):
+    config.addinivalue_line(
+        "markers", "long: seconds of a processor, left out of `dev.py test quick`"
+    )
+
+
 @pytest.fixture(autouse=True)
 def blender():
     """An empty scene with the add-on registered."""

@@ -30,8 +30,12 @@ class Layout:
         assert name in owner.bl_rna.properties
         self.log.append(name)
 
+    def prop_enum(self, owner, name, value, text=""):
+        assert value in owner.bl_rna.properties[name].enum_items
+        self.log += [text, name]
+
     def template_icon(self, icon_value=0, **_):
-        self.log.append(icon_value)
+        self.log.append(str(icon_value))
 
     def progress(self, text="", factor=0.0, **_):
         assert 0.0 <= factor <= 1.0

@@ -105,7 +105,7 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
 
 
 def test_each_picture_has_its_preset():
-    folder = Path(pictures.__file__).resolve().parents[1] / "presets" / "pictures"
+    folder = pictures.PRESETS
     stems = {stem_of(purpose) for purpose, *_ in PURPOSES}
     assert {path.stem for path in folder.glob("*.png")} == stems
     assert stems - {"Scan_Patch"} == set(SHIPPED) - {"Default"}

@@ -104,7 +104,7 @@ def test_the_panel_shows_one_slider_by_what_holds():
     source.hide_set(False)
     activate(source)
     shown = draw(VIEW3D_PT_fairing)
-    assert "limit" in shown and "VIEW3D_MT_fairing_for" in shown
+    assert "limit" in shown and "object.fairing_for" in shown
     settings.interpolation = "EXACT"
     assert "limit" not in draw(VIEW3D_PT_fairing)
 

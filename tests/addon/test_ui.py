@@ -6,15 +6,22 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from fake_layout import Layout, draw
-from scenes import CUBE, add, add_suzanne, face_values
+from scenes import CUBE, add, add_suzanne, face_values, fair
 
 import addon
 from addon import core, size
-from addon.choices import ENERGIES, ENERGY_MEANINGS
+from addon.choices import (
+    ENERGIES,
+    ENERGY_MEANINGS,
+    INTERPOLATIONS,
+    SHORT_ENERGIES,
+    SHORT_INTERPOLATIONS,
+)
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
+from addon.purposes import PURPOSES
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
-from addon.ui import main, menus, notice
+from addon.ui import main, menus, notice, pictures
 from addon.ui.layout import Sidebar
 
 
@@ -77,7 +84,59 @@ def test_pads_of_minimum_variation_are_said_to_be_its_start():
 
 def test_triangle_count_stands_under_the_levels():
     add("Box", *CUBE)
-    assert draw(main.VIEW3D_PT_fairing)[:2] == ["levels", "768 triangles"]
+    shown = draw(main.VIEW3D_PT_fairing)
+    assert shown[shown.index("levels") + 1] == "768 triangles"
+
+
+@pytest.fixture
+def named(monkeypatch):
+    """Pictures by their names: without a window they have no numbers."""
+    monkeypatch.setattr(pictures, "icon", lambda key: f"picture of {key}")
+
+
+def test_what_the_surface_is_for_comes_first(named):
+    add("Box", *CUBE)
+    shown = draw(main.VIEW3D_PT_fairing)
+    first = shown[: shown.index("levels")]
+    assert first[0] == "Fair for"
+    each = [(f"picture of {key}", "object.fairing_for") for key, *_ in PURPOSES]
+    assert first[1 : 2 * len(each) + 1] == [entry for pair in each for entry in pair]
+
+
+def test_a_surface_that_is_there_has_its_settings_first():
+    add("Box", *CUBE)
+    fair(levels=1)
+    assert "object.fairing_for" not in draw(main.VIEW3D_PT_fairing)
+
+
+@pytest.mark.parametrize(
+    ("choices", "labels"),
+    [(ENERGIES, SHORT_ENERGIES), (INTERPOLATIONS, SHORT_INTERPOLATIONS)],
+)
+def test_each_choice_has_its_picture_over_it(named, choices, labels):
+    add("Box", *CUBE)
+    shown = draw(main.VIEW3D_PT_fairing)
+    assert set(labels) == {key for key, *_ in choices}
+    for key, label in labels.items():
+        assert shown[shown.index(label) - 1] == f"picture of {key}"
+        assert key.title() in pictures._loaded
+
+
+@pytest.mark.parametrize("energy", ["THIN_PLATE", "TOTAL_CURVATURE"])
+def test_a_slider_shows_both_its_ends(named, energy):
+    add("Box", *CUBE)
+    bpy.context.scene.discrete_fairing.energy = energy
+    shown = draw(main.VIEW3D_PT_fairing)
+    start = shown.index("pad_size") + 1
+    ends = [f"picture of {energy}", "0", f"picture of {energy}_SOFTLY", "1"]
+    assert shown[start : start + 4] == ends
+    assert f"{energy}_SOFTLY".title() in pictures._loaded
+
+
+def test_pictures_are_small_and_the_panel_does_without():
+    files = list(pictures.SETTINGS.glob("*.png"))
+    assert len(files) == 9 and sum(path.stat().st_size for path in files) < 60_000
+    assert pictures.icon("NO_SUCH_CHOICE") == 0
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
@@ -86,7 +145,8 @@ def test_fairness_is_the_first_of_more_with_what_it_means(energy):
     bpy.context.scene.discrete_fairing.energy = energy
     shown = draw(main.VIEW3D_PT_fairing)
     more = shown[shown.index("More") + 1 :]
-    assert more[:2] == ["energy", ENERGY_MEANINGS[energy]]
+    assert more[0] == "Fairness"
+    assert more[more.index("energy") : more.index("Vertices")][-1] == ENERGY_MEANINGS[energy]
 
 
 def test_what_an_energy_costs_is_said_once():
