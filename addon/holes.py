@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holes of a mesh closed in place by the fairest surface: which they are, and the faces that fill them."""
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any, cast
@@ -41,6 +41,7 @@ class Wish:
         bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
     )
     noisy: bool = False  # whether the faces around are measured, with noise
+    quads: bool = False  # whether grids of quads are wanted where the rim allows
     edge: tuple[int, int] | None = None  # the hole with this edge, whatever else is said
 
 
@@ -53,7 +54,9 @@ class Filling:
     plates: int = 0  # holes that the thin plate fills in place of another energy
     plain: int = 0  # that the first triangulation fills
     folded: int = 0
+    crossing: int = 0  # holes whose filling passes through the mesh, or through itself
     unclear: int = 0  # border edges around what is no hole
+    triangles: Sequence[str] = ()  # why holes have triangles where quads were wanted, one for each
 
 
 @dataclass(frozen=True)
@@ -73,12 +76,17 @@ class Filled:
         """
         known = len(vertices)
         corners = found.faces[0] if isinstance(found.faces, tuple) else found.faces
-        new = corners.reshape(-1)[-3 * len(found.new_faces) :].reshape(-1, 3)
-        first = found.holes[0].faces.start
-        patches = [
-            Patch.of(new[h.faces.start - first : h.faces.stop - first], found.vertices, known)
-            for h in found.holes
-        ]
+        if isinstance(found.faces, tuple):
+            sizes = np.diff(found.faces[1])
+        else:
+            sizes = np.full(len(found.faces), 3)
+        patches, first = [], corners.size - int(sizes[found.new_faces].sum())
+        for hole in found.holes:
+            size = int(sizes[hole.faces.start])
+            last = first + size * len(hole.faces)
+            faces = corners.ravel()[first:last].reshape(-1, size)
+            patches.append(Patch.of(faces, found.vertices, known))
+            first = last
         none = np.empty((0, 3))
         return cls(
             [patch.in_whole(vertices, len(points)) for patch in patches],
@@ -160,8 +168,7 @@ class HoleJob:
         """From the faces around the holes alone: to hand over all of a large mesh takes longer than to
         fill a hole.
         """
-        chosen = np.array([v for hole in self._holes for loop in hole for v in loop])
-        part = around(self._arrays, self._gone, chosen, self._wish.noisy)
+        part = around(self._arrays, self._points, self._gone, self._holes, self._wish.noisy)
         number = np.full(len(self._points), -1)
         number[part.vertices] = np.arange(len(part.vertices))
         loops = [[number[loop].tolist() for loop in hole] for hole in self._holes]
@@ -170,6 +177,7 @@ class HoleJob:
             "energy": self._wish.energy.lower(),
             "density": self._wish.density,
             "rim": "noisy" if self._wish.noisy else "exact",
+            "quads": self._wish.quads,
             **watchers,
         }
         try:
@@ -214,11 +222,13 @@ class HoleJob:
         prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
         return Filling(
             len(holes),
-            sum(len(patch.triangles) for patch in patches),
+            sum(len(patch.faces) for patch in patches),
             sum(h.energy not in (self._wish.energy.lower(), "none") for h in holes),
             sum(h.energy == "none" and not h.converged for h in holes),
             sum(h.folds > 0 for h in holes),
+            sum(h.crossings > 0 for h in holes),
             self._unclear,
+            [h.why_triangles for h in holes if h.why_triangles],
         )
 
     def check_again(self, context: Context) -> None:
@@ -306,4 +316,18 @@ def doubts(done: list[Filling]) -> list[str]:
         said.append(
             f"The filling of {count_text(folded)} folds: erase more faces around it, and fill again"
         )
+    crossing = sum(f.crossing for f in done)
+    if crossing:
+        said.append(
+            f"The filling of {count_text(crossing)} passes through other faces: erase those in its way, or fill by hand"
+        )
+    reasons = [reason for f in done for reason in f.triangles]
+    if reasons:
+        said.append(f"{count_text(len(reasons))} filled with triangles: {_listed(reasons)}")
     return said
+
+
+def _listed(reasons: list[str]) -> str:
+    """Each once, the most frequent first; no more than are read."""
+    ranked = sorted(set(reasons), key=lambda reason: (-reasons.count(reason), reason))
+    return "; ".join(ranked[:3]) + ("; …" if len(ranked) > 3 else "")

@@ -16,6 +16,7 @@ _DEFAULTS: dict[str, Any] = {
     "fill_joint": "curvature",
     "fill_density": 1.0,
     "fill_noisy": False,
+    "fill_quads": False,
     "largest_hole": 100,
 }
 _ENERGY = "TOTAL_CURVATURE"
@@ -57,6 +58,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="the faces around are measured: more of them say how a filling goes on, and none exactly",
     )
+    group.add_argument(
+        "--fill-quads",
+        action="store_true",
+        default=None,
+        help="in holes among quads a grid of quads, where the rim allows that; else triangles",
+    )
 
 
 def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None:
@@ -85,6 +92,7 @@ def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None
         said["largest_hole"],
         False,
         said["fill_noisy"],
+        said["fill_quads"],
     )
 
 
@@ -95,6 +103,7 @@ def shown(wish: Wish) -> dict[str, Any]:
         "fill_joint": wish.joint,
         "fill_density": wish.density,
         "fill_noisy": wish.noisy,
+        "fill_quads": wish.quads,
         "largest_hole": wish.most_edges,
     }
 
@@ -122,6 +131,8 @@ def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], l
             "energy": hole.energy,
             "converged": hole.converged,
             "folds": hole.folds,
+            "crossings": hole.crossings,
+            "why_triangles": hole.why_triangles,
         }
         for hole in job.result.holes
     ]

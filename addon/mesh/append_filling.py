@@ -37,7 +37,7 @@ def can_append(target: Object) -> bool:
 def append_holes(
     target: Object, arrays: ControlArrays, patches: Sequence[Patch], places: np.ndarray
 ) -> None:
-    """To the mesh of `target`, which is `arrays`: makes the triangles of `patches`, whose new vertices follow on those of the mesh, at `places`
+    """To the mesh of `target`, which is `arrays`: makes the faces of `patches`, whose new vertices follow on those of the mesh, at `places`
     (k, 3), in the object's coordinates. The new faces are selected, and nothing else.
 
     What can be mixed is spread from the rim. All else is that of the nearest vertex of the rim, and
@@ -69,15 +69,16 @@ class _Rim:
     patch: Patch
     corners: np.ndarray  # (r,) a corner at each vertex of the rim
     all_corners: list[np.ndarray]  # (r,) all of them
-    faces: np.ndarray  # (t,) the face that each triangle takes after
+    faces: np.ndarray  # (t,) the face that each face of the patch takes after
 
 
 @dataclass(frozen=True)
 class _Rims:
     all: list[_Rim]
-    triangles: np.ndarray  # (t, 3) ids
+    corners: np.ndarray  # (c,) ids, of one new face after another
+    sizes: np.ndarray  # (t,) corners of each
     edges: np.ndarray  # (e, 2) those that the mesh does not have
-    corner_edges: np.ndarray  # (3 t,)
+    corner_edges: np.ndarray  # (c,)
 
     @classmethod
     def of(cls, arrays: ControlArrays, patches: Sequence[Patch]) -> "_Rims":
@@ -88,9 +89,11 @@ class _Rims:
         near = np.flatnonzero(at_rim[corners])
         near = near[np.argsort(corners[near], kind="stable")]
         rims = [_beside(patch, near, corners[near], arrays.offsets) for patch in patches]
-        ids = [np.concatenate([patch.rim, patch.fresh])[patch.triangles] for patch in patches]
-        triangles = np.concatenate(ids).astype(np.int32)
-        return cls(rims, triangles, *_edges(triangles, arrays.edges, at_rim))
+        ids = [np.concatenate([patch.rim, patch.fresh])[patch.faces] for patch in patches]
+        of_all = np.concatenate([faces.ravel() for faces in ids]).astype(np.int32)
+        ends = np.concatenate([np.roll(faces, -1, axis=1).ravel() for faces in ids])
+        sizes = np.concatenate([np.full(*faces.shape) for faces in ids])
+        return cls(rims, of_all, sizes, *_edges(np.stack([of_all, ends], 1), arrays.edges, at_rim))
 
 
 def _beside(patch: Patch, near: np.ndarray, vertices: np.ndarray, offsets: np.ndarray) -> _Rim:
@@ -99,17 +102,15 @@ def _beside(patch: Patch, near: np.ndarray, vertices: np.ndarray, offsets: np.nd
     all_corners = [near[a:b] for a, b in zip(begin.tolist(), end.tolist(), strict=True)]
     corners = near[begin]
     faces = np.searchsorted(offsets, corners, side="right") - 1
-    return _Rim(patch, corners, all_corners, faces[patch.nearest[patch.triangles[:, 0]]])
+    return _Rim(patch, corners, all_corners, faces[patch.nearest[patch.faces[:, 0]]])
 
 
 def _edges(
-    triangles: np.ndarray, edges: np.ndarray, at_rim: np.ndarray
+    sides: np.ndarray, edges: np.ndarray, at_rim: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The edges that are missing, and the edge of each corner."""
-    sides = np.sort(
-        np.stack([triangles, np.roll(triangles, -1, axis=1)], -1).reshape(-1, 2), axis=1
-    )
-    factor = int(triangles.max()) + 1
+    """Of `sides` (c, 2), one from each corner: the edges that are missing, and the edge of each."""
+    sides = np.sort(sides, axis=1)
+    factor = int(sides.max()) + 1
 
     def keys(pairs: np.ndarray) -> np.ndarray:
         return pairs[:, 0].astype(np.int64) * factor + pairs[:, 1]
@@ -158,7 +159,7 @@ def _more(attribute: Attribute, rim: _Rim) -> np.ndarray:
         (values[c] == v).all() for c, v in zip(rim.all_corners, known, strict=True)
     )
     whole = _spread(patch, known) if one else known[patch.nearest]
-    return whole[patch.triangles.ravel()]
+    return whole[patch.faces.ravel()]
 
 
 def _spread(patch: Patch, known: np.ndarray) -> np.ndarray:
@@ -193,13 +194,14 @@ def _append(mesh: Mesh, rims: _Rims, places: np.ndarray) -> None:
     corners, faces = len(mesh.loops), len(mesh.polygons)
     mesh.vertices.add(len(places))
     mesh.edges.add(len(rims.edges))
-    mesh.loops.add(rims.triangles.size)
-    mesh.polygons.add(len(rims.triangles))
-    for face in range(len(rims.triangles)):
-        mesh.polygons[faces + face].loop_start = corners + 3 * face
+    mesh.loops.add(len(rims.corners))
+    mesh.polygons.add(len(rims.sizes))
+    starts = corners + np.cumsum(rims.sizes) - rims.sizes
+    for face, start in enumerate(starts.tolist(), start=faces):
+        mesh.polygons[face].loop_start = start
     _end(mesh, "position", vertices, places.astype(np.float32))
     _end(mesh, ".edge_verts", edges, rims.edges)
-    _end(mesh, ".corner_vert", corners, rims.triangles)
+    _end(mesh, ".corner_vert", corners, rims.corners)
     _end(mesh, ".corner_edge", corners, rims.corner_edges)
     _select_only_new(mesh, rims, faces)
 
@@ -216,7 +218,7 @@ def _end(mesh: Mesh, name: str, first: int, values: np.ndarray) -> None:
 
 def _select_only_new(mesh: Mesh, rims: _Rims, faces: int) -> None:
     for name, domain, size, new in (
-        (".select_vert", "POINT", len(mesh.vertices), rims.triangles.ravel()),
+        (".select_vert", "POINT", len(mesh.vertices), rims.corners),
         (".select_edge", "EDGE", len(mesh.edges), rims.corner_edges),
         (".select_poly", "FACE", len(mesh.polygons), np.arange(faces, len(mesh.polygons))),
     ):

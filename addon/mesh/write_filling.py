@@ -19,7 +19,7 @@ _NUMBERS = ("float", "float_vector", "color", "float_color")  # kinds of layers 
 
 
 def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> list[Any]:
-    """Makes the triangles of `patch` between its `rim` (r vertices of `bm`) and new vertices at
+    """Makes the faces of `patch` between its `rim` (r vertices of `bm`) and new vertices at
     `places` (k, 3), in the object's coordinates; returns them.
 
     What can be mixed is spread from the rim. All else is that of the nearest vertex of the rim, and
@@ -40,7 +40,7 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
         for vertex, values in zip(verts[len(rim) :], rows[len(rim) :].tolist(), strict=True):
             write(vertex, values)
     found = []
-    for corners in patch.triangles.tolist():
+    for corners in patch.faces.tolist():
         model = beside[nearest[corners[0]]]
         face = bm.faces.new([verts[v] for v in corners], None if model is None else model.face)
         for corner, v in zip(face.loops, corners, strict=True):

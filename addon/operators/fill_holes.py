@@ -49,6 +49,11 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
         description="The faces around are measured: six rings of them say how the surface goes on, so that their noise is not carried on",
         default=False,
     )
+    quads: BoolProperty(
+        name="Quads",
+        description="In a hole among quads a grid of quads, where its rim allows that; else triangles",
+        default=False,
+    )
     largest: IntProperty(
         name="Largest Hole",
         description="In Object Mode: holes of more edges stay open, as the border of a sheet should",
@@ -76,6 +81,7 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
         if self.joint != "POSITION":
             layout.prop(self, "energy")
             layout.prop(self, "noisy")
+        layout.prop(self, "quads")
         layout.prop(self, "density")
         if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
@@ -87,7 +93,14 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
             source_objects(context) if named is None else [cast(Object, context.active_object)]
         )
         wish = Wish(
-            self.joint, self.energy, self.density, self.largest, replaces, self.noisy, named
+            self.joint,
+            self.energy,
+            self.density,
+            self.largest,
+            replaces,
+            self.noisy,
+            self.quads,
+            named,
         )
         jobs: list[Any] = []
         self._reasons: list[str] = []

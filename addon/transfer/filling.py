@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fills a hole, as its triangles and the vertices of the mesh that they stand on."""
+"""What fills a hole, as its faces and the vertices of the mesh that they stand on."""
 
 from dataclasses import dataclass, replace
 
@@ -15,16 +15,25 @@ class Patch:
     rim: np.ndarray  # (r,) ids in the mesh, rising
     fresh: np.ndarray  # (k,) ids of the new vertices, which follow on those of the mesh
     points: np.ndarray  # (r + k, 3)
-    triangles: np.ndarray  # (t, 3) rows
+    faces: np.ndarray  # (t, 3) rows, or (t, 4) of quads
     nearest: np.ndarray  # (r + k,) row of the rim's vertex that is nearest
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(t, 3) rows: its faces, quads halved."""
+        return self.faces[:, [[0, k, k + 1] for k in range(1, self.faces.shape[1] - 1)]].reshape(
+            -1, 3
+        )
 
     @classmethod
     def of(cls, faces: np.ndarray, points: np.ndarray, count: int) -> "Patch":
-        """`faces` (t, 3): ids, of which those below `count` are of the mesh; `points` (N, 3)."""
+        """`faces` (t, 3) or (t, 4): ids, of which those below `count` are of the mesh; `points` (N, 3)."""
         ids, rows = np.unique(faces, return_inverse=True)
         split = int(np.searchsorted(ids, count))
         spots = points[ids]
-        return cls(ids[:split], ids[split:], spots, rows.reshape(-1, 3), _nearest(spots, split))
+        return cls(
+            ids[:split], ids[split:], spots, rows.reshape(faces.shape), _nearest(spots, split)
+        )
 
     def in_whole(self, vertices: np.ndarray, count: int) -> "Patch":
         """The same for a mesh of `count` vertices, of which those here are `vertices` (n,), rising."""

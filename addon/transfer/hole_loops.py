@@ -10,6 +10,7 @@ from .. import core
 from .cut_out import CutOut, cut_out
 
 RINGS, NOISY_RINGS = 2, 6  # of faces around a hole that decide what fills it
+CELLS = 64  # along the longest side of a mesh, by which it is known what is near a hole
 
 Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
@@ -101,20 +102,43 @@ def where_faces_were(
 
 
 def around(
-    arrays: core.ControlArrays, gone: np.ndarray, vertices: np.ndarray, noisy: bool = False
+    arrays: core.ControlArrays,
+    points: np.ndarray,
+    gone: np.ndarray,
+    holes: list[list[list[int]]],
+    noisy: bool = False,
 ) -> CutOut:
-    """The faces that are near these `vertices` (k,), without those that are `gone` (m,) bool: as many
-    rings as the core reads, more where the rim is `noisy`.
+    """The faces that are near these `holes`, without those that are `gone` (m,) bool, in a mesh at
+    `points` (n, 3): as many rings as the core reads, more where the rim is `noisy`, and those that a
+    filling may pass through.
     """
     left = np.repeat(~gone, arrays.face_sizes)
     face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
     marked = np.zeros(len(arrays.positions), bool)
-    marked[vertices] = True
+    marked[[v for hole in holes for loop in hole for v in loop]] = True
     for _ in range(NOISY_RINGS if noisy else RINGS):
         near = np.zeros(len(gone), bool)
         near[face_of[marked[arrays.corners] & left]] = True
         marked[arrays.corners[near[face_of]]] = True
+    near[face_of[_within_reach(points, holes)[arrays.corners] & left]] = True
     return cut_out(arrays, near)
+
+
+def _within_reach(points: np.ndarray, holes: list[list[list[int]]]) -> np.ndarray:
+    """(n,) which points fillings may come to: in the boxes of their rims, by half a diagonal wider, as
+    what fills half a sphere or a little more; in whole cells of a coarse grid.
+    """
+    low = points.min(axis=0)
+    size = max(float((points.max(axis=0) - low).max()) / CELLS, 1e-300)
+    marked = np.zeros((CELLS + 1,) * 3, bool)
+    for hole in holes:
+        rim = points[hole[0]]
+        reach = np.linalg.norm(np.ptp(rim, axis=0)) / 2.0
+        first = ((rim.min(axis=0) - reach - low) / size).clip(0, CELLS).astype(int)
+        last = ((rim.max(axis=0) + reach - low) / size).clip(0, CELLS).astype(int)
+        marked[tuple(slice(a, b + 1) for a, b in zip(first, last, strict=True))] = True
+    x, y, z = ((points - low) / size).astype(np.int32).T
+    return marked[x, y, z]
 
 
 def flat_faces(

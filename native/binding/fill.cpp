@@ -8,6 +8,7 @@
 #include "binding/bindings.h"
 #include "binding/construct.h"
 #include "binding/runner.h"
+#include "mesh/fill/crossings.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 
@@ -39,9 +40,12 @@ class Filler {
     return arrays();
   }
 
-  // `points`: (k, 3), of all new vertices.
-  py::list refine(const Contiguous<double>& points, Monitor& monitor, const py::object& progress) {
+  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine.
+  py::list refine(const Contiguous<double>& points, const std::vector<std::size_t>& chosen,
+                  Monitor& monitor, const py::object& progress) {
     const std::vector<double> moved = copy_of(points);
+    std::vector<std::uint8_t> flags(filled_.size(), 0);
+    for (const std::size_t hole : chosen) flags.at(hole) = 1;
     std::size_t at = 0;
     for (FilledHole& hole : filled_)
       for (Vec3& p : hole.points) {
@@ -49,7 +53,7 @@ class Filler {
         at += 3;
       }
     run(monitor, progress,
-        [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, filled_); });
+        [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, flags, filled_); });
     return arrays();
   }
 
@@ -94,6 +98,27 @@ class Filler {
   std::vector<FilledHole> filled_;
 };
 
+// Numbers (k,) of the triangles (t, 3) from the `first` on that cross another; corners are ids in
+// points (n, 3), which nobody checks.
+py::array crossings(const Contiguous<double>& points, const Contiguous<std::int32_t>& triangles,
+                    std::size_t first, Monitor& monitor, const py::object& progress) {
+  const std::vector<double> coordinates = copy_of(points);
+  const std::vector<std::int32_t> corners = copy_of(triangles);
+  std::vector<Vec3> places(coordinates.size() / 3);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = Vec3(coordinates.data() + 3 * i);
+  std::vector<Triangle> faces(corners.size() / 3);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    faces[i] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
+  Array<std::int64_t> found;
+  Runner().run(
+      [&] {
+        const CancelScope scope(&monitor);
+        for (const std::size_t t : crossing(places, faces, first)) found.push_back(std::int64_t(t));
+      },
+      monitor, nullptr, progress);
+  return to_numpy(std::move(found), 1);
+}
+
 }  // namespace
 
 void bind_fill(py::module_& m) {
@@ -105,8 +130,10 @@ void bind_fill(py::module_& m) {
   filler.def("find", &Filler::find, py::arg("monitor"), py::arg("progress"))
       .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("monitor"),
            py::arg("progress"))
-      .def("refine", &Filler::refine, py::arg("points").noconvert(), py::arg("monitor"),
-           py::arg("progress"));
+      .def("refine", &Filler::refine, py::arg("points").noconvert(), py::arg("chosen"),
+           py::arg("monitor"), py::arg("progress"));
+  m.def("_crossings", &crossings, py::arg("points").noconvert(), py::arg("triangles").noconvert(),
+        py::arg("first"), py::arg("monitor"), py::arg("progress"));
 }
 
 }  // namespace fairing

@@ -62,12 +62,15 @@ def test_a_hole_is_closed_and_the_rest_stays():
         "energy": "total_curvature",
         "converged": True,
         "folds": 0,
+        "crossings": 0,
+        "why_triangles": "",
     }
     assert entry["settings"] == {
         "energy": "TOTAL_CURVATURE",
         "fill_joint": "CURVATURE",
         "fill_density": 1.0,
         "fill_noisy": False,
+        "fill_quads": False,
         "largest_hole": 100,
     }
     before, after = read_obj("in.obj"), read_obj("out.obj")
@@ -95,6 +98,33 @@ def test_joint_energy_and_density_are_heard():
     assert entry["objects"][0]["report"]["holes"][0]["energy"] == "thin_plate"
     assert counts[0] == 22 and counts[1] > 300
     assert len(imported("out.stl")[1])
+
+
+def test_quads_are_heard_and_their_lack_is_warned_of():
+    """Open above, and without one quad and one triangle."""
+    write_ball("in.obj")
+    lines = Path("in.obj").read_text().splitlines()
+    quads = [k for k, line in enumerate(lines) if line.startswith("f ") and line.count(" ") == 4]
+    del lines[-1], lines[quads[50]]
+    Path("in.obj").write_text("\n".join(lines) + "\n")
+    _, (entry,) = entries("in.obj", "out.obj", "--fill", "--fill-quads")
+    assert entry["settings"]["fill_quads"] is True
+    holes = entry["objects"][0]["report"]["holes"]
+    assert sorted((h["edges"], h["faces"]) for h in holes) == [([3], 1), ([4], 1), ([24], 36)]
+    assert [bool(h["why_triangles"]) for h in holes] == [h["edges"] == [3] for h in holes]
+    (warning,) = entry["warnings"]
+    assert warning.endswith(
+        "1 hole filled with triangles: its rim has 3 edges, which is no even number."
+    )
+
+
+def test_what_passes_through_the_mesh_is_warned_of():
+    spike = "v 0.1 0 0.3\nv 0.1 0 1.4\nv 0.12 0.02 1.4\nf -3 -2 -1\n"
+    write_ball("in.obj", spoiled=spike)
+    _, (entry,) = entries("in.obj", "out.obj", "--fill")
+    (hole,) = entry["objects"][0]["report"]["holes"]
+    assert hole["crossings"] > 0
+    assert any("1 hole passes through other faces" in w for w in entry["warnings"])
 
 
 def test_the_table_counts_holes(capsys):

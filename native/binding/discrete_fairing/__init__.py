@@ -12,7 +12,8 @@ from .checking import Defect, check, predicted_size
 from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
-from .filling import Filled, FilledHole, fill_holes, find_holes
+from .filled import Filled, FilledHole
+from .filling import fill_holes, find_holes
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces

@@ -3,78 +3,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, index_array, vertex_array
+from .crossings import in_whole, with_less_crossing
 from .errors import fairing_error
-from .near_hole import NOISY_RINGS, RIMS, RINGS, Made, MeshPart, NearHole, RefusedAround
+from .filled import Filled, put_together
+from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart
 from .options import native_options
+from .quad_grid import quad_filling
+from .rounds import Filling, Wanted, faired_in_rounds, share_edges, without_folds
 from .watching import Progress, SeveralRuns, check_watchers
-
-# A filling is remeshed where fairing has made its area so many times as large: up to there its edges
-# are within a tenth of the length wanted, and to fair it twice only costs as much again.
-_GROWN = 1.2
-
-# The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
-# the density wanted, and is faired again.
-_ROUNDS = 2
-
-_SHOWN = 8  # ids that a message lists
-
-
-@dataclass(frozen=True, slots=True)
-class FilledHole:
-    """What has become of one hole.
-
-    loops: list of (k,) int64
-        Its rim, and those of its islands.
-    vertices, faces: range
-        Ids of the new vertices and faces in `Filled`.
-    energy: str
-        The energy that was minimized; "none" where the first triangulation, spread as a membrane, was
-        left as it was.
-    joint: str
-        What it took over at the rim.
-    converged: bool
-        Whether its steps came to their end; False where the triangulation stands in.
-    folds: int
-        Edges at which the surface turns back, the rim's included.
-    """
-
-    loops: list[np.ndarray]
-    vertices: range
-    faces: range
-    energy: str
-    joint: str
-    converged: bool
-    folds: int
-
-
-@dataclass(frozen=True, slots=True)
-class Filled:
-    """A mesh whose holes are closed.
-
-    vertices: (N, 3) float64
-        The n old ones first, to the last bit.
-    faces: (M, 3) int64, or the pair (corners, offsets) where not all are triangles
-        The m old ones first.
-    new_faces: (M - m,) int64
-        Ids of the new ones, which are triangles.
-    holes: list of FilledHole
-        What closed each hole, in the order of the holes.
-    """
-
-    vertices: np.ndarray
-    faces: np.ndarray | tuple[np.ndarray, np.ndarray]
-    new_faces: np.ndarray
-    holes: list[FilledHole]
 
 
 def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[np.ndarray]:
@@ -99,6 +43,7 @@ def fill_holes(
     energy: str = "total_curvature",
     density: float = 1.0,
     rim: str = "exact",
+    quads: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -134,6 +79,11 @@ def fill_holes(
         Noisy: six rings of faces around say how the surface goes on, and all but the outermost may be
         missed, so that the noise of a scan is not carried on. The rim itself stays, as all that was
         there.
+    quads : bool
+        A grid of quads in a hole of a quad mesh whose rim has an even number of edges, between the four
+        corners of the rim that are sharpest [Coons 1967]; triangles where it would fold or be skew
+        (FilledHole.why_triangles). Its edges go on from those of the rim: density counts for triangles
+        alone.
     threads : int
         0: all cores. The result is the same, to the last bit, for any number.
     progress : callable(fraction, phase)
@@ -160,6 +110,8 @@ def fill_holes(
     native_options(energy=energy, threads=threads)  # refuses what fair() would
     if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
         raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
+    if not isinstance(quads, bool):
+        raise fairing_error("BAD_OPTION", f"quads is {quads!r}; it must be True or False.")
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
@@ -181,74 +133,65 @@ def fill_holes(
         # refused again, but with the ids that the caller knows
         _native.Filler(points, corners, offsets).fill(asked, float(density), *watchers)
         raise
-    shares = np.linspace(0.1, 1.0, _ROUNDS * len(loops) + 1)
-    made: list[Made] = []
-    seen: list[NearHole] = []
-    for turn in range(_ROUNDS):
-        if turn:
-            if not any(hole.grown > _GROWN for hole in seen) and not any(by.folds for by in made):
-                break
-            found = filler.refine(np.concatenate([own for own, _ in found]), *watchers)
-        first, seen, made = len(mesh.points), [], []
-        for row, (own, triangles) in enumerate(found):
-            at = turn * len(loops) + row
-            run = watched.run(shares[at], shares[at + 1])
-            near = NearHole(mesh, own, triangles, first)
-            try:
-                moved, by = near.faired(energy, joint, rim == "noisy", run)
-            except RefusedAround as refused:
-                raise _said(refused, row) from refused
-            seen.append(near)
-            made.append(by)
-            first += len(own)
-            found[row] = moved, triangles
-    if any(by.folds for by in made) and density > 0.0:
-        bare = filler.fill(loops, 0.0, *watchers)
-        found, made = _unfolded(mesh, found, made, bare)
+    wanted = Wanted(energy, joint, rim == "noisy", float(density))
+    grids: list[Filling | str] = [""] * len(found)
+    if quads:
+        for row, (hole, (_, triangles)) in enumerate(zip(loops, found, strict=True)):
+            run = watched.run(0.1, 0.1)
+            grids[row] = quad_filling(mesh, _running_as(hole, triangles), wanted, run)
+    fillings = _with_triangles(mesh, filler, (loops, found), grids, wanted, watched)
+    fillings, crossings = with_less_crossing(whole, mesh, found, fillings, wanted, watched)
     watched.finish()
-    fresh = len(points) + np.arange(sum(len(own) for own, _ in found))
-    places = np.concatenate([mesh.vertex_ids, fresh])
-    found = [(own, places[triangles]) for own, triangles in found]
-    return _put_together(whole, [list(map(np.array, h)) for h in asked], found, made)
+    told = [
+        (count, grid if isinstance(grid, str) else "")
+        for count, grid in zip(crossings, grids, strict=True)
+    ]
+    loops_asked = [list(map(np.array, hole)) for hole in asked]
+    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told)
 
 
-Filling: TypeAlias = tuple[np.ndarray, np.ndarray]  # own vertices (k, 3), triangles of ids (t, 3)
+def _running_as(hole: list[list[int]], triangles: np.ndarray) -> list[list[int]]:
+    """The loops of a hole, the first in the direction in which the `triangles` that fill it run."""
+    loop = hole[0]
+    sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], -1).reshape(-1, 2)
+    same = (sides == loop[:2]).all(axis=1).any()
+    return [loop if same else loop[::-1], *hole[1:]]
 
 
-def _unfolded(
-    mesh: MeshPart, found: list[Filling], made: list[Made], bare: list[Filling]
-) -> tuple[list[Filling], list[Made]]:
-    """`found`, and in the place of what folds the `bare` triangles between the vertices of the rim,
-    where these do not: only what any such triangles would have is left to fold.
+def _with_triangles(
+    mesh: MeshPart,
+    filler: _native.Filler,
+    triangulated: tuple[list[list[list[int]]], list[tuple[np.ndarray, np.ndarray]]],
+    grids: list[Filling | str],
+    wanted: Wanted,
+    watched: SeveralRuns,
+) -> list[Filling]:
+    """The fillings of all holes: `grids`, where there is one, else triangles. A grid that would have an
+    edge of another filling once more becomes a reason, and triangles.
     """
-    count = len(mesh.points)
-    chosen, made = list(found), list(made)
-    first = [np.cumsum([count] + [len(own) for own, _ in part]) for part in (found, bare)]
-    begin = first[0][:-1].tolist()
-    for k, (own, triangles) in enumerate(bare):
-        if not made[k].folds:
-            continue
-        plain = NearHole(mesh, own, triangles, int(first[1][k])).as_triangulated(True)
-        others = np.concatenate(
-            [t for row, (_, t) in enumerate(chosen) if row != k] or [triangles[:0]]
-        )
-        if not plain.folds and not _share_edges(triangles, others, count):
-            made[k], chosen[k], begin[k] = plain, (own, triangles), int(first[1][k])
-    fresh, renumbered = count, []
-    for (own, triangles), old in zip(chosen, begin, strict=True):
-        renumbered.append((own, np.where(triangles < count, triangles, triangles - old + fresh)))
-        fresh += len(own)
-    return renumbered, made
-
-
-def _share_edges(triangles: np.ndarray, others: np.ndarray, count: int) -> bool:
-    """Whether some edge between two vertices of the mesh, which has `count`, is in both."""
-    keys = []
-    for part in (triangles, others):
-        sides = np.sort(part[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
-        sides = sides[sides[:, 1] < count]
-        keys.append(sides[:, 0] * count + sides[:, 1])
-    return bool(np.isin(keys[0], keys[1]).any())
+    loops, found = triangulated
+    while True:
+        rows = [row for row, grid in enumerate(grids) if isinstance(grid, str)]
+        fillings = faired_in_rounds(mesh, filler, found, wanted, watched, rows)
+        quiet = watched.run(1.0, 1.0)
+        watchers = quiet["monitor"], quiet["progress"]
+        if wanted.density > 0.0 and any(f.made.folds for f in fillings.values()):
+            bare = filler.fill(loops, 0.0, *watchers)
+            fillings = without_folds(mesh, fillings, bare)
+        doubled = []
+        for row, grid in enumerate(grids):
+            if isinstance(grid, str):
+                continue
+            others = [f.faces for f in fillings.values()]
+            if share_edges(grid.faces, others, len(mesh.points)):
+                doubled.append(row)
+            else:
+                fillings[row] = grid
+        if not doubled:
+            return [fillings[row] for row in range(len(grids))]
+        for row in doubled:
+            grids[row] = "a grid would have an edge of another filling"
+        found = filler.fill(loops, wanted.density, *watchers)
 
 
 def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
@@ -277,38 +220,3 @@ def _around(whole: MeshPart, holes: list[list[list[int]]], rings: int) -> MeshPa
         ids = np.unique(np.concatenate([ids, whole.corners_at(faces)]))
     part = whole.part(faces)
     return part if np.isin(flat, part.vertex_ids).all() else whole
-
-
-def _said(refused: RefusedAround, hole: int) -> _native.FairingError:
-    """What fair() refused beside a hole, with the ids of the whole mesh."""
-    ids, error = refused.elements, refused.error
-    said = re.sub(r" \(\d[^)]*\)", "", str(error))
-    shown = ", ".join(map(str, ids[:_SHOWN])) + (", …" if len(ids) > _SHOWN else "")
-    where = f" ({error.kind} {shown})" if ids else ""
-    text = f"Around hole {hole}{where}: {said}"
-    return fairing_error(error.code, text, ids, error.kind if ids else "mesh")
-
-
-def _put_together(
-    mesh: MeshPart,
-    loops: list[list[np.ndarray]],
-    found: list[tuple[np.ndarray, np.ndarray]],
-    made: list[Made],
-) -> Filled:
-    count, faces = len(mesh.points), len(mesh.offsets) - 1
-    holes = []
-    vertex, face = count, faces
-    for rims, (own, triangles), by in zip(loops, found, made, strict=True):
-        more, filled = range(vertex, vertex + len(own)), range(face, face + len(triangles))
-        holes.append(FilledHole(rims, more, filled, by.energy, by.joint, by.converged, by.folds))
-        vertex, face = more.stop, filled.stop
-    vertices = np.concatenate([mesh.points, *(own for own, _ in found)])
-    new = np.concatenate([np.empty((0, 3), np.int64), *(t for _, t in found)]).astype(np.int64)
-    sizes = np.diff(mesh.offsets)
-    corners = np.concatenate([mesh.corners, new.reshape(-1)])
-    if (sizes == 3).all():
-        whole: Any = corners.reshape(-1, 3)
-    else:
-        ends = mesh.offsets[-1] + 3 * np.arange(1, len(new) + 1)
-        whole = corners, np.concatenate([mesh.offsets, ends])
-    return Filled(vertices, whole, np.arange(faces, face), holes)

@@ -44,38 +44,51 @@ class RefusedAround(Exception):
 
 class NearHole:
     """What fills one hole, and the faces around. `own` (k, 3) are its vertices, whose ids begin with
-    `first`; `triangles` (t, 3) are ids.
+    `first`; `faces` (t, 3), or (t, 4) of quads, are ids.
     """
 
-    def __init__(self, mesh: MeshPart, own: np.ndarray, triangles: np.ndarray, first: int) -> None:
-        self._mesh, self._own, self._triangles, self._first = mesh, own, triangles, first
-        self._rim = np.unique(triangles[triangles < len(mesh.points)])
-        self._beside = _SidesBehind(mesh, self._rim, triangles)
-        self.grown = 1.0  # the area of the filling, over that before it was faired
+    def __init__(self, mesh: MeshPart, own: np.ndarray, faces: np.ndarray, first: int) -> None:
+        self._mesh, self._own, self._faces, self._first = mesh, own, faces, first
+        self._rim = np.unique(faces[faces < len(mesh.points)])
+        self._beside = _SidesBehind(mesh, self._rim, faces)
 
     def faired(
-        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
-    ) -> tuple[np.ndarray, Made]:
-        """The places of its own vertices, and how these were found: by the first way that converges
-        without a fold, else by that with the fewest folds. `noisy`: whether more of the faces around
-        say how it goes on, and none of them exactly.
+        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
+    ) -> tuple[np.ndarray, Made, np.ndarray]:
+        """The places of its own vertices, how these were found, and the places to go on from on better
+        triangles: what was asked for has made them, even where it folds. `noisy`: whether more of the
+        faces around say how it goes on, and none of them exactly. `stands_in`: whether another way is
+        tried where this folds or does not converge: the first that does both, else that with the
+        fewest folds.
         """
         if not len(self._own):
-            return self._own, self.as_triangulated()
+            return self._own, self.as_triangulated(), self._own
         tries: list[tuple[np.ndarray, Made]] = []
+        onward: np.ndarray | None = None
         for functional, meeting in _ways(energy, joint):
             found = self._solved(functional, meeting, noisy, watchers)
-            if found is None:
-                continue
-            tries.append(found)
-            if found[1].converged and not found[1].folds:
+            if found is not None:
+                onward = found[0] if onward is None else onward
+                tries.append(found)
+            if not stands_in or (found and found[1].converged and not found[1].folds):
                 break
         else:
-            stands_in = joint != "position"
-            tries.append((self._own, self.as_triangulated(stands_in)))
+            tries.append((self._own, self.as_triangulated(joint != "position")))
+        if not tries:
+            tries.append((self._own, self.as_triangulated(True)))
         moved, made = min(tries, key=lambda t: (t[1].folds, not t[1].converged))
-        self.grown = self._area(moved) / self._area(self._own)
-        return moved, made
+        return moved, made, moved if onward is None else onward
+
+    def other_ways(
+        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
+    ) -> Iterator[tuple[np.ndarray, Made]]:
+        """The places of its own vertices by each way but the one that was asked for, if it is faired."""
+        for functional, meeting in list(_ways(energy, joint))[1:]:
+            found = self._solved(functional, meeting, noisy, watchers)
+            if found is not None:
+                yield found
+        if joint != "position":
+            yield self._own, self.as_triangulated(True)
 
     def as_triangulated(self, stands_in: bool = False) -> Made:
         """Not faired; `stands_in`: for a surface that was asked for."""
@@ -84,7 +97,7 @@ class NearHole:
     def _solved(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> tuple[np.ndarray, Made] | None:
-        """None where fair() refuses the triangles themselves."""
+        """None where fair() refuses the faces themselves."""
         mesh, ids, touching = self._mesh, self._rim, np.empty(0, np.int64)
         rows = [ids]
         for _ in range(NOISY_RINGS if noisy else RINGS[joint]):
@@ -95,9 +108,9 @@ class NearHole:
         if noisy:
             weights[np.isin(ids, rows[-1 - HELD_ROWS])] = NOISY_WEIGHT
         known = np.concatenate([ids, np.arange(self._first, self._first + len(self._own))])
-        corners = np.concatenate([mesh.corners_at(touching), self._triangles.ravel()])
+        corners = np.concatenate([mesh.corners_at(touching), self._faces.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
-        ends = np.cumsum(np.concatenate([[0], sizes, np.full(len(self._triangles), 3)]))
+        ends = np.cumsum(np.concatenate([[0], sizes, np.full(*self._faces.shape)]))
         try:
             result = fair(
                 np.concatenate([mesh.points[ids], self._own]),
@@ -120,30 +133,35 @@ class NearHole:
         moved = result.vertices[len(ids) : len(known)]
         return moved, Made(energy, joint, bool(levels[-1]["converged"]), self._folds(moved))
 
-    def _normals(self, own: np.ndarray) -> np.ndarray:
-        """(t, 3) of its triangles, twice as long as their areas."""
+    def corners(self, own: np.ndarray) -> np.ndarray:
+        """(t, 3 or 4, 3) of its faces, its own vertices at `own`."""
         rows = np.where(
-            self._triangles < len(self._mesh.points),
-            np.searchsorted(self._rim, self._triangles),
-            self._triangles - self._first + len(self._rim),
+            self._faces < len(self._mesh.points),
+            np.searchsorted(self._rim, self._faces),
+            self._faces - self._first + len(self._rim),
         )
-        corner = np.concatenate([self._mesh.points[self._rim], own])[rows]
-        return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        return np.concatenate([self._mesh.points[self._rim], own])[rows]
 
-    def _area(self, own: np.ndarray) -> float:
+    def _normals(self, own: np.ndarray) -> np.ndarray:
+        """(t, 3) of its faces, twice as long as their areas."""
+        corner = self.corners(own)
+        return np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
+
+    def area(self, own: np.ndarray) -> float:
+        """Of its faces."""
         return float(np.linalg.norm(self._normals(own), axis=1).sum())
 
     def _folds(self, own: np.ndarray) -> int:
-        """Edges of its triangles, the rim's included, that turn by more than a right angle."""
+        """Edges of its faces, the rim's included, that turn by more than a right angle."""
         return self._beside.folds(self._normals(own))
 
 
 class _SidesBehind:
-    """Which triangles of a filling share an edge, and what is behind the others."""
+    """Which faces of a filling share an edge, and what is behind the others."""
 
-    def __init__(self, mesh: MeshPart, rim: np.ndarray, triangles: np.ndarray) -> None:
-        sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        owner = np.repeat(np.arange(len(triangles)), 3)
+    def __init__(self, mesh: MeshPart, rim: np.ndarray, own: np.ndarray) -> None:
+        sides = np.sort(np.stack([own, np.roll(own, -1, axis=1)], -1).reshape(-1, 2), axis=1)
+        owner = np.repeat(np.arange(len(own)), own.shape[1])
         order = np.lexsort(sides.T)
         sides, owner = sides[order], owner[order]
         same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
@@ -169,7 +187,7 @@ class _SidesBehind:
         self._behind = normals[np.repeat(np.arange(len(faces)), sizes)[at]]
 
     def folds(self, normals: np.ndarray) -> int:
-        """How many edges turn by more than a right angle, of triangles with these `normals` (t, 3)."""
+        """How many edges turn by more than a right angle, of faces with these `normals` (t, 3)."""
         inside = (normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1)
         at_rim = (normals[self._at_rim] * self._behind).sum(axis=1)
         return int((inside < 0.0).sum() + (at_rim < 0.0).sum())
@@ -220,6 +238,13 @@ class MeshPart:
         marked[vertices] = True
         at = np.flatnonzero(marked[self.corners])
         return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
+
+    def corner_fans(self, faces: np.ndarray) -> np.ndarray:
+        """(t, 3) triangles of these faces: each from its first corner."""
+        starts = np.repeat(self.offsets[faces], self.offsets[faces + 1] - self.offsets[faces] - 2)
+        sizes = self.offsets[faces + 1] - self.offsets[faces] - 2
+        second = _runs(self.offsets[faces] + 1, sizes)
+        return self.corners[np.stack([starts, second, second + 1], axis=1)]
 
     def corners_at(self, faces: np.ndarray) -> np.ndarray:
         """All corners of these faces, face after face."""

@@ -192,8 +192,16 @@ class OneHole {
   std::set<std::pair<Index, Index>> bridges_;
 };
 
-// With its own vertices numbered on from `first`; its edges between vertices of rims are noted.
-FilledHole numbered(const Patch& patch, const OneHole& hole, std::int64_t first, Rims& rims) {
+// The edges of `triangles` between two ids below `end`, each in every triangle that has it.
+template <class Use>
+void between(const std::vector<Triangle>& triangles, std::int64_t end, const Use& use) {
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (t[i] < end && t[(i + 1) % 3] < end) use(t[i], t[(i + 1) % 3]);
+}
+
+// With its own vertices numbered on from `first`.
+FilledHole numbered(const Patch& patch, const OneHole& hole, std::int64_t first) {
   FilledHole filled;
   const auto rim = std::size_t(patch.rim);
   filled.points.assign(patch.points.begin() + patch.rim, patch.points.end());
@@ -204,13 +212,8 @@ FilledHole numbered(const Patch& patch, const OneHole& hole, std::int64_t first,
   };
   if (first + std::int64_t(filled.points.size()) > std::numeric_limits<Index>::max())
     throw FairingError(ErrorCode::too_large, "The mesh would have too many vertices.");
-  for (const Triangle& t : patch.triangles) {
+  for (const Triangle& t : patch.triangles)
     filled.triangles.push_back({Index(id(t[0])), Index(id(t[1])), Index(id(t[2]))});
-    for (int i = 0; i < 3; ++i) {
-      const Index a = t[std::size_t(i)], b = t[std::size_t((i + 1) % 3)];
-      if (a < patch.rim && b < patch.rim) rims.join(id(a), id(b));
-    }
-  }
   return filled;
 }
 
@@ -232,16 +235,21 @@ std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edge
     Patch patch = one.rim(options.density);
     one.triangulate_into(patch);
     refine_patch(patch, one, options, Relaxation::taut);
-    filled.push_back(numbered(patch, one, next, rims));
+    filled.push_back(numbered(patch, one, next));
+    between(filled.back().triangles, mesh.vertex_count(), [&](auto a, auto b) { rims.join(a, b); });
     next += std::int64_t(filled.back().points.size());
   }
   return filled;
 }
 
 void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
-                  const FillOptions& options, std::vector<FilledHole>& filled) {
+                  const FillOptions& options, std::span<const std::uint8_t> chosen,
+                  std::vector<FilledHole>& filled) {
   Rims rims(mesh, half_edges, holes);
-  std::int64_t before = mesh.vertex_count(), next = before;
+  const std::int64_t count = mesh.vertex_count();
+  for (const FilledHole& hole : filled)
+    between(hole.triangles, count, [&](auto a, auto b) { rims.join(a, b); });
+  std::int64_t before = count, next = count;
   for (std::size_t h = 0; h < holes.size(); ++h) {
     OneHole one(holes[h], rims);
     Patch patch = one.rim(options.density);
@@ -252,13 +260,16 @@ void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::spa
     for (const Triangle& t : filled[h].triangles) {
       Triangle local;
       for (std::size_t i = 0; i < 3; ++i)
-        local[i] = t[i] < mesh.vertex_count() ? own.at(t[i])
-                                              : Index(patch.rim + (std::int64_t(t[i]) - before));
+        local[i] = t[i] < count ? own.at(t[i]) : Index(patch.rim + (std::int64_t(t[i]) - before));
       patch.triangles.push_back(local);
     }
     before += std::int64_t(filled[h].points.size());
-    refine_patch(patch, one, options, Relaxation::sliding);
-    filled[h] = numbered(patch, one, next, rims);
+    if (chosen[h]) {
+      between(filled[h].triangles, count, [&](auto a, auto b) { rims.part(a, b); });
+      refine_patch(patch, one, options, Relaxation::sliding);
+    }
+    filled[h] = numbered(patch, one, next);
+    between(filled[h].triangles, count, [&](auto a, auto b) { rims.join(a, b); });
     next += std::int64_t(filled[h].points.size());
   }
 }

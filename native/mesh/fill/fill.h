@@ -4,6 +4,7 @@
 // All functions here may throw FairingError(cancelled) and std::bad_alloc.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,8 +40,10 @@ std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_e
 std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edges,
                              std::span<const Hole> holes, const FillOptions& options);
 
-// The same filling, whose vertices have been moved, with triangles that fit its new shape.
+// The same fillings, of which the vertices of those `chosen` (one flag for each hole) have been moved:
+// these get triangles that fit their new shape. All vertices are numbered anew.
 void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
-                  const FillOptions& options, std::vector<FilledHole>& filled);
+                  const FillOptions& options, std::span<const std::uint8_t> chosen,
+                  std::vector<FilledHole>& filled);
 
 }  // namespace fairing

@@ -18,8 +18,13 @@ class Rims {
   Vec3 point(std::int64_t v) const;
 
   // Whether an edge joins two vertices of rims, in the mesh or in what has been filled.
-  bool are_joined(std::int64_t a, std::int64_t b) const { return edges_.contains(key(a, b)); }
-  void join(std::int64_t a, std::int64_t b) { edges_.insert(key(a, b)); }
+  bool are_joined(std::int64_t a, std::int64_t b) const {
+    return edges_.contains(key(a, b)) || filled_.contains(key(a, b));
+  }
+
+  // Notes an edge of a filling, or that it is gone.
+  void join(std::int64_t a, std::int64_t b) { filled_.insert(key(a, b)); }
+  void part(std::int64_t a, std::int64_t b) { filled_.erase(key(a, b)); }
 
   // Whether a face has the side from a to b, and it is on the border.
   bool is_border(std::int64_t a, std::int64_t b) const { return border_.contains(side(a, b)); }
@@ -39,7 +44,7 @@ class Rims {
 
   const PolygonMesh& mesh_;
   std::unordered_map<std::uint64_t, std::int32_t> border_;  // to the face
-  std::unordered_set<std::uint64_t> edges_;
+  std::unordered_set<std::uint64_t> edges_, filled_;        // of the mesh, of fillings
 };
 
 }  // namespace fairing

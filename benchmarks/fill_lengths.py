@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How long the triangles of a ragged hole take against its length, and what all of the filling takes."""
+
+from time import process_time
+from typing import Any
+
+import discrete_fairing as df
+import fill_shapes
+import numpy as np
+import table
+
+# as near to which as a hole comes: those of the ragged holes of scans, and ten times more
+EDGES = (50, 100, 200, 500, 1000, 2000, 5000)
+FILLED = 1000  # edges up to which the hole is filled and faired, too: then 20,000 faces
+WAVES = 400  # along the rim of a ragged hole, whose radius is between 0.4 and 1 of the largest
+
+
+def ragged_hole(edges: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points and triangles around a hole in a wavy sheet, and the loop, of about so many edges."""
+    low, high = 4, 8
+    while len(_cut(high)[2]) < edges:  # the length grows with the number of cells
+        low, high = high, 2 * high
+    while high - low > 1:
+        cells = (low + high) // 2
+        if len(_cut(cells)[2]) < edges:
+            low = cells
+        else:
+            high = cells
+    return _cut(high)
+
+
+def _cut(radius: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A hole of so many cells' radius in a lattice, with its loop."""
+    n = 2 * radius + 9
+    line = (np.arange(n) - (n - 1) / 2) / radius
+    x, y = np.meshgrid(line, line, indexing="ij")
+    points = np.stack([x, y, 0.3 * np.sin(2 * x) * np.cos(1.5 * y)], -1).reshape(-1, 3)
+    faces = fill_shapes.lattice(n, n, (False, False))
+    centre = points[faces].mean(axis=1)
+    angle = np.arctan2(centre[:, 1], centre[:, 0])
+    random = np.random.default_rng(0)
+    lengths = random.uniform(0.4, 1.0, min(WAVES, 3 * radius))
+    place = (angle / (2 * np.pi) + 0.5) * len(lengths)
+    gone = np.hypot(centre[:, 0], centre[:, 1]) < lengths[place.astype(int) % len(lengths)]
+    used, kept = np.unique(faces[~gone], return_inverse=True)
+    points, faces = points[used], kept.reshape(-1, 3)
+    inner = [h for h in df.find_holes(points, faces) if abs(points[h]).max() < line[-2]]
+    return points, faces, max(inner, key=len)
+
+
+def run(edges: tuple[int, ...] = EDGES) -> dict[str, Any]:
+    result: dict[str, Any] = {}
+    for wanted in edges:
+        points, faces, loop = ragged_hole(wanted)
+        begun = process_time()
+        bare = df.fill_holes(points, faces, holes=[loop], joint="position", density=0)
+        entry: dict[str, Any] = {
+            "triangulated": process_time() - begun,
+            "folds of these": bare.holes[0].folds,
+        }
+        if len(loop) <= 1.1 * FILLED:
+            begun = process_time()
+            filled = df.fill_holes(points, faces, holes=[loop])
+            (hole,) = filled.holes
+            entry |= {"filled": process_time() - begun, "faces": len(hole.faces)}
+            entry |= {"folds": hole.folds, "energy": hole.energy}
+        result[str(len(loop))] = entry
+        print(len(loop), entry, flush=True)
+    heads = ["triangulated", "folds of these", "filled", "faces", "folds"]
+    rows = [[length, *(entry.get(h, "–") for h in heads)] for length, entry in result.items()]
+    table.show(
+        "Ragged holes by the edges around, seconds of the processor", ["edges", *heads], rows
+    )
+    return result
+
+
+if __name__ == "__main__":
+    run()

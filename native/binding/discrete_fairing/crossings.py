@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fillings that pass through the mesh, through each other or through themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from . import _native
+from .near_hole import MeshPart, NearHole
+from .rounds import Filling, Wanted, numbered_on, share_edges
+from .watching import SeveralRuns
+
+
+def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> list[Filling]:
+    """With the ids of the whole mesh, of which `part` has the rims; new ids follow on one another."""
+    numbered = numbered_on(fillings, len(part.points))
+    fresh = len(whole.points) + np.arange(sum(len(f.own) for f in numbered))
+    places = np.concatenate([part.vertex_ids, fresh])
+    shift = len(whole.points) - len(part.points)
+    return [Filling(f.own, places[f.faces], f.first + shift, f.made) for f in numbered]
+
+
+def crossing_faces(whole: MeshPart, fillings: Sequence[Filling], watched: SeveralRuns) -> list[int]:
+    """How many faces of each filling, with ids as in_whole() has them, pass through a face of the mesh
+    or of a filling. Faces that share a vertex, or lie in one plane, do not.
+    """
+    points = np.concatenate([whole.points, *(f.own for f in fillings)])
+    split = [_split(f.faces) for f in fillings]
+    new = np.concatenate(split)
+    around = points[np.unique(new)]
+    near = whole.corner_fans(_overlapping(whole, around.min(axis=0), around.max(axis=0)))
+    quiet = watched.run(1.0, 1.0)
+    found = _native._crossings(
+        points,
+        np.concatenate([near, new]).astype(np.int32),
+        len(near),
+        quiet["monitor"],
+        quiet["progress"],
+    )
+    faces = [
+        np.arange(len(s)) // (f.faces.shape[1] - 2) for s, f in zip(split, fillings, strict=True)
+    ]
+    ends = np.cumsum([len(near), *map(len, split)])
+    return [
+        len(np.unique(of_face[found[(found >= a) & (found < b)] - a]))
+        for of_face, a, b in zip(faces, ends[:-1], ends[1:], strict=True)
+    ]
+
+
+def _split(faces: np.ndarray) -> np.ndarray:
+    """(t, 3) triangles of (f, 3) or of (f, 4), in their order."""
+    corners = [[0, k, k + 1] for k in range(1, faces.shape[1] - 1)]
+    return faces[:, corners].reshape(-1, 3)
+
+
+def _overlapping(mesh: MeshPart, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Ids of the faces that are not all on one side of a box."""
+    sides = np.concatenate([mesh.points < low, mesh.points > high], axis=1)
+    beyond = np.packbits(sides, axis=1)[:, 0]
+    all_beyond = np.bitwise_and.reduceat(beyond[mesh.corners], mesh.offsets[:-1])
+    return np.flatnonzero(all_beyond == 0)
+
+
+def with_less_crossing(
+    whole: MeshPart,
+    part: MeshPart,
+    triangulated: Sequence[tuple[np.ndarray, np.ndarray]],
+    fillings: Sequence[Filling],
+    wanted: Wanted,
+    watched: SeveralRuns,
+) -> tuple[list[Filling], list[int]]:
+    """`fillings`, with ids of `part`, and how many faces of each cross. In the place of what crosses the
+    first other way that crosses and folds less: flatter ones, on the triangles of the first round.
+    """
+    chosen = list(fillings)
+
+    def crossing() -> list[int]:
+        return crossing_faces(whole, in_whole(whole, part, chosen), watched)
+
+    counts = crossing() if chosen else []
+    first = len(part.points)
+    for row, (own, triangles) in enumerate(triangulated):
+        others = [f.faces for k, f in enumerate(chosen) if k != row]
+        if (
+            counts[row]
+            and chosen[row].faces.shape[1] == 3
+            and not share_edges(triangles, others, len(part.points))
+        ):
+            near = NearHole(part, own, triangles, first)
+            for moved, made in near.other_ways(
+                wanted.energy, wanted.joint, wanted.noisy, watched.run(1.0, 1.0)
+            ):
+                before, was = chosen[row], counts
+                chosen[row] = Filling(moved, triangles, first, made)
+                counts = crossing()
+                if counts[row] + made.folds >= was[row] + before.made.folds:
+                    chosen[row], counts = before, was
+                elif not counts[row]:
+                    break
+        first += len(own)
+    return chosen, counts

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What fills holes, faired in rounds: the triangles of each fit the shape that the one before has made."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native
+from .errors import fairing_error
+from .near_hole import Made, MeshPart, NearHole, RefusedAround
+from .watching import SeveralRuns
+
+# A filling is remeshed where fairing has made its area so many times as large: up to there its edges
+# are within a tenth of the length wanted, and to fair it twice only costs as much again.
+_GROWN = 1.2
+
+# The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
+# the density wanted, and is faired again. Where the flat filling folds at a ragged rim, the steps of
+# an energy end early, in triangles that are stretched too far; on new ones they go on. Of 20 such
+# fillings of a torus and of machine parts 5 unfold in the second round, 3 in the third, none later;
+# some still fold less in the fifth.
+_MOST_ROUNDS = 5
+
+# Nine tenths of a sphere have 20 times the area of its flat filling: steps that make more have gone
+# astray.
+_MOST_GROWN = 20.0
+
+_SHOWN = 8  # ids that a message lists
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """How holes shall be filled: as the arguments of fill_holes() have it."""
+
+    energy: str
+    joint: str
+    noisy: bool
+    density: float
+
+
+@dataclass(frozen=True, slots=True)
+class Filling:
+    """Of one hole: its own vertices (k, 3), whose ids begin with `first`; faces (t, 3 or 4) of ids."""
+
+    own: np.ndarray
+    faces: np.ndarray
+    first: int
+    made: Made
+
+
+def faired_in_rounds(
+    mesh: MeshPart,
+    filler: _native.Filler,
+    found: list[tuple[np.ndarray, np.ndarray]],
+    wanted: Wanted,
+    watched: SeveralRuns,
+    rows: list[int],
+) -> dict[int, Filling]:
+    """The best that each of the holes `rows` got. `found`: of all holes the own vertices and triangles,
+    as `filler` has them.
+    """
+    best: dict[int, Filling] = {}
+    last: dict[int, Filling] = {}
+    flat = [0.0] * len(found)  # area of each before it was faired
+    for turn in range(_MOST_ROUNDS):
+        shares = 1.0 - 0.9 * np.linspace(0.5**turn, 0.5 ** (turn + 1), len(rows) + 1)
+        first, left, onward = len(mesh.points), [], [own for own, _ in found]
+        for row, (own, triangles) in enumerate(found):
+            if row in rows:
+                near = NearHole(mesh, own, triangles, first)
+                at = rows.index(row)
+                run = watched.run(*shares[at : at + 2].tolist())
+                try:
+                    moved, made, onward[row] = near.faired(
+                        wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
+                    )
+                except RefusedAround as refused:
+                    raise _said(refused, row) from refused
+                filling = Filling(moved, triangles, first, made)
+                if turn == 0:
+                    flat[row] = near.area(own)
+                last[row] = filling
+                if _rank(made, wanted) <= _rank(best.get(row, filling).made, wanted):
+                    best[row] = filling
+                area = near.area(onward[row])
+                more = _rank(made, wanted) > _BEST or (turn == 0 and area > _GROWN * flat[row])
+                if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
+                    left.append(row)
+            first += len(own)
+        rows = left
+        if not rows or turn + 1 == _MOST_ROUNDS:
+            break
+        quiet = watched.run(float(shares[-1]), float(shares[-1]))
+        found = filler.refine(np.concatenate(onward), rows, quiet["monitor"], quiet["progress"])
+    return _apart(last, best, len(mesh.points))
+
+
+def _apart(last: dict[int, Filling], best: dict[int, Filling], count: int) -> dict[int, Filling]:
+    """The best of each hole; the last of one that would have an edge between vertices of the mesh, which
+    has `count`, that another has: those of the last round have none.
+    """
+    chosen = dict(last)
+    for row, filling in best.items():
+        others = [f.faces for k, f in chosen.items() if k != row]
+        if filling is not last[row] and not share_edges(filling.faces, others, count):
+            chosen[row] = filling
+    return chosen
+
+
+_BEST = (0, False, False)
+
+
+def _rank(made: Made, wanted: Wanted) -> tuple[int, bool, bool]:
+    """The less the better."""
+    return made.folds, not made.converged, made.energy != wanted.energy
+
+
+def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
+    return len(own) > 0 and wanted.density > 0.0 and wanted.joint != "position"
+
+
+def _said(refused: RefusedAround, hole: int) -> _native.FairingError:
+    """What fair() refused beside a hole, with the ids of the whole mesh."""
+    ids, error = refused.elements, refused.error
+    said = re.sub(r" \(\d[^)]*\)", "", str(error))
+    shown = ", ".join(map(str, ids[:_SHOWN])) + (", …" if len(ids) > _SHOWN else "")
+    where = f" ({error.kind} {shown})" if ids else ""
+    text = f"Around hole {hole}{where}: {said}"
+    return fairing_error(error.code, text, ids, error.kind if ids else "mesh")
+
+
+def without_folds(
+    mesh: MeshPart, fillings: dict[int, Filling], bare: list[tuple[np.ndarray, np.ndarray]]
+) -> dict[int, Filling]:
+    """`fillings`, and in the place of what folds the `bare` triangles between the vertices of the rim,
+    where these do not: only what any such triangles would have is left to fold.
+    """
+    count = len(mesh.points)
+    chosen = dict(fillings)
+    first = count
+    for k, (own, triangles) in enumerate(bare):
+        if k in chosen and chosen[k].made.folds:
+            plain = NearHole(mesh, own, triangles, first).as_triangulated(True)
+            others = [f.faces for row, f in chosen.items() if row != k]
+            if not plain.folds and not share_edges(triangles, others, count):
+                chosen[k] = Filling(own, triangles, first, plain)
+        first += len(own)
+    return chosen
+
+
+def numbered_on(fillings: Sequence[Filling], count: int) -> list[Filling]:
+    """The same, whose own vertices follow on one another from `count` on."""
+    fresh, found = count, []
+    for f in fillings:
+        faces = np.where(f.faces < count, f.faces, f.faces - f.first + fresh)
+        found.append(Filling(f.own, faces, fresh, f.made))
+        fresh += len(f.own)
+    return found
+
+
+def share_edges(faces: np.ndarray, others: Sequence[np.ndarray], count: int) -> bool:
+    """Whether some edge between two vertices of the mesh, which has `count`, is in both."""
+    keys = _keys(faces, count)
+    return any(np.isin(keys, _keys(other, count)).any() for other in others)
+
+
+def _keys(faces: np.ndarray, count: int) -> np.ndarray:
+    """A number for each side between two vertices of the mesh."""
+    sides = np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2).astype(np.int64)
+    sides = np.sort(sides[sides.max(axis=1) < count], axis=1)
+    return sides[:, 0] * count + sides[:, 1]

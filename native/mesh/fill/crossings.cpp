@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/fill/crossings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Side of a cell, in mean extents of the triangles in question; and how many along an axis at most.
+constexpr double cell_size = 2.0, most_cells = 64.0;
+
+// Barycentric, and a share of the segment: what is closer to a side than that only touches.
+constexpr double touching = 1e-9;
+
+using Box = Eigen::AlignedBox3d;
+
+class Cells {
+ public:
+  Cells(std::span<const Vec3> points, std::span<const Triangle> triangles, std::size_t first)
+      : points_(points), triangles_(triangles), first_(first) {
+    double extent = 0;
+    for (std::size_t t = first; t < triangles.size(); ++t) {
+      const Box box = box_of(t);
+      whole_.extend(box);
+      extent += box.sizes().maxCoeff() / double(triangles.size() - first);
+    }
+    size_ = std::max(cell_size * extent, whole_.sizes().maxCoeff() / most_cells);
+    if (size_ > 0)
+      for (std::size_t t = first; t < triangles.size(); ++t)
+        each_cell(box_of(t), [&](std::int64_t cell) { inside_[cell].push_back(t); });
+  }
+
+  std::vector<std::size_t> crossing() const {
+    std::vector<std::uint8_t> found(triangles_.size(), 0);
+    for (std::size_t t = 0; t < triangles_.size() && !inside_.empty(); ++t) {
+      stop_if_cancelled(t);
+      const Box box = box_of(t).intersection(whole_);
+      if (box.isEmpty()) continue;
+      const auto look_at = [&](std::size_t other) {
+        if (other != t && !(found[t] && found[other]) && meet(t, other))
+          found[t] = found[other] = 1;
+      };
+      if (cells_in(box) > double(triangles_.size() - first_)) {  // a large one, among small
+        for (std::size_t other = first_; other < triangles_.size(); ++other) look_at(other);
+        continue;
+      }
+      each_cell(box, [&](std::int64_t cell) {
+        const auto at = inside_.find(cell);
+        if (at != inside_.end())
+          for (const std::size_t other : at->second) look_at(other);
+      });
+    }
+    std::vector<std::size_t> numbers;
+    for (std::size_t t = first_; t < triangles_.size(); ++t)
+      if (found[t]) numbers.push_back(t);
+    return numbers;
+  }
+
+ private:
+  const Vec3& corner(std::size_t t, std::size_t i) const {
+    return points_[std::size_t(triangles_[t][i])];
+  }
+
+  Box box_of(std::size_t t) const {
+    Box box(corner(t, 0));
+    return box.extend(corner(t, 1)).extend(corner(t, 2));
+  }
+
+  double cells_in(const Box& box) const { return (box.sizes().array() / size_ + 1).prod(); }
+
+  template <class Use>
+  void each_cell(const Box& box, const Use& use) const {
+    const auto place = [&](const Vec3& p) {
+      return ((p - whole_.min()) / size_).array().floor().cast<std::int64_t>().eval();
+    };
+    const auto low = place(box.min()), high = place(box.max());
+    for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t z = low[2]; z <= high[2]; ++z) use(x << 42 | y << 21 | z);
+  }
+
+  bool meet(std::size_t a, std::size_t b) const {
+    for (const Index v : triangles_[a])
+      if (std::find(triangles_[b].begin(), triangles_[b].end(), v) != triangles_[b].end())
+        return false;
+    if (!box_of(a).intersects(box_of(b))) return false;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (passes(corner(a, i), corner(a, (i + 1) % 3), b) ||
+          passes(corner(b, i), corner(b, (i + 1) % 3), a))
+        return true;
+    return false;
+  }
+
+  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997].
+  bool passes(const Vec3& from, const Vec3& to, std::size_t t) const {
+    const Vec3 way = to - from, u = corner(t, 1) - corner(t, 0), v = corner(t, 2) - corner(t, 0);
+    const Vec3 across = way.cross(v);
+    const double determinant = u.dot(across);
+    if (std::abs(determinant) <= touching * u.norm() * v.norm() * way.norm()) return false;
+    const Vec3 offset = from - corner(t, 0), turned = offset.cross(u);
+    const double first = offset.dot(across) / determinant, second = way.dot(turned) / determinant;
+    const double along = v.dot(turned) / determinant;
+    return std::min({first, second, 1 - first - second, along, 1 - along}) > touching;
+  }
+
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
+  std::size_t first_;
+  Box whole_;
+  double size_ = 0;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> inside_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> crossing(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                  std::size_t first) {
+  return Cells(points, triangles, first).crossing();
+}
+
+}  // namespace fairing

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fill Hole Fair makes grids of quads, in Object Mode, in Edit Mode and beside shape keys."""
+
+import bpy
+import numpy as np
+import pytest
+from hole_scenes import borders, edit, is_closed
+from scenes import activate, add, positions
+
+from addon.transfer.hole_loops import around
+
+
+def tube(chosen):
+    """A closed ring of quads with the radius 1 in the middle of its tube of 0.5, without those whose
+    angle around and angle along the tube are `chosen`.
+    """
+    n, m = 48, 24
+    a, b = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
+    away = 1 + 0.5 * np.cos(b)
+    points = np.stack([away * np.cos(a), away * np.sin(a), 0.5 * np.sin(b)], -1).reshape(-1, 3)
+    at = np.arange(n * m).reshape(n, m)
+    right, up = np.roll(at, -1, axis=0), np.roll(at, -1, axis=1)
+    quads = np.stack([at, right, np.roll(right, -1, axis=1), up], -1).reshape(-1, 4)
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    return add("Ring", points, quads[~chosen(i, j).ravel()].tolist())
+
+
+def off(target):
+    x, y, z = positions(target.data).T
+    return abs(np.hypot(np.hypot(x, y) - 1, z) - 0.5).max()
+
+
+def rectangle(i, j):
+    return (i >= 3) & (i < 9) & (j >= 2) & (j < 6)
+
+
+@pytest.mark.parametrize("way", ["append", "keys", "edit"])
+def test_a_rectangle_of_quads_comes_back(way):
+    target = tube(rectangle)
+    activate(target)
+    target.data.uv_layers.new()
+    if way == "keys":
+        target.shape_key_add(name="Basis")
+    if way == "edit":
+        edit(target, "EDGE", borders(target)[:1])
+    count = len(target.data.polygons)
+    assert bpy.ops.object.fairing_fill(quads=True) == {"FINISHED"}
+    if way == "edit":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert {len(face.vertices) for face in target.data.polygons} == {4}
+    assert len(target.data.polygons) == count + 24
+    assert is_closed(target.data) and not target.data.validate()
+    assert off(target) < 0.005
+    assert sum(face.select for face in target.data.polygons) == 24
+
+
+def test_a_grid_beside_triangles():
+    """Of two holes one has no grid: both kinds of faces are appended."""
+    target = tube(lambda i, j: rectangle(i, j) | ((i - 30) ** 2 + (j - 14) ** 2 < 12))
+    activate(target)
+    assert bpy.ops.object.fairing_fill(quads=True) == {"FINISHED"}
+    assert {len(face.vertices) for face in target.data.polygons} == {3, 4}
+    assert is_closed(target.data) and not target.data.validate()
+    assert off(target) < 0.02
+
+
+def test_what_a_filling_may_pass_through_is_read():
+    """A far face is not; one over the hole, which no edge joins to it, is."""
+    from addon import core
+
+    points = np.array(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, -1, 0], [2, -1, 0], [2, 2, 0], [-1, 2, 0]]
+        + [[0, 0, 0.4], [1, 0, 0.4], [0, 1, 0.4], [90, 0, 0], [91, 0, 0], [90, 1, 0]],
+        float,
+    )
+    faces = [[4, 5, 1, 0], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3], [8, 9, 10], [11, 12, 13]]
+    target = add("Frame", points, faces)
+    from addon.mesh.read import read_mesh
+
+    arrays: core.ControlArrays = read_mesh(target.data)
+    part = around(arrays, points, np.zeros(6, bool), [[[0, 3, 2, 1]]])
+    assert sorted(part.vertices.tolist()) == list(range(11))

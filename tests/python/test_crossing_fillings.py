@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fillings that would pass through the mesh, or through each other."""
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from discrete_fairing import crossings
+
+
+def half_ball(centre, n=24, rings=10):
+    """The lower half of a sphere with the radius 1, in triangles."""
+    down = np.linspace(np.pi / 2, np.pi, rings + 1)[:-1]
+    around = np.linspace(0, 2 * np.pi, n, endpoint=False)
+    d, a = np.meshgrid(down, around, indexing="ij")
+    points = np.stack([np.sin(d) * np.cos(a), np.sin(d) * np.sin(a), np.cos(d)], -1).reshape(-1, 3)
+    at = np.arange(rings * n).reshape(rings, n)
+    right = np.roll(at, -1, axis=1)
+    cells = np.stack([at[:-1], at[1:], right[1:], right[:-1]], -1).reshape(-1, 4)
+    pole = np.stack([at[-1], np.full(n, rings * n), right[-1]], -1)
+    faces = np.concatenate([cells[:, :3], cells[:, [0, 2, 3]], pole])
+    return np.concatenate([points, [[0, 0, -1]]]) + centre, faces
+
+
+def with_square(height):
+    """Half a sphere, whose rim is at 0, and a square above it; and the hole."""
+    points, faces = half_ball([0, 0, 0])
+    square = np.array([[-3, -3, height], [3, -3, height], [3, 3, height], [-3, 3, height]])
+    count = len(points)
+    beside = [[count, count + 1, count + 2], [count, count + 2, count + 3]]
+    return np.concatenate([points, square]), np.concatenate([faces, beside]), np.arange(24)
+
+
+def test_nothing_in_the_way():
+    points, faces, hole = with_square(1.5)
+    (report,) = df.fill_holes(points, faces, holes=[hole]).holes
+    assert (report.energy, report.crossings) == ("total_curvature", 0)
+
+
+def test_a_flatter_filling_stays_below_what_is_in_the_way():
+    """Total curvature would make a dome of height 1, the thin plate is lower."""
+    points, faces, hole = with_square(0.8)
+    filled = df.fill_holes(points, faces, holes=[hole])
+    (report,) = filled.holes
+    assert report.energy == "thin_plate" and report.crossings == 0 and report.folds == 0
+    assert 0 < filled.vertices[len(points) :, 2].max() < 0.8
+
+
+def test_what_crosses_all_the_same_is_told():
+    """A needle through the middle of the hole."""
+    points, faces, hole = with_square(1.5)
+    needle = np.array([[0.1, 0, -0.5], [0.1, 0, 1.4], [0.12, 0.02, 1.4]])
+    faces = np.concatenate([faces, [len(points) + np.arange(3)]])
+    points = np.concatenate([points, needle])
+    (report,) = df.fill_holes(points, faces, holes=[hole]).holes
+    assert report.crossings > 0
+
+
+def test_two_fillings_do_not_cross():
+    """Two halves of spheres, mouth to mouth, nearer than twice their radius: one gives way."""
+    points, faces = half_ball([0, 0, 0])
+    other = points * [1, 1, -1] + [0, 0, 1.7]
+    both = np.concatenate([points, other])
+    all_faces = np.concatenate([faces, faces[:, ::-1] + len(points)])
+    holes = df.find_holes(both, all_faces)
+    assert len(holes) == 2
+    filled = df.fill_holes(both, all_faces)
+    assert [hole.crossings for hole in filled.holes] == [0, 0]
+    assert {hole.energy for hole in filled.holes} == {"total_curvature", "thin_plate"}
+
+
+def test_the_count_is_that_of_the_definition():
+    """Against all pairs of triangles, at random."""
+    random = np.random.default_rng(3)
+    corner = random.uniform(0, 1, (80, 1, 3)) + random.uniform(-0.15, 0.15, (80, 3, 3))
+    points, triangles = corner.reshape(-1, 3), np.arange(240, dtype=np.int32).reshape(-1, 3)
+    expected = set()
+    for a in range(80):
+        for b in range(80):
+            for k in range(3):
+                if a != b and pierced(corner[a, k], corner[a, (k + 1) % 3], corner[b]):
+                    expected |= {a, b}
+    assert 10 < len(expected) < 70
+    native = crossings._native
+    for first in (0, 30):
+        found = native._crossings(points, triangles, first, native.Monitor(), None)
+        pairs = {
+            t
+            for a in range(first, 80)
+            for b in range(80)
+            if a != b and meet(corner[a], corner[b])
+            for t in (a, b)
+            if t >= first
+        }
+        assert found.tolist() == sorted(pairs)
+
+
+def meet(one, other):
+    return any(
+        pierced(p[k], p[(k + 1) % 3], q) for p, q in ((one, other), (other, one)) for k in range(3)
+    )
+
+
+def pierced(start, end, triangle):
+    """Whether the ends lie on both sides of a triangle, which their line passes, by volumes."""
+
+    def volume(p, q, r, s):
+        return np.linalg.det([q - p, r - p, s - p])
+
+    a, b, c = triangle
+    if volume(a, b, c, start) * volume(a, b, c, end) >= 0:
+        return False
+    turns = [volume(start, end, *pair) > 0 for pair in ((a, b), (b, c), (c, a))]
+    return all(turns) or not any(turns)
+
+
+@pytest.mark.parametrize("size", [4, 5])
+def test_polygons_around_count_as_their_fans(size):
+    points, faces, hole = with_square(0.5)
+    count = len(points) - 4
+    polygon = list(range(count, count + 4)) + ([len(points)] if size == 5 else [])
+    points = np.concatenate([points, [[-3.5, 0, 0.5]]])[: len(points) + (size == 5)]
+    mixed = [*faces[:-2].tolist(), polygon]
+    filled = df.fill_holes(points, mixed, holes=[hole])
+    assert filled.holes[0].crossings == 0
+    assert filled.vertices[len(points) :, 2].max() < 0.5
