@@ -73,10 +73,10 @@ def write_whole(path: Path, write: Callable[[str], None]) -> None:
         write(str(path))
 
 
-def write_text(path: str, text: str) -> None:
-    """For the report."""
+def write_text(path: str, text: str, newline: str | None = None) -> None:
+    """For the report, and tables. `newline`: as of open()."""
     with _explained(path), _whole_files().whole_file(path) as part:
-        part.write_text(text, encoding="utf-8")
+        part.write_text(text, encoding="utf-8", newline=newline)
 
 
 class _NotWritten(Exception):

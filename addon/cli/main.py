@@ -19,7 +19,7 @@ from ..blender import Mesh, Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import engines, fill, report, step
+from . import ease, engines, fill, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -49,6 +49,8 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
     try:
         settings = settings_of(arguments)
         ways = places(arguments.inputs, arguments.output, arguments.format)
+        arguments.prepared = ease.wanted_of(arguments, ways)
+        arguments.tables = dict(zip(ways, arguments.prepared.tables or ()))
         ways = ways[arguments.only] if arguments.only else ways
         if arguments.scheduler is not None and arguments.jobs > 1:
             raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
@@ -67,7 +69,9 @@ def _run_all(
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
-    told = shown(settings) if arguments.holes is None else fill.shown(arguments.holes)
+    told = shown(settings) | ease.shown(arguments.prepared)
+    if arguments.holes is not None:
+        told = fill.shown(arguments.holes)
     records = [report.new_record(way, told) for way in ways]
     table = _Table(arguments, ways, records, settings.energy)
     spread = engines.is_spread(arguments)
@@ -151,6 +155,7 @@ def _run_shares(
                 _say(f"error: {record['error']['message']}")
             for entry in record["objects"] if table.is_wanted else ():
                 _say_mended(record["input"], entry["report"].get("repairs"))
+                _say_eased(record["input"], entry)
             for warning in record["warnings"]:
                 _say(f"{record['input']}: warning: {warning}")
             table.line(index)
@@ -162,14 +167,20 @@ def _say_mended(name: object, repairs: Any) -> None:
         _say(f"{name}: mended: {mended}")
 
 
+def _say_eased(name: object, entry: dict[str, Any]) -> None:
+    if "eased" in entry:
+        _say(f"{name}: {entry['name']}: {entry['eased']['said']}")
+
+
 def _run_one(
     way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
 ) -> None:
     """Fairs one file, and notes in its record how that went."""
     start = time.perf_counter()
     try:
-        if arguments.overwrite is False and is_there(way.target):
-            raise FileError("EXISTS", f"{way.target} exists, and is kept.")
+        for path in (way.target, arguments.tables.get(way)):
+            if arguments.overwrite is False and path is not None and is_there(path):
+                raise FileError("EXISTS", f"{path} exists, and is kept.")
         if arguments.holes is None:
             _fair_file(way, record, arguments, settings)
         else:
@@ -192,37 +203,47 @@ def _fair_file(
     way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
 ) -> None:
     sources = read_file(way.source, arguments.merge)
-    progress = Progress(sys.stderr, str(way.source), len(sources))
+    prepared = arguments.prepared
+    ease.require_one(sources, prepared)
+    progress = Progress(sys.stderr, str(way.source), len(sources) * (1 + prepared.runs))
+    watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     patches = arguments.patches if is_cad(way.target) else None
-    jobs = [_job(source, settings, patches) for source in sources]
     is_read = not arguments.quiet or arguments.json is not None
+    asked = {
+        name: value
+        for name in ("weld", "threads")
+        if (value := getattr(arguments, name)) is not None
+    }
     try:
+        preparing = ease.Preparing(prepared, settings, asked)
+        entries, tables = preparing.run(sources, progress.next_run, **watchers)
+        jobs = [_job(source, settings, patches) for source in sources]
         for job in jobs:
             # the table and the report have energies
-            job.arguments["measure"] = is_read and patches is None
-            if arguments.weld is not None:
-                job.arguments["weld"] = arguments.weld
-            if arguments.threads is not None:
-                job.arguments["threads"] = arguments.threads
+            job.arguments |= asked | {"measure": is_read and patches is None}
             job.pieces, job.spread = arguments.pieces, arguments.spread
-            job.compute(**{} if arguments.quiet else {"progress": progress})
+            job.compute(**watchers)
             progress.next_run()
     finally:
         progress.clear()
     if patches is not None:
         step.require_patches(jobs)
-    for job, source in zip(jobs, sources):
+    for job, source, entry in zip(jobs, sources, entries):
         if not arguments.quiet:
             _say_mended(way.source, job.result.report["repairs"])
+            _say_eased(way.source, entry | {"name": source.name})
         for warning in job.warnings():
             record["warnings"].append(warning)
             _say(f"{way.source}: warning: {warning}")
         is_patches = isinstance(job, PatchJob)
-        record["objects"].append(step.object_entry(job) if is_patches else _replace(job, source))
+        done = step.object_entry(job) if is_patches else _replace(job, source)
+        record["objects"].append(done | entry)
     if patches is None:
         write_file(way.target)
     else:
         step.write_step_file(way, jobs, patches)
+    for found in tables:
+        ease.write_table(arguments.tables[way], found)
 
 
 def _fill_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:

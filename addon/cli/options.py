@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..settings import NAMES, FAIRING_PG_settings
-from . import fill, step
+from . import ease, fill, step
 from .places import FORMATS
 
 # Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
@@ -64,6 +64,7 @@ examples:
   {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
   {_PROGRAM} parts/*.stl out/ --format ply
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
+  {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
   {_PROGRAM} scan.ply closed.ply --fill --largest-hole 300
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
@@ -297,6 +298,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     add_settings(made)
     step.add_options(made)
+    ease.add_options(made)
     fill.add_options(made)
     return made
 

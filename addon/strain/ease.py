@@ -40,12 +40,14 @@ class _Moving:
 
     kind = "EASE"  # of runs, for predictions
 
-    def __init__(self, context: Context, source: Object, go_on: bool = False) -> None:
+    def __init__(
+        self, context: Context, source: Object, go_on: bool = False, settings: Any = None
+    ) -> None:
         """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
-        was.
+        was. `settings`: in the place of those of the source's surface.
         """
         self.name, self.reference = source.name, Reference(source)
-        settings = plate_settings(settings_for(context, source))
+        settings = plate_settings(settings or settings_for(context, source))
         with control_mesh(context, source) as mesh:
             self.arrays = read_mesh(mesh)
             self.selected = _selected(mesh)
@@ -54,7 +56,7 @@ class _Moving:
         self._start = self.arrays.positions if eased is None else eased
         self._shape = world_shape(source)
         self._world = self._shape.of_arrays(replace(self.arrays, positions=self._start))
-        self._fairing = core.fair_arguments(self._world, settings, preferences())
+        self.arguments = core.fair_arguments(self._world, settings, preferences())
         coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS
         self.result: Any = None
@@ -105,8 +107,8 @@ class _Moving:
 class EaseJob(_Moving):
     """As `wish` says, of the mesh itself, whatever its shape keys make of it."""
 
-    def __init__(self, context: Context, source: Object, wish: Wish) -> None:
-        super().__init__(context, source, wish.go_on)
+    def __init__(self, context: Context, source: Object, wish: Wish, settings: Any = None) -> None:
+        super().__init__(context, source, wish.go_on, settings)
         self._wish = wish
         if wish.use_selection and not self.selected.any():
             raise JobError(
@@ -122,7 +124,7 @@ class EaseJob(_Moving):
     def _run(self, watchers: dict[str, Any]) -> Any:
         wish = self._wish
         return core.module().ease(
-            **core.plate_arguments(self._fairing),
+            **core.plate_arguments(self.arguments),
             tolerance=wish.tolerance if wish.amount == "TOLERANCE" else None,
             most=wish.count if wish.amount == "WORST" else None,
             fixed=~self.selected if wish.use_selection else None,
@@ -185,7 +187,7 @@ class EaseSelectedJob(_Moving):
             )
 
     def _run(self, watchers: dict[str, Any]) -> Any:
-        return core.module().fair(**core.released_arguments(self._fairing, self._free), **watchers)
+        return core.module().fair(**core.released_arguments(self.arguments, self._free), **watchers)
 
     def _places(self) -> np.ndarray:
         sent = self._world.positions

@@ -46,12 +46,14 @@ class StrainJob:
         source: Object,
         known: "StrainJob | None" = None,
         as_mixed: bool = True,
+        settings: Any = None,
     ) -> None:
         """Reads; JobError says why that cannot be. `known`: an earlier one, whose result holds where
         nothing has changed since. `as_mixed`: as the shape keys of the source mix, not the mesh.
+        `settings`: in the place of those of its surface.
         """
         self.name, self.reference = source.name, Reference(source)
-        settings = plate_settings(settings_for(context, source))
+        settings = plate_settings(settings or settings_for(context, source))
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
             self.positions = arrays.positions

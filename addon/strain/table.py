@@ -5,12 +5,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
+Table = list[list[str]]  # rows of fields
+
 _DIGITS = 9  # significant ones: a hundredth of a millimetre on a kilometre
 
 
-def rows(
-    positions: np.ndarray, lengths: np.ndarray, eased: np.ndarray | None = None
-) -> list[list[str]]:
+def rows(positions: np.ndarray, lengths: np.ndarray, eased: np.ndarray | None = None) -> Table:
     """The table, its head first. `positions` (n, 3) and strain `lengths` (n,), NaN where there is
     none; `eased` (n, 3): where the vertices have been moved to, None: nowhere.
     """
@@ -28,7 +28,7 @@ def rows(
     return [head, *table]
 
 
-def text(table: list[list[str]]) -> str:
+def text(table: Table) -> str:
     """As comma-separated values; no field needs quotes."""
     return "".join(",".join(row) + "\r\n" for row in table)
 

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`--ease` and `--strain` on the command line: control meshes put right before they are faired, and
+the table of their vertices.
+"""
+
+import argparse
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from ..blender import Object, current_context
+from ..errors import JobError
+from ..strain import table
+from ..strain.ease import EaseJob, Wish
+from ..strain.measure import StrainJob
+from ..strain.strained import Strained
+from .files import write_text
+from .places import Place, tables
+
+_DIGITS = 3  # of lengths in sentences
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked of the control meshes of each input."""
+
+    wish: Wish | None  # None: they stay as they are
+    tables: tuple[Path, ...] | None  # one an input: of strain; None: none is written
+
+    @property
+    def runs(self) -> int:
+        """Of each mesh, beside fairing it."""
+        return (self.wish is not None) + (self.tables is not None)
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("measured points")
+    group.add_argument(
+        "--ease",
+        action="store_true",
+        help="first move the control vertices so that their scatter goes and the shape stays, as much as "
+        "they say themselves [off]",
+    )
+    group.add_argument(
+        "--ease-tolerance",
+        type=_length,
+        metavar="LENGTH",
+        help="the same with no vertex moved farther than this, in the file's unit; implies --ease",
+    )
+    group.add_argument(
+        "--strain",
+        metavar="FILE.csv",
+        help="write a table of the control vertices: how far the thin plate would spring away at each, were it "
+        "let go, and with --ease where it has been moved; for several inputs a pattern with {name}",
+    )
+
+
+def wanted_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wanted:
+    """What was said. Raises ValueError where options contradict, and BadPlaces."""
+    bound = arguments.ease_tolerance
+    eases = arguments.ease or bound is not None
+    if eases or arguments.strain is not None:
+        named = "--ease" if eases else "--strain"
+        if arguments.fill:
+            raise ValueError(f"{named} is for fairing, and --fill does not fair: call twice")
+        if arguments.pieces is not None:
+            raise ValueError(f"{named} needs the whole mesh, and --pieces never has it")
+    amount = "AUTOMATIC" if bound is None else "TOLERANCE"
+    return Wanted(
+        Wish(amount, bound or 0.0) if eases else None,
+        tables(arguments.strain, ways, arguments.json) if arguments.strain is not None else None,
+    )
+
+
+def shown(wanted: Wanted) -> dict[str, Any]:
+    """For the report: nothing, unless the mesh is eased."""
+    if wanted.wish is None:
+        return {}
+    within = wanted.wish.amount == "TOLERANCE"
+    return {"ease": True, "ease_tolerance": wanted.wish.tolerance if within else None}
+
+
+class Preparing:
+    """The meshes of one file, before they are faired."""
+
+    def __init__(self, wanted: Wanted, settings: SimpleNamespace, asked: dict[str, Any]) -> None:
+        """`asked`: arguments of the core in the place of those that the settings make."""
+        self._wanted, self._settings, self._asked = wanted, settings, asked
+
+    def run(
+        self, sources: Sequence[Object], done: Callable[[], None], **watchers: Any
+    ) -> tuple[list[dict[str, Any]], list[table.Table]]:
+        """Eases the meshes if that is wanted, and measures their strain if that is. Calls `done` after
+        each run. Of each source what the report says, and of each its table.
+        """
+        entries: list[dict[str, Any]] = []
+        found: list[table.Table] = []
+        for source in sources:
+            entry: dict[str, Any] = {}
+            strained = self._strained(source, done, watchers)
+            if strained is not None:
+                entry["strain"] = _largest(strained)
+            eased = self._eased(source, done, watchers)
+            if eased is not None:
+                entry["eased"] = _what_moved(eased)
+            if strained is not None:
+                places = None if eased is None else eased.positions
+                found.append(table.rows(strained.positions, strained.lengths, places))
+            entries.append(entry)
+        return entries, found
+
+    def _strained(
+        self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
+    ) -> Strained | None:
+        if self._wanted.tables is None:
+            return None
+        job = StrainJob(current_context(), source, settings=self._settings)
+        job.arguments |= self._asked
+        job.compute(**watchers)
+        done()
+        return job.result
+
+    def _eased(
+        self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
+    ) -> EaseJob | None:
+        if self._wanted.wish is None:
+            return None
+        job = EaseJob(current_context(), source, self._wanted.wish, self._settings)
+        job.arguments |= self._asked
+        job.compute(**watchers)
+        source.data.vertices.foreach_set("co", np.float32(job.positions).ravel())
+        source.data.update()
+        done()
+        return job
+
+
+def require_one(sources: Sequence[Object], wanted: Wanted) -> None:
+    """Raises JobError where a table would have the vertices of several meshes."""
+    if wanted.tables is not None and len(sources) > 1:
+        raise JobError(
+            f"--strain: the table is of one mesh, and this file has {len(sources)}: "
+            f"{', '.join(source.name for source in sources)}. Give each a file of its own."
+        )
+
+
+def write_table(path: Path, found: table.Table) -> None:
+    write_text(str(path), table.text(found), newline="")
+
+
+def _largest(strained: Strained) -> dict[str, Any]:
+    worst = strained.worst(1).tolist()
+    return {
+        "largest": float(strained.lengths[worst[0]]) if worst else 0.0,
+        "vertex": worst[0] if worst else -1,
+        "floor": strained.floor,
+        "wrong": strained.wrong.tolist(),
+    }
+
+
+def _what_moved(job: EaseJob) -> dict[str, Any]:
+    moves = job.moves
+    return {
+        "noise": job.result.noise,
+        "amount": job.result.amount,
+        "moved": int(np.count_nonzero(moves)),
+        "largest": float(moves.max(initial=0.0)),
+        "vertex": int(np.argmax(moves)) if moves.any() else -1,
+        "said": job.said(lambda length: f"{length:.{_DIGITS}g}"),
+    }
+
+
+def _length(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a length above 0")
+    return value

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line eases measured points, and writes the table of their strain."""
+
+import csv
+from pathlib import Path
+
+import bpy
+import discrete_fairing
+import numpy as np
+import pytest
+from cli_files import write_obj
+from cli_runs import contains, entries, imported, run
+from dunes import COLUMNS, OFF, ROWS, WRONG, dune, grid
+from scenes import add
+
+from addon.settings import NAMES
+from addon.strain import table
+from addon.strain.measure import StrainJob
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def scattered(size=0.02):
+    """The dune as measured."""
+    points = dune()
+    points[:, 2] += np.random.default_rng(3).normal(0, size, len(points))
+    return np.round(points, 6)
+
+
+def write_dunes(name, *meshes):
+    lines, first = [], 1
+    for number, points in enumerate(meshes):
+        lines.append(f"o Dune{number}")
+        lines += ["v {:.6f} {:.6f} {:.6f}".format(*point) for point in points]
+        lines += ["f " + " ".join(map(str, face + first)) for face in grid()]
+        first += len(points)
+    Path(name).write_text("\n".join(lines) + "\n")
+
+
+def read_table(name):
+    with Path(name).open(newline="") as file:
+        head, *rows = csv.reader(file)
+    return head, np.array([[float(field or "nan") for field in row] for row in rows])
+
+
+def test_control_vertices_are_eased_and_the_surface_passes_through_them():
+    points = scattered()
+    write_dunes("in.obj", points)
+    code, (entry,) = entries("in.obj", "out.obj", "--ease", "--levels", 1)
+    assert (code, entry["settings"]["ease"], entry["settings"]["ease_tolerance"]) == (0, True, None)
+    corners = [0, COLUMNS - 1, ROWS * COLUMNS - COLUMNS, ROWS * COLUMNS - 1]
+    wanted = discrete_fairing.ease(points, grid(), levels=2, corner_vertices=corners)
+    said = entry["objects"][0]["eased"]
+    assert said["noise"] == pytest.approx(wanted.noise, rel=1e-3)
+    assert (said["vertex"], said["moved"]) == (WRONG, np.count_nonzero(wanted.moves))
+    assert said["largest"] == pytest.approx(wanted.moves[WRONG], rel=1e-3)
+    surface, _ = imported("out.obj")
+    assert contains(surface, wanted.vertices, 1e-4)
+    assert not contains(surface, points, 0.1 * OFF)
+
+
+def test_no_vertex_moves_farther_than_a_tolerance():
+    points = scattered()
+    write_dunes("in.obj", points)
+    code, (entry,) = entries("in.obj", "out.ply", "--ease-tolerance", 0.01, "--strain", "out.csv")
+    assert (code, entry["settings"]["ease_tolerance"]) == (0, 0.01)
+    assert 0.009 < entry["objects"][0]["eased"]["largest"] <= 0.01
+    head, rows = read_table("out.csv")
+    assert head == ["vertex", *"xyz", "x_eased", "y_eased", "z_eased", "move", "strain"]
+    assert np.nanmax(rows[:, 7]) <= 0.01 + 1e-6
+    assert contains(imported("out.ply")[0], rows[:, 4:7], 1e-4)
+    assert np.allclose(rows[:, 1:4], points, atol=1e-6), "as they were, too"
+
+
+def test_the_table_is_that_of_the_panel():
+    write_dunes("in.obj", scattered())
+    code, (entry,) = entries("in.obj", "out.obj", "--strain", "strain.csv")
+    assert code == 0 and "eased" not in entry["objects"][0] and "ease" not in entry["settings"]
+    head, rows = read_table("strain.csv")
+    job = StrainJob(bpy.context, add("Dune", scattered().tolist(), grid().tolist()))
+    job.compute()
+    assert head == table.rows(job.positions, job.result.lengths)[0]
+    assert np.allclose(rows[:, 4], job.result.lengths, rtol=1e-3, atol=1e-5, equal_nan=True)
+    said = entry["objects"][0]["strain"]
+    assert said["vertex"] == int(np.nanargmax(np.abs(rows[:, 4]))) == WRONG
+    assert said["wrong"] == [WRONG] and said["floor"] == pytest.approx(job.result.floor, rel=1e-2)
+
+
+def test_symmetry_and_borders_are_heard():
+    """Options of the surface are those of its easing too."""
+    write_dunes("in.obj", scattered() * (1, 0.5, 1))
+    found = []
+    for words in ((), ("--symmetry-plane", "y"), ("--boundary", "linear")):
+        assert run("in.obj", "out.obj", "--quiet", "--strain", "a.csv", *words) == 0
+        found.append(read_table("a.csv")[1][:, -1])
+    plain, mirrored, straight = (np.nan_to_num(lengths) for lengths in found)
+    assert np.abs(plain - mirrored).max() > 1e-3
+    assert (np.isnan(found[2]) & ~np.isnan(found[0])).any() and np.abs(plain - straight).max() > 0
+
+
+def test_it_is_said_in_words(capsys):
+    write_dunes("in.obj", scattered())
+    assert run("in.obj", "out.obj", "--ease") == 0
+    said = capsys.readouterr().err
+    assert "in.obj: Dune0: Offsets are scattered by about 0.0" in said
+    assert f"at vertex {WRONG}" in said
+    assert run("in.obj", "out.obj", "--ease", "--quiet") == 0
+    assert not capsys.readouterr().err
+
+
+def test_several_inputs_have_tables_of_their_own(capsys):
+    for name in ("a.obj", "b.obj"):
+        write_dunes(name, scattered())
+    assert run("a.obj", "b.obj", "out/", "--strain", "one.csv") == 2
+    assert "{name}" in capsys.readouterr().err
+    assert run("a.obj", "b.obj", "out/", "--strain", "{name}_strain.csv", "--levels", 1) == 0
+    assert Path("a_strain.csv").read_bytes() == Path("b_strain.csv").read_bytes()
+
+
+def test_a_table_is_of_one_mesh():
+    write_dunes("in.obj", dune(), dune() + (0, 9, 0))
+    code, (entry,) = entries("in.obj", "out.obj", "--strain", "a.csv")
+    assert code == 1 and "2: Dune0, Dune1" in entry["error"]["message"]
+    assert not Path("out.obj").exists()
+    code, (entry,) = entries("in.obj", "out.obj", "--ease")
+    assert code == 0 and [item["eased"]["vertex"] for item in entry["objects"]] == [WRONG, WRONG]
+
+
+def test_a_table_is_kept_where_nothing_is_overwritten():
+    write_dunes("in.obj", dune())
+    Path("a.csv").write_text("mine")
+    code, (entry,) = entries("in.obj", "out.obj", "--strain", "a.csv", "--no-overwrite")
+    assert (code, entry["error"]["code"]) == (1, "EXISTS")
+    assert Path("a.csv").read_text() == "mine"
+
+
+def test_its_names_are_no_settings():
+    assert not {"ease", "ease_tolerance", "strain"} & set(NAMES)
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (("--ease", "--fill"), "--ease is for fairing"),
+        (("--strain", "a.csv", "--pieces", 2), "--strain needs the whole mesh"),
+        (("--strain", "a.txt"), "must end in .csv"),
+        (("--strain", "a.csv", "--json", "a.csv"), "Two files would be called a.csv"),
+        (("--ease-tolerance", 0), "not a length above 0"),
+    ],
+)
+def test_wrong_usage_is_said(words, said, capsys):
+    write_obj("in.obj")
+    assert run("in.obj", "out.obj", *words) == 2
+    assert said in capsys.readouterr().err
+    assert not Path("out.obj").exists()
