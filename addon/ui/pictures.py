@@ -75,8 +75,7 @@ def register() -> None:
     global _loaded
     _loaded = bpy.utils.previews.new()
     for path in (*PRESETS.glob("*.png"), *SETTINGS.glob("*.png")):
-        picture: Any = _loaded.load(path.stem, str(path), "IMAGE")
-        picture.image_size  # noqa: B018  reads the file now: else a panel opens with clocks in their places
+        _loaded.load(path.stem, str(path), "IMAGE")
 
 
 def unregister() -> None:
