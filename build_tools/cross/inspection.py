@@ -79,6 +79,11 @@ def faults_of(module: Binary, tag: str, python: str) -> list[str]:
     return [fault for fault, fine in checks.items() if not fine]
 
 
+def names_this_folder(module: bytes) -> bool:
+    """Whether the project's folder has got into a module, so that another one would make other bytes."""
+    return bytes(ROOT) in module
+
+
 def faults(wheel: Path) -> list[str]:
     """What is wrong with a wheel."""
     python = wheel.stem.split("-")[2]
@@ -86,9 +91,10 @@ def faults(wheel: Path) -> list[str]:
         modules = [name for name in archive.namelist() if name.endswith((".so", ".pyd", ".dylib"))]
         if len(modules) != 1:
             raise DevError(f"{wheel.name} should hold one module, but holds {len(modules)}.")
-        found = faults_of(
-            read(Path(archive.extract(modules[0], made))), platform_tag(wheel), python
-        )
+        module = Path(archive.extract(modules[0], made))
+        found = faults_of(read(module), platform_tag(wheel), python)
+        if names_this_folder(module.read_bytes()):
+            found.append(f"it names {ROOT}, where it was compiled")
     if wheel.stat().st_size > LARGEST:
         found.append(f"it has {wheel.stat().st_size} bytes, more than {LARGEST}")
     return found

@@ -8,9 +8,10 @@ from importlib import metadata
 import pytest
 from cross import python_parts
 from cross.binary import BUILD_VERSION, CODE_SIGNATURE, LOAD_DYLIB, SYMBOLS, Binary, listing, read
-from cross.inspection import faults, faults_of
+from cross.inspection import faults, faults_of, names_this_folder
 from cross.wheels import WHEELS
 from cross.wine import WINE
+from layout import ROOT
 from shell import DevError
 
 INIT = ["PyInit__native"]
@@ -52,6 +53,11 @@ def test_a_good_module_has_no_faults(tag):
 def test_faults_are_found(tag, change, fault):
     module = Binary(**{**vars(GOOD[tag]), **change})
     assert [found for found in faults_of(module, tag, "cp311") if fault in found]
+
+
+def test_a_module_that_names_its_folder_is_seen():
+    assert names_this_folder(b"\0" + bytes(ROOT / "native" / "fair.cpp") + b"\0")
+    assert not names_this_folder(b"\0./native/fair.cpp\0")
 
 
 def macho(*commands):
