@@ -90,14 +90,14 @@ def faired_in_rounds(
                     flat[row] = near.area(own)
                 last[row] = Filling(moved, triangles, first, made)
                 rank = _rank(made, near.corners(moved), wanted)
-                fewer = turn == 0 or rank[3] < ranks[row][3]
+                better = turn == 0 or rank < ranks[row]
                 if turn == 0 or rank <= ranks[row]:
                     best[row], ranks[row] = last[row], rank
                 area = near.area(onward[row])
                 more = (
                     rank[:3] > (0, False, False)
                     or (turn == 0 and area > _GROWN * flat[row])
-                    or (rank[3] > 0 and fewer)
+                    or (rank[3] > 0 and better)
                 )
                 if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
                     left.append(row)
