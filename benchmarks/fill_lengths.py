@@ -6,12 +6,12 @@ from typing import Any
 
 import discrete_fairing as df
 import fill_shapes
+import from_tests
 import numpy as np
 import table
 
 # as near to which as a hole comes: those of the ragged holes of scans, and ten times more
 EDGES = (50, 100, 200, 500, 1000, 2000, 5000)
-FILLED = 1000  # edges up to which the hole is filled and faired, too: then 20,000 faces
 WAVES = 400  # along the rim of a ragged hole, whose radius is between 0.4 and 1 of the largest
 
 
@@ -31,6 +31,7 @@ def ragged_hole(edges: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _cut(radius: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A hole of so many cells' radius in a lattice, with its loop."""
+    holes = from_tests.ragged_holes()
     n = 2 * radius + 9
     line = (np.arange(n) - (n - 1) / 2) / radius
     x, y = np.meshgrid(line, line, indexing="ij")
@@ -42,8 +43,8 @@ def _cut(radius: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     lengths = random.uniform(0.4, 1.0, min(WAVES, 3 * radius))
     place = (angle / (2 * np.pi) + 0.5) * len(lengths)
     gone = np.hypot(centre[:, 0], centre[:, 1]) < lengths[place.astype(int) % len(lengths)]
-    used, kept = np.unique(faces[~gone], return_inverse=True)
-    points, faces = points[used], kept.reshape(-1, 3)
+    whole = faces[~gone]  # without islands, which are other pieces
+    points, faces = holes.cut(points, whole, ~holes.largest_piece(whole))
     inner = [h for h in df.find_holes(points, faces) if abs(points[h]).max() < line[-2]]
     return points, faces, max(inner, key=len)
 
@@ -58,16 +59,14 @@ def run(edges: tuple[int, ...] = EDGES) -> dict[str, Any]:
             "triangulated": process_time() - begun,
             "folds of these": bare.holes[0].folds,
         }
-        if len(loop) <= 1.1 * FILLED:
-            begun = process_time()
-            filled = df.fill_holes(points, faces, holes=[loop])
-            (hole,) = filled.holes
-            entry |= {"filled": process_time() - begun, "faces": len(hole.faces)}
-            entry |= {"folds": hole.folds, "energy": hole.energy}
+        begun = process_time()
+        (hole,) = df.fill_holes(points, faces, holes=[loop]).holes
+        entry |= {"filled": process_time() - begun, "faces": len(hole.faces)}
+        entry |= {"folds": hole.folds, "energy": hole.energy}
         result[str(len(loop))] = entry
         print(len(loop), entry, flush=True)
     heads = ["triangulated", "folds of these", "filled", "faces", "folds"]
-    rows = [[length, *(entry.get(h, "–") for h in heads)] for length, entry in result.items()]
+    rows = [[length, *(entry[h] for h in heads)] for length, entry in result.items()]
     table.show(
         "Ragged holes by the edges around, seconds of the processor", ["edges", *heads], rows
     )

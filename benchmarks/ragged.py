@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Two hundred ragged holes, cut at random into the closed meshes of the collection that may lie beside
-the project: is each closed, by a manifold, without a fold and without crossing anything?
+the project: is each closed, by a manifold, without a fold, without crossing anything and without slivers?
 """
 
 import random
@@ -57,7 +57,7 @@ def meshes(folder: Path) -> list[tuple[str, np.ndarray, np.ndarray]]:
 
 
 def case(number: int, whole: list[tuple[str, np.ndarray, np.ndarray]]) -> Any:
-    """Name, and a mesh with a hole."""
+    """Name, a mesh with a hole, and the largest turn of what it was cut into."""
     holes = from_tests.ragged_holes()
     rng = random.Random(number)
     if number % LONG_EVERY == LONG_EVERY - 1:
@@ -67,11 +67,45 @@ def case(number: int, whole: list[tuple[str, np.ndarray, np.ndarray]]) -> Any:
         name, points, triangles = whole[number % (len(whole) - 1)]
         low, high = FACES[0], min(FACES[1], MOST_TAKEN * len(triangles))
         size, wander = round(low * (high / low) ** rng.random()), WANDER[number // len(MESHES) % 3]
-    return name, *holes.cut(points, triangles, holes.ragged(triangles, size, rng, wander))
+    own_turn = turns(points, triangles)
+    return name, *holes.cut(points, triangles, holes.ragged(triangles, size, rng, wander)), own_turn
 
 
-def judged(points: np.ndarray, triangles: np.ndarray) -> dict[str, Any]:
-    """What came of the holes of one mesh."""
+def turns(points: np.ndarray, triangles: np.ndarray, first: int = 0) -> float:
+    """Degrees: the largest at an edge of a triangle from the `first` on."""
+    corner = points[triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    owner = np.repeat(np.arange(len(triangles)), 3)
+    order = np.lexsort(sides.T)
+    sides, owner = sides[order], owner[order]
+    same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+    a, b = owner[same], owner[same + 1]
+    cosine = (normal[a] * normal[b]).sum(axis=1)[(a >= first) | (b >= first)]
+    return float(np.degrees(np.arccos(cosine.clip(-1, 1))).max(initial=0.0))
+
+
+def angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(t, 3) degrees at the corners."""
+    corner = points[triangles]
+    after = np.roll(corner, -1, axis=1) - corner
+    before = np.roll(corner, 1, axis=1) - corner
+    cosine = (after * before).sum(axis=2)
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(after, before), axis=2), cosine))
+
+
+def rim_angle(points: np.ndarray, triangles: np.ndarray) -> float:
+    """Degrees: the least that the faces at a vertex of the border leave of a full turn. Where that is
+    small, no filling can do without a sliver.
+    """
+    of_faces = np.bincount(triangles.ravel(), angles(points, triangles).ravel(), len(points))
+    loops = df.find_holes(points, triangles)
+    return float(360.0 - of_faces[np.concatenate(loops)].max())
+
+
+def judged(points: np.ndarray, triangles: np.ndarray, own_turn: float) -> dict[str, Any]:
+    """What came of the holes of one mesh, which without them turns by `own_turn` degrees at most."""
     begun = process_time()
     filled = df.fill_holes(points, triangles)
     seconds = process_time() - begun
@@ -95,6 +129,11 @@ def judged(points: np.ndarray, triangles: np.ndarray) -> dict[str, Any]:
         "folds forced": forced,
         "folds not forced": unforced,
         "crossing": int(after - before),
+        "said to cross": sum(h.crossings for h in filled.holes),
+        "turn": turns(filled.vertices, filled.faces, len(triangles)),
+        "own turn": own_turn,
+        "least angle": float(angles(filled.vertices, filled.faces[len(triangles) :]).min()),
+        "rim angle": rim_angle(points, triangles),
         "made by": sorted({f"{h.energy}, {h.joint}" for h in filled.holes}),
         "seconds": seconds,
     }
@@ -110,8 +149,8 @@ def run(numbers: range = range(COUNT)) -> dict[str, Any]:
     whole = meshes(folder)
     result = {}
     for number in numbers:
-        name, points, triangles = case(number, whole)
-        found = judged(points, triangles)
+        name, points, triangles, own_turn = case(number, whole)
+        found = judged(points, triangles, own_turn)
         result[str(number)] = {"mesh": name, **found}
         if (
             found["folds not forced"]
@@ -139,11 +178,19 @@ def _show(result: dict[str, Any]) -> None:
                     for key in ("folds not forced", "folded", "folds forced")
                 ),
                 sum(bool(r["crossing"]) for r in of),
+                sum(r["turn"] > max(90.0, r["own turn"]) for r in of),
+                min(r["least angle"] for r in of),
                 sum(r["made by"] != ["total_curvature, curvature"] for r in of),
             ]
         )
     heads = ["mesh", "holes", "longest", "open", "unsound", "folded, not forced", "folded"]
-    heads += ["forced to fold", "crossing", "otherwise made"]
+    heads += [
+        "forced to fold",
+        "crossing",
+        "sharper than the mesh",
+        "least angle",
+        "otherwise made",
+    ]
     table.show("Ragged holes", heads, rows)
 
 

@@ -18,6 +18,7 @@ import curvature_peaks
 import drag
 import energies
 import exactness
+import fill_lengths
 import fill_million
 import fills
 import jobs
@@ -66,6 +67,7 @@ BENCHMARKS = {
     "exact": exactness.run,
     "clean": clean_meshes.run,
     "fills": fills.run,
+    "fill_lengths": fill_lengths.run,
     "fill_million": fill_million.run,
     "ragged": ragged.run,
     "drag": drag.run,

@@ -15,10 +15,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from cost_figures import COST
+from fill_figures import FILL
 from layout import ROOT
 from shape_figures import SHAPE
 
-FIGURES: dict[str, Callable[[], str]] = {**COST, **SHAPE}
+FIGURES: dict[str, Callable[[], str]] = {**COST, **FILL, **SHAPE}
 FIGURE = re.compile(
     r"(<!-- figure: (?P<name>[\w.]+) -->)(?P<text>.*?)(<!-- /figure -->)", re.DOTALL
 )

@@ -30,9 +30,18 @@ def uses(faces):
     return np.unique(sides, axis=0, return_counts=True)[1]
 
 
-def assert_sound(vertices, faces):
+def smallest_angle(vertices, faces):
+    """Degrees."""
+    corner = vertices[faces]
+    after, before = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
+    sine = np.linalg.norm(np.cross(after, before), axis=2)
+    return np.degrees(np.arctan2(sine, (after * before).sum(axis=2))).min()
+
+
+def assert_sound(vertices, faces, least_angle=0.0):
     """Closed, and folded only where the rim alone makes that so; the holes."""
     filled = df.fill_holes(vertices, faces)
+    assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > least_angle
     assert (uses(filled.faces) == 2).all()
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
     bare = df.fill_holes(vertices, faces, joint="position", density=0)
@@ -48,7 +57,7 @@ def test_on_a_torus_total_curvature_closes_them_without_a_fold(seed, wander):
     rng = random.Random(seed)
     points, faces = torus()
     taken = ragged(faces, rng.choice([100, 300, 900]), rng, wander)
-    for hole in assert_sound(*cut(points, faces, taken)):
+    for hole in assert_sound(*cut(points, faces, taken), least_angle=15.0):
         assert (hole.energy, hole.joint) == ("total_curvature", "curvature")
         assert hole.converged and not hole.folds
 
@@ -87,6 +96,7 @@ def test_a_first_triangulation_that_folds_is_unfolded():
         assert (hole.energy, hole.joint) == ("total_curvature", "curvature")
         assert (hole.converged, hole.folds, hole.crossings) == (True, 0, 0)
     assert (uses(filled.faces) == 2).all()
+    assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > 15
 
 
 def test_holes_in_rounds_of_their_own_share_no_edge():

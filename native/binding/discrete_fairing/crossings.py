@@ -72,7 +72,8 @@ def with_less_crossing(
     watched: SeveralRuns,
 ) -> tuple[list[Filling], list[int]]:
     """`fillings`, with ids of `part`, and how many faces of each cross. In the place of what crosses the
-    first other way that crosses and folds less: flatter ones, on the triangles of the first round.
+    first other way that neither crosses nor folds, or that with the fewest faces and edges that do: flatter
+    ones, on the triangles of the first round.
     """
     chosen = list(fillings)
 
@@ -97,7 +98,7 @@ def with_less_crossing(
                 counts = crossing()
                 if counts[row] + made.folds >= was[row] + before.made.folds:
                     chosen[row], counts = before, was
-                elif not counts[row]:
+                elif not counts[row] and not made.folds:
                     break
         first += len(own)
     return chosen, counts

@@ -32,6 +32,11 @@ _MOST_GROWN = 20.0
 _SHOWN = 8  # ids that a message lists
 
 
+# Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer; a
+# rim that forces some has as many in each round.
+_SLIVER = 15.0
+
+
 @dataclass(frozen=True, slots=True)
 class Wanted:
     """How holes shall be filled: as the arguments of fill_holes() have it."""
@@ -65,6 +70,7 @@ def faired_in_rounds(
     """
     best: dict[int, Filling] = {}
     last: dict[int, Filling] = {}
+    ranks: dict[int, _Rank] = {}
     flat = [0.0] * len(found)  # area of each before it was faired
     for turn in range(_MOST_ROUNDS):
         shares = 1.0 - 0.9 * np.linspace(0.5**turn, 0.5 ** (turn + 1), len(rows) + 1)
@@ -80,14 +86,19 @@ def faired_in_rounds(
                     )
                 except RefusedAround as refused:
                     raise _said(refused, row) from refused
-                filling = Filling(moved, triangles, first, made)
                 if turn == 0:
                     flat[row] = near.area(own)
-                last[row] = filling
-                if _rank(made, wanted) <= _rank(best.get(row, filling).made, wanted):
-                    best[row] = filling
+                last[row] = Filling(moved, triangles, first, made)
+                rank = _rank(made, near.corners(moved), wanted)
+                better = turn == 0 or rank < ranks[row]
+                if turn == 0 or rank <= ranks[row]:
+                    best[row], ranks[row] = last[row], rank
                 area = near.area(onward[row])
-                more = _rank(made, wanted) > _BEST or (turn == 0 and area > _GROWN * flat[row])
+                more = (
+                    rank[:3] > (0, False, False)
+                    or (turn == 0 and area > _GROWN * flat[row])
+                    or (rank[3] > 0 and better)
+                )
                 if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
                     left.append(row)
             first += len(own)
@@ -111,12 +122,17 @@ def _apart(last: dict[int, Filling], best: dict[int, Filling], count: int) -> di
     return chosen
 
 
-_BEST = (0, False, False)
+_Rank = tuple[int, bool, bool, int]
 
 
-def _rank(made: Made, wanted: Wanted) -> tuple[int, bool, bool]:
-    """The less the better."""
-    return made.folds, not made.converged, made.energy != wanted.energy
+def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
+    """The less the better; of triangles with these `corners` (t, 3, 3)."""
+    after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    sine = np.linalg.norm(np.cross(after, before), axis=2)
+    slivers = (
+        np.arctan2(sine, (after * before).sum(axis=2)).min(axis=1) < np.radians(_SLIVER)
+    ).sum()
+    return made.folds, not made.converged, made.energy != wanted.energy, int(slivers)
 
 
 def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
