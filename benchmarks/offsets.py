@@ -2,7 +2,7 @@
 """Scattered offsets: what Near and easing do to their error, and when strain finds the wrong one.
 
 All inner vertices are off by a normal scatter along the shape's normal. With one more of them off by
-six times as much, the most strained one is let go. Lengths are in control edges.
+six times as much, the most strained one is let go. Lengths are in control edges, of hulls in metres.
 """
 
 from collections.abc import Callable
@@ -11,13 +11,18 @@ from typing import Any
 import control_meshes
 import discrete_fairing as df
 import numpy as np
+import pads
 import table
 
 SEEDS = 20
 SCATTERS = (0.005, 0.02)  # control edges
 PLANTED = 6
-SHARES = (0.25, 0.5, 1, 2, 4)  # tolerances, over the scatter
-AMOUNTS = (0.5, 1, 2, 4, 8, 16, 32, 64, 128, 256)
+OF_HULLS = (0.002, 0.005, 0.01)  # metres, on 10
+SHARES = (0.5, 1, 2)  # tolerances, over the scatter
+AMOUNTS = (0.5, 1, 2, 4, 8, 16, 32, 64)
+WRONG = 0.018  # metres: three of a hull's vertices are off by that, to one side or the other
+NETS = ((9, 7), (15, 9))  # stations and lines of such hulls
+OF_NETS = (0.001, 0.003)  # metres, their scatter
 ONE = {"threads": 1, "levels": 2}
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -32,12 +37,14 @@ def sheet(height: Callable[..., np.ndarray], across: int = 9, along: int = 7) ->
     return np.stack([x, y, z], -1).reshape(-1, 3), faces
 
 
-def hull() -> Mesh:
-    """Half a hull of 9 stations, 6 points each on a half ellipse: 10 m long."""
-    along, up = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(0, np.pi / 2, 6), indexing="ij")
+def hull(stations: int = 9, lines: int = 6) -> Mesh:
+    """Half a hull of half ellipses, 10 m long; the keel lies in the plane y = 0."""
+    along, up = np.meshgrid(
+        np.linspace(-1, 1, stations), np.linspace(0, np.pi / 2, lines), indexing="ij"
+    )
     beam, depth = 1.5 * (1 - 0.9 * along**2), 1.0 * (1 - 0.3 * along**2)
     points = np.stack([5 * along, beam * np.sin(up), -depth * np.cos(up)], -1).reshape(-1, 3)
-    return points, sheet(lambda x, y: 0 * x, 9, 6)[1]
+    return points, sheet(lambda x, y: 0 * x, stations, lines)[1]
 
 
 def sphere() -> Mesh:
@@ -69,8 +76,10 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "bump, triangles": lambda: cut(sheet(bump)),
     "saddle, triangles": lambda: cut(sheet(saddle)),
     "wave, triangles": lambda: cut(sheet(wave)),
-    "wave, 17 x 13": lambda: sheet(wave, 17, 13),
-    "half hull": hull,
+    "hull": hull,
+    "hull, triangles": lambda: cut(hull()),
+    "fender": pads.fender,
+    "fender, triangles": lambda: cut(pads.fender()),
     "sphere": sphere,
 }
 
@@ -149,6 +158,34 @@ def planted_in(mesh: Mesh, scatter: float, seed: int) -> tuple[bool, float]:
     return found, float(eased.moves[wrong] / (PLANTED * scatter)) if found else float("nan")
 
 
+def planted_in_hull(stations: int, lines: int, scatter: float, half: bool) -> dict[str, float]:
+    """How many of three wrong vertices are among the three and the six most strained, means; and what
+    the hull strains without scatter, metres. `half`: with its plane of symmetry.
+    """
+    truth, faces = mesh = hull(stations, lines)
+    options: dict[str, Any] = {"threads": 1} | ({"symmetry_plane": "y"} if half else {})
+    ids, along = inside(mesh), normals(mesh)
+    clean = np.abs(df.strain(truth, faces, **options).lengths[ids])
+    found = []
+    for seed in range(SEEDS):
+        random = np.random.default_rng(seed)
+        measured = truth.copy()
+        measured[ids] += random.normal(0, scatter, len(ids))[:, None] * along[ids]
+        wrong = random.choice(ids, 3, replace=False)
+        measured[wrong] = (
+            truth[wrong] + WRONG * random.choice([-1.0, 1.0], 3)[:, None] * along[wrong]
+        )
+        worst = df.strain(measured, faces, **options).worst(6)
+        found.append([len(np.intersect1d(worst[:3], wrong)), len(np.intersect1d(worst, wrong))])
+    three, six = np.mean(found, axis=0)
+    return {
+        "found": float(three),
+        "of_six": float(six),
+        "largest": float(np.nanmax(clean)),
+        "median": float(np.nanmedian(clean)),
+    }
+
+
 def means(trials: list[dict[str, Any]]) -> dict[str, Any]:
     return {name: np.mean([trial[name] for trial in trials], axis=0).tolist() for name in trials[0]}
 
@@ -161,9 +198,10 @@ def run() -> dict[str, Any]:
         mesh = make()
         unit = edge(mesh)
         clean = df.ease(*mesh, **ONE).moves.max() / unit
-        for scatter in SCATTERS:
-            mean = means([errors_of(mesh, scatter * unit, seed) for seed in range(SEEDS)])
-            tried = [planted_in(mesh, scatter * unit, seed) for seed in range(SEEDS)]
+        lengths = OF_HULLS if name.startswith("hull") else tuple(s * unit for s in SCATTERS)
+        for scatter, length in zip(OF_HULLS if lengths is OF_HULLS else SCATTERS, lengths):
+            mean = means([errors_of(mesh, length, seed) for seed in range(SEEDS)])
+            tried = [planted_in(mesh, length, seed) for seed in range(SEEDS)]
             found = sum(hit for hit, _ in tried)
             share = float(np.nanmedian([back for _, back in tried])) if found else float("nan")
             best = min(mean["amount"])
@@ -171,9 +209,9 @@ def run() -> dict[str, Any]:
                 "edge": unit, "clean_move": clean, "found": found, "moved_back": share,
                 "ratio": mean["automatic"] / best,
             }  # fmt: skip
-            lengths = (mean["before"], min(mean["near"]), min(mean["tolerance"]), best)
+            told = (mean["before"], min(mean["near"]), min(mean["tolerance"]), best)
             rows.append(
-                [f"{name}, {scatter:g}", *(1e3 * e / unit for e in lengths)]
+                [f"{name}, {scatter:g}", *(1e3 * e / unit for e in told)]
                 + [1e3 * mean["automatic"] / unit, mean["automatic"] / best, mean["noise"]]
                 + [found, share, 1e3 * clean]
             )
@@ -183,7 +221,28 @@ def run() -> dict[str, Any]:
         + ["over best", "noise read", f"found of {SEEDS}", "moved back", "clean moves"],
         rows,
     )
-    return result
+    return {"shapes": result, "hulls": hulls()}
+
+
+def hulls() -> dict[str, Any]:
+    """One row a net and scatter."""
+    found = {
+        f"{stations} x {lines}, {scatter:g}, {'half' if half else 'open'}": planted_in_hull(
+            stations, lines, scatter, half
+        )
+        for stations, lines in NETS
+        for scatter in OF_NETS
+        for half in (False, True)
+    }
+    table.show(
+        f"Three wrong vertices in half a hull, means of {SEEDS} seeds",
+        ["net, scatter", "of the worst 3", "of the worst 6", "largest clean", "median clean, mm"],
+        [
+            [name, each["found"], each["of_six"], 1e3 * each["largest"], 1e3 * each["median"]]
+            for name, each in found.items()
+        ],
+    )
+    return found
 
 
 if __name__ == "__main__":

@@ -30,6 +30,12 @@ constexpr int amounts = 61;
 // scatter that chose no amount at all in three of sixteen cases, and with 0.8 in none; below, more is
 // eased than is best.
 constexpr double robustness = 0.8;
+// Scatter is faint where no easing at all has less than so many times the least score. Then the
+// smallest amount of nearly that score is taken: what uneven stars ask for is no less than the scatter,
+// and cross-validation takes both for one. On eight shapes of 28 to 162 unknowns, scattered by 0.0025 to
+// 0.04 of an edge, errors are on average 1.10 times those of the best amount, and 1.19 with the least
+// score always; a sphere scattered by 0.005 came out 1.5 times as far off as it was.
+constexpr double faint = 2, leeway = 1.15;
 // Of the largest bound: how far moves may be from their copies within bounds, and change, at the end.
 constexpr double bound_tolerance = 1e-3;
 constexpr int most_rounds = 200;
@@ -217,19 +223,22 @@ Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
 
 double cross_validated(const EaseSystem& system) {
   if (!(system.mean() > 0)) return 0;
-  double best = 0, least = std::numeric_limits<double>::infinity();
+  std::vector<double> amount, score;
   double s = least_amount / system.mean();
   for (int i = 0; i < amounts; ++i, s *= ten_a_decade) {
     const double trace = system.trace(s);
     const double kept = system.squared_trace(s) / double(system.unknowns());
-    const double score =
-        system.squared_moves(s) / (trace * trace) * (robustness + (1 - robustness) * kept);
-    if (score < least) {
-      least = score;
-      best = s;
-    }
+    amount.push_back(s);
+    score.push_back(system.squared_moves(s) / (trace * trace) *
+                    (robustness + (1 - robustness) * kept));
   }
-  return best;
+  const auto best = std::min_element(score.begin(), score.end());
+  if (!std::isfinite(*best)) return 0;
+  const auto chosen = score.front() > faint * *best
+                          ? best
+                          : std::find_if(score.begin(), score.end(),
+                                         [&](double of) { return of <= leeway * *best; });
+  return chosen == score.begin() ? 0 : amount[std::size_t(chosen - score.begin())];
 }
 
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {

@@ -67,7 +67,8 @@ class EaseSystem {
 
 // The amount that robust generalized cross-validation chooses (Lukas 2006): that of Golub, Heath and
 // Wahba (1979), with a weight on how much F keeps, as the plain one now and then takes scatter for
-// shape where there are few unknowns.
+// shape where there are few unknowns; where scatter is faint, the smallest of about that score. 0:
+// nothing is to be told from the shape.
 double cross_validated(const EaseSystem& system);
 
 // The amount s, or the largest below that takes out no more than so much scatter; 0: none does.

@@ -103,6 +103,27 @@ def test_shapes_without_scatter_stay():
         assert df.ease(points, faces).moves.max() < 1e-2 * edge
 
 
+def test_faint_scatter_is_not_made_worse_by_uneven_stars():
+    truth, quads, inner = sheet("saddle")
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    before, after = [], []
+    for seed in range(6):
+        measured = truth.copy()
+        measured[inner, 2] += 0.005 / 8 * np.random.default_rng(seed).normal(size=len(inner))
+        before.append(error(measured, truth))
+        after.append(error(df.ease(measured, triangles).vertices, truth))
+    assert np.mean(after) < np.mean(before)
+
+
+def test_an_amount_of_nothing_is_none():
+    """Vertices that have been let go have no loads, and so there may be no scatter to be read."""
+    truth, faces, _ = sheet("saddle")
+    assert df.ease(truth, faces, amount=0).amount == 0
+    points, quads = control_meshes.cube()
+    eased = df.ease(points, quads)
+    assert (eased.amount, eased.noise, eased.moves.max()) == (0, 0, 0)
+
+
 def test_many_vertices_are_eased_without_all_eigenvalues():
     truth, faces, inner = sheet("wave", 27, 21)
     measured = scattered(truth, inner, 3)
