@@ -69,9 +69,11 @@ def fill_holes(
         What the filling takes over at the rim: nothing but the place (the least area), the tangent
         planes (of one ring of faces), or the curvature (of two rings).
     energy : "total_curvature", "thin_plate" or "minimum_variation"
-        As in fair(). Where it does not converge, or folds, the thin plate takes its place, where this
-        folds, too, the thin plate with the tangent alone, then the triangulation spread as a membrane,
-        and at last that without new vertices (FilledHole.energy, FilledHole.joint).
+        As in fair(). Where it does not converge, or folds, it goes on from its own shape on new triangles,
+        four times at most. Where that does not help, or the filling passes through other faces, the thin
+        plate takes its place, then the thin plate with the tangent alone, then the triangulation spread
+        as a membrane, and where all fold that without new vertices (FilledHole.energy,
+        FilledHole.joint).
     density : float
         New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
         new vertices, but where the mesh would get an edge twice.
