@@ -10,6 +10,7 @@ from native_wheel import local_version
 from shell import DevError, output, run
 from wheel_version import manifest_version
 
+from cross.pe_identity import settled
 from cross.python_parts import headers, import_library
 from cross.sources import openmesh, zig
 from cross.targets import Target
@@ -79,7 +80,18 @@ def module(target: Target, python: str) -> Path:
     )
     build(target, "_native")
     made = build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
-    return stripped(made) if target.is_linux else made
+    if target.is_linux:
+        return stripped(made)
+    return with_own_identity(made) if target.is_windows else made
+
+
+def with_own_identity(made: Path) -> Path:
+    """A module for Windows with the same bytes wherever it is compiled."""
+    folder = made.parent / "settled"
+    folder.mkdir(exist_ok=True)
+    path = folder / made.name
+    path.write_bytes(settled(made.read_bytes()))
+    return path
 
 
 def stripped(made: Path) -> Path:
