@@ -13,6 +13,7 @@ BINDING = ROOT / "native" / "binding" / "discrete_fairing"
 
 # What each file needs of the file system.
 MAY_USE_FILES = {
+    "addon/cli/ease.py",  # paths of tables, which files.py writes
     "addon/cli/engines.py",  # `os` and the folder that the command was called in
     "addon/cli/files.py",  # looks whether an input can be read, makes the output and its folder
     "addon/cli/main.py",  # `os`, to keep Blender's messages out of the report on standard output
