@@ -192,6 +192,43 @@ def exact_table() -> str:
     return table(["known surface", "measure", "point forces", "pads of 1"], rows)
 
 
+def offsets_table() -> str:
+    """Scattered control vertices, eased: errors in thousandths of an edge."""
+    rows = []
+    for name, found in result("offsets")["shapes"].items():
+        errors = (
+            found["before"],
+            min(found["near"]),
+            min(found["tolerance"]),
+            min(found["amount"]),
+            found["automatic"],
+        )
+        back = "–" if found["moved_back"] is None else f"{found['moved_back']:.2f}"
+        cells = [f"{1e3 * e / found['edge']:.1f}" for e in errors]
+        ratio, noise = f"{found['ratio']:.2f}", f"{found['noise']:.2f}"
+        rows.append([name, *cells, ratio, noise, str(found["found"]), back])
+    return table(
+        ["shape, scatter", "as measured", "Near", "within a tolerance", "best amount", "automatic"]
+        + ["over best", "scatter read", "found of 20", "back"],
+        rows,
+    )
+
+
+def offsets_hulls_table() -> str:
+    """Three wrong vertices of half a hull: how many are among the most strained."""
+    rows = [
+        [name, *(f"{each[k]:.2f}" for k in ("found", "of_six"))]
+        + [f"{1e3 * each[k]:.1f}" for k in ("largest", "median")]
+        for name, each in result("offsets")["hulls"].items()
+    ]
+    heads = [
+        "stations × lines, scatter in m, border at the keel",
+        "of the worst 3",
+        "of the worst 6",
+    ]
+    return table([*heads, "largest strain without scatter, mm", "median, mm"], rows)
+
+
 def caps_table() -> str:
     """Caps of a sphere on their boundary circle: how far surfaces are off, in shares of the radius."""
     rows = []
@@ -254,6 +291,8 @@ SHAPE: dict[str, Callable[[], str]] = {
     "pads.near.table": near_on_pads_table,
     "exact.table": exact_table,
     "exact.caps.table": caps_table,
+    "offsets.table": offsets_table,
+    "offsets.hulls.table": offsets_hulls_table,
     "cube.plate": lambda: inscribed("cube", "1.0"),
     "cube.plate.points": lambda: inscribed("cube", "0.0"),
     "octahedron.plate": lambda: inscribed("octahedron", "1.0"),
