@@ -15,6 +15,10 @@ namespace {
 
 // At least four steps of the lattice a span; more spans than these cost more than they gain.
 constexpr int steps_a_span = 4, most_spans = 16;
+// Where neighbours lean, their normals vary faster beside a vertex than four steps tell.
+constexpr int steps_at_edges = 2;
+// A patch that leans less at an edge is not taken where inside it turns by more, radians.
+constexpr double turned_inside = 0.17;
 // Curves and patches take these shares of the tolerance: the refined surface has one, too.
 constexpr double curve_share = 0.45, patch_share = 0.45;
 // A curve's share where patches lean by more than that share of the angle's tolerance.
@@ -73,6 +77,10 @@ class Fitting {
     return std::clamp(lattice_.n() / (part ? 2 * steps_a_span : steps_a_span), 1, most_spans);
   }
 
+  int most_at_edges(bool part) const {
+    return std::clamp(lattice_.n() / (part ? 2 * steps_at_edges : steps_at_edges), 1, most_spans);
+  }
+
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
     workers_.for_parts(size, 1, [&](std::size_t begin, std::size_t end) {
@@ -126,7 +134,9 @@ class Fitting {
       choose_fitted(lattice_, place, std::max(spans_u, spans_v), data);
       const bool grows = to_tolerance && (spans_u < most || spans_v < most);
       FittedPatch next = fit_patch(data, spans_u, spans_v, !grows);
-      if (fitted_[p].patch.net.empty() || next.misses < fitted_[p].misses)
+      const bool turns_more =
+          !to_tolerance && next.turned > std::max(turned_inside, fitted_[p].turned);
+      if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !turns_more))
         fitted_[p] = std::move(next);
       if (!to_tolerance || (fitted_[p].residual <= data.tolerance && !fitted_[p].folds())) return;
       const double more = bends_more_along_u(fitted_[p].patch);
@@ -196,7 +206,7 @@ class Fitting {
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
     for_each(fitted_.size(), [&](std::size_t p) {
       if (!wanted[p].any()) return;
-      const int most = most_on(topology_.patches[p].corner >= 0);
+      const int most = most_at_edges(topology_.patches[p].corner >= 0);
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
       const double before = fitted_[p].misses;
       const int more_u = std::max(spans_u, std::min(most, 2 * spans_u)),

@@ -113,6 +113,8 @@ def test_patches_in_narrow_corners_do_not_fold():
     assert not len(patches.unresolved)
     assert np.degrees(patches.turned.max()) < 20
     assert np.degrees(patches.largest_angle) < 20
+    # 115 where spans at the edges had four steps of the lattice, too
+    assert len(patches.unmet_by_fit) <= 70
 
 
 def test_a_tip_lower_than_the_tolerance_is_no_fold():

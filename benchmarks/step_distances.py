@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far STEP files are from the surfaces that they stand for: Open CASCADE reads each file and
+evaluates its faces; the distance is that to the triangles of the refined surface.
+
+    python benchmarks/step_distances.py [names …]
+
+Nothing of it is our own evaluation. The triangles are flat: where they bend, their own sag, some
+1e-6 of the size at level 6, is part of the distance.
+"""
+
+import sys
+import tempfile
+from pathlib import Path
+
+import discrete_fairing as df
+import from_tests
+import numpy as np
+import step_files
+import table
+from scipy.spatial import cKDTree
+
+POINTS = 100_000
+CAGES = ("cat_head.obj", "bob_small.ply")
+NEAREST = 12  # points of the surface, all of whose triangles are looked at
+
+
+def surfaces():
+    """Name, mesh, options."""
+    mesh_files, shared_data = from_tests.readers()
+    mesh, creases = from_tests.importlib.import_module("example_meshes").hull()
+    yield "hull", mesh, {"crease_edges": creases}
+    for file in CAGES:
+        for path in sorted((shared_data.SHARED / "good" / "cages").glob(f"*{file}")):
+            yield file.split(".")[0], mesh_files.read_mesh(path), {}
+
+
+def file_points(shape, count: int) -> np.ndarray:
+    """(k, 3) points of a file's faces, evenly in their parameters, `count` in all and a few more."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    faces, search = [], TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while search.More():
+        cast = getattr(TopoDS, "Face_s", None) or TopoDS.Face
+        faces.append(BRepAdaptor_Surface(cast(search.Current())))
+        search.Next()
+    each = int(np.ceil(np.sqrt(count / len(faces))))
+    found = []
+    for face in faces:
+        u, v = (
+            np.linspace(low, high, each)
+            for low, high in (
+                (face.FirstUParameter(), face.LastUParameter()),
+                (face.FirstVParameter(), face.LastVParameter()),
+            )
+        )
+        found += [face.Value(float(a), float(b)).Coord() for a in u for b in v]
+    return np.array(found)
+
+
+def distances(points: np.ndarray, vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(k,) Of points from the nearest of the triangles around the vertices next to them."""
+    corner = np.argsort(triangles.ravel(), kind="stable")
+    first = np.searchsorted(triangles.ravel()[corner], np.arange(len(vertices) + 1))
+    found = np.full(len(points), np.inf)
+    _, near = cKDTree(vertices).query(points, NEAREST)
+    for vertex in near.T:
+        uses = first[vertex + 1] - first[vertex]
+        for k in range(uses.max()):
+            own = np.flatnonzero(uses > k)
+            triangle = triangles[corner[first[vertex[own]] + k] // 3]
+            found[own] = np.minimum(found[own], _from_triangle(points[own], vertices[triangle]))
+    return found
+
+
+def _from_triangle(p: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    a, b, c = corners.transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    inside = length > 0
+    nearest = np.full(len(p), np.inf)
+    for start, end in ((a, b), (b, c), (c, a)):
+        edge = end - start
+        square = np.einsum("ij,ij->i", edge, edge)
+        share = np.einsum("ij,ij->i", p - start, edge) / np.where(square > 0, square, 1.0)
+        foot = start + np.clip(share, 0, 1)[:, None] * edge
+        nearest = np.minimum(nearest, np.linalg.norm(p - foot, axis=1))
+        inside &= np.einsum("ij,ij->i", np.cross(edge, p - start), normal) >= 0
+    height = np.abs(np.einsum("ij,ij->i", p - a, normal)) / np.where(length > 0, length, 1.0)
+    return np.where(inside, height, nearest)
+
+
+def row(name: str, mesh, options) -> list[object]:
+    patches = df.fit_patches(*mesh, **options)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "surface.step"
+        df.write_step(file, patches, unit="mm")
+        points = file_points(step_files.read(file).shape, POINTS)
+    result = patches.result
+    found = distances(points, result.vertices, result.triangles.astype(np.int64)) / patches.size
+    parts = (*np.quantile(found, (0.5, 0.99)), found.max(), patches.largest_residual / patches.size)
+    return [name, patches.levels, len(patches), len(points), *(f"{part:.1e}" for part in parts)]
+
+
+def main() -> None:
+    wanted = sys.argv[1:]
+    rows = [row(*case) for case in surfaces() if not wanted or case[0] in wanted]
+    heading = ["file", "level", "patches", "points", "median", "99 %", "largest", "our own figure"]
+    table.show("STEP files from their surfaces, over the size", heading, rows)
+
+
+if __name__ == "__main__":
+    main()
