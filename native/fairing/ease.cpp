@@ -93,15 +93,15 @@ class Easing {
       find_movable();
       // A curve has few vertices to tell scatter from shape by: no more than scatters beside it.
       const EaseSystem inner = inner_system(loads), curve = curve_system(control);
-      double s = amount(curve);
+      double s = amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)
-        s = with_noise_up_to(curve, s, inner.noise(amount(inner)));
+        s = with_noise_up_to(curve, s, inner.noise(amount(inner_, inner)));
       if (take(curve_, curve, s)) {
         control = problem_->control_positions(at_);
         loads = loads_of(control);
       }
       const EaseSystem again = inner_system(loads);
-      take(inner_, again, amount(again));
+      take(inner_, again, amount(inner_, again));
     }
     const ControlPositions after = problem_->control_positions(at_);
     Strain left = gauge_->read(loads_of(after), after.working);
@@ -206,11 +206,14 @@ class Easing {
     return bounds;
   }
 
-  // As much as the scatter says. Curves and what is between them may scatter by different lengths:
-  // each kind has an amount of its own.
-  double amount(const EaseSystem& system) const {
+  // As much as the scatter says, and where it says nothing, as much as the bounds allow. Curves and
+  // what is between them may scatter by different lengths: each kind has an amount of its own.
+  double amount(const Movable& movable, const EaseSystem& system) const {
     if (!(system.mean() > 0)) return 0;
-    return wanted_.amount >= 0 ? wanted_.amount / system.mean() : cross_validated(system);
+    if (wanted_.amount >= 0) return wanted_.amount / system.mean();
+    const double s = cross_validated(system);
+    if (s > 0 || wanted_.tolerance.empty()) return s;
+    return with_moves_within(system, bounds_of(movable));
   }
 
   // Moves them, and says whether any does.

@@ -241,6 +241,26 @@ double cross_validated(const EaseSystem& system) {
   return chosen == score.begin() ? 0 : amount[std::size_t(chosen - score.begin())];
 }
 
+// Moves grow with the amount, so the ladder of amounts is halved.
+double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
+  if (!(system.mean() > 0)) return 0;
+  const auto amount = [&](int i) {
+    return least_amount / system.mean() * std::pow(ten_a_decade, i);
+  };
+  const auto fits = [&](int i) {
+    const Columns moves = system.moves(amount(i));
+    for (Eigen::Index j = 0; j < system.unknowns(); ++j)
+      if (bounds[j] > 0 && moves.row(j).norm() > bounds[j]) return false;
+    return true;
+  };
+  int within = -1, outside = amounts;
+  while (outside - within > 1) {
+    const int middle = (within + outside) / 2;
+    (fits(middle) ? within : outside) = middle;
+  }
+  return within < 0 ? 0 : amount(within);
+}
+
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {
   for (int i = 0; i < amounts && s > 0; ++i, s /= ten_a_decade)
     if (system.noise(s) <= noise) return s;

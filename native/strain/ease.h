@@ -71,6 +71,9 @@ class EaseSystem {
 // nothing is to be told from the shape.
 double cross_validated(const EaseSystem& system);
 
+// The largest amount whose moves are all within bounds, by themselves; a bound of 0 asks for nothing.
+double with_moves_within(const EaseSystem& system, const Eigen::VectorXd& bounds);
+
 // The amount s, or the largest below that takes out no more than so much scatter; 0: none does.
 double with_noise_up_to(const EaseSystem& system, double s, double noise);
 

@@ -124,6 +124,17 @@ def test_an_amount_of_nothing_is_none():
     assert (eased.amount, eased.noise, eased.moves.max()) == (0, 0, 0)
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-2, 0.1])
+def test_where_no_scatter_is_to_be_read_a_tolerance_is_used(tolerance):
+    points, quads = control_meshes.cube()
+    eased = df.ease(points, quads, tolerance=tolerance)
+    assert 0.6 * tolerance < eased.moves.max() <= tolerance
+    assert np.abs(eased.strain_after).max() < np.abs(eased.strain_before).max()
+    held = np.full(len(points), tolerance)
+    held[3] = 0
+    assert df.ease(points, quads, tolerance=held).moves[3] == 0
+
+
 def test_many_vertices_are_eased_without_all_eigenvalues():
     truth, faces, inner = sheet("wave", 27, 21)
     measured = scattered(truth, inner, 3)

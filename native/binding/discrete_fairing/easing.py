@@ -72,7 +72,8 @@ def ease(
         As of fair(). Vertices in the symmetry plane stay in it.
     tolerance
         Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther: those that would
-        stop at their bound, and the others make the best of that. The amount is as without one.
+        stop at their bound, and the others make the best of that. The amount is as without one; where
+        that is 0, the largest whose moves stay within.
     most
         Move so many vertices at most, the most strained first, each to where the surface wants it;
         in a symmetry plane's halves a vertex and its image count as one. Not with a tolerance.
