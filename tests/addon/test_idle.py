@@ -24,11 +24,11 @@ def counted(monkeypatch):
 def test_faces_are_counted_once(counted):
     source = add("Box", *CUBE)
     for _ in range(3):
-        assert draw(main.VIEW3D_PT_fairing)[1] == "768 triangles"
+        assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
     assert len(counted) == 1
     source.data.clear_geometry()
     source.data.from_pydata(CUBE[0], [], CUBE[1][:5])
-    assert draw(main.VIEW3D_PT_fairing)[1] == "640 triangles" and len(counted) == 2
+    assert "640 triangles" in draw(main.VIEW3D_PT_fairing) and len(counted) == 2
 
 
 class Update:

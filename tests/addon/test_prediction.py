@@ -56,10 +56,10 @@ def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
     prediction.forget()
     source.hide_set(False)
     activate(source)
-    assert draw(main.VIEW3D_PT_fairing)[1] == "768 triangles"
+    assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
     job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
     prediction.note("THIN_PLATE", 768, 12.0, job._source.key)
-    assert draw(main.VIEW3D_PT_fairing)[1] == "768 triangles, about 12 s"
+    assert "768 triangles, about 12 s" in draw(main.VIEW3D_PT_fairing)
     assert job.predicted_seconds == pytest.approx(12.0)
     assert job.predict("THIN_PLATE", 4) == pytest.approx(48.0)
 
