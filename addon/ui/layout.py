@@ -63,9 +63,9 @@ def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOT
 
 def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
     """What makes the surface, beside that."""
-    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
+    draw_choices(layout, settings, "energy", "Fairness", SHORT_ENERGIES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
-    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
+    draw_choices(layout, settings, "interpolation", "Vertices", SHORT_INTERPOLATIONS)
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)

@@ -49,9 +49,13 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
         button.purpose = purpose
 
 
-def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
-    """What a setting offers side by side, each under its picture; `labels`: names short enough."""
-    layout.label(text=owner.bl_rna.properties[name].name)
+def draw_choices(
+    layout: bpy.types.UILayout, owner: Any, name: str, heading: str, labels: dict[str, str]
+) -> None:
+    """What a setting offers side by side, each under its picture; `labels`: names short enough. The
+    RNA of an operator that is drawn does not know its settings, so the `heading` is given.
+    """
+    layout.label(text=heading)
     row = layout.row(align=True)
     row.use_property_split = False
     for key, label in labels.items():
