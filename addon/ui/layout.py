@@ -8,7 +8,7 @@ import bpy
 
 from ..choices import ENERGY_MEANINGS, SHORT_ENERGIES, SHORT_INTERPOLATIONS
 from ..settings import Settings, is_evaluated, is_limit, is_near
-from .pictures import draw_choices, draw_ends
+from .pictures import draw_choices, draw_ends, name_of
 
 
 class Sidebar:
@@ -63,9 +63,9 @@ def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOT
 
 def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
     """What makes the surface, beside that."""
-    draw_choices(layout, settings, "energy", "Fairness", SHORT_ENERGIES)
+    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
-    draw_choices(layout, settings, "interpolation", "Vertices", SHORT_INTERPOLATIONS)
+    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)
@@ -200,7 +200,7 @@ def _remark(layout: bpy.types.UILayout, text: str, icon: Any = "NONE") -> None:
 
 def _switched(layout: bpy.types.UILayout, settings: Any, switch: str, value: str) -> None:
     """A value with its switch before it, grey while that is off."""
-    row = layout.row(align=True, heading=settings.bl_rna.properties[switch].name)
+    row = layout.row(align=True, heading=name_of(settings, switch))
     row.prop(settings, switch, text="")
     sub = row.row(align=True)
     sub.active = getattr(settings, switch)

@@ -26,6 +26,11 @@ def icon(key: str) -> int:
     return picture.icon_id if picture is not None else 0
 
 
+def name_of(owner: Any, name: str) -> str:
+    """What the interface calls a setting. `bl_rna` of an operator that is drawn does not know it."""
+    return owner.rna_type.properties[name].name
+
+
 def draw_pictures(layout: bpy.types.UILayout) -> None:
     """The purposes with settings, two in a row."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True)
@@ -49,13 +54,9 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
         button.purpose = purpose
 
 
-def draw_choices(
-    layout: bpy.types.UILayout, owner: Any, name: str, heading: str, labels: dict[str, str]
-) -> None:
-    """What a setting offers side by side, each under its picture; `labels`: names short enough. The
-    RNA of an operator that is drawn does not know its settings, so the `heading` is given.
-    """
-    layout.label(text=heading)
+def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
+    """What a setting offers side by side, each under its picture; `labels`: names short enough."""
+    layout.label(text=name_of(owner, name))
     row = layout.row(align=True)
     row.use_property_split = False
     for key, label in labels.items():

@@ -27,11 +27,11 @@ class Layout:
         self.log.append(text)
 
     def prop(self, owner, name, **_):
-        assert name in owner.bl_rna.properties
+        assert name in owner.rna_type.properties
         self.log.append(name)
 
     def prop_enum(self, owner, name, value, text=""):
-        assert value in owner.bl_rna.properties[name].enum_items
+        assert value in owner.rna_type.properties[name].enum_items
         self.log += [text, name]
 
     def template_icon(self, icon_value=0, **_):

@@ -18,11 +18,32 @@ from addon.choices import (
     SHORT_INTERPOLATIONS,
 )
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
+from addon.operators.fair import FairSurface
 from addon.purposes import PURPOSES
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, notice, pictures
 from addon.ui.layout import Sidebar
+
+
+def test_an_operator_shows_all_of_it_too():
+    """As in Adjust Last Operation, with what is folded open."""
+    drawn = []
+
+    class OBJECT_OT_drawn(FairSurface, bpy.types.Operator):
+        bl_idname = "object.drawn"
+
+        def execute(self, _context):
+            settings_layout.draw_settings(Layout(drawn), self, self.bl_idname)
+            return {"FINISHED"}
+
+    add("Box", *CUBE)
+    bpy.utils.register_class(OBJECT_OT_drawn)
+    try:
+        assert bpy.ops.object.drawn() == {"FINISHED"}
+    finally:
+        bpy.utils.unregister_class(OBJECT_OT_drawn)
+    assert {"Fairness", "energy", "crease_angle", "corner_angle", "metric_exponent"} <= set(drawn)
 
 
 def test_every_setting_is_shown_somewhere():
