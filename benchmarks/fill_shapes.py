@@ -24,6 +24,22 @@ class Holed:
         return float(np.linalg.norm(rim[:, None] - rim[None], axis=2).max())
 
 
+def turns_at_edges(
+    points: np.ndarray, triangles: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of each edge with two triangles these, and the degrees between their normals."""
+    corner = points[triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    owner = np.repeat(np.arange(len(triangles)), 3)
+    order = np.lexsort(sides.T)
+    sides, owner = sides[order], owner[order]
+    same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+    a, b = owner[same], owner[same + 1]
+    return a, b, np.degrees(np.arccos((normal[a] * normal[b]).sum(axis=1).clip(-1, 1)))
+
+
 def lattice(n: int, m: int, closed: tuple[bool, bool]) -> np.ndarray:
     """Triangles (t, 3) of a grid of n by m points."""
     at = np.arange(n * m).reshape(n, m)

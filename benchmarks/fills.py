@@ -61,16 +61,7 @@ def _off(corners: np.ndarray, holed: fill_shapes.Holed) -> float:
 
 def _rim(vertices: np.ndarray, faces: np.ndarray, new: np.ndarray) -> dict[str, Any]:
     """Degrees between normals: across the rim at most, and of the mesh beside it."""
-    corner = vertices[faces]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    owner = np.repeat(np.arange(len(faces)), 3)
-    order = np.lexsort(sides.T)
-    sides, owner = sides[order], owner[order]
-    same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
-    a, b = owner[same], owner[same + 1]
-    angle = np.degrees(np.arccos((normal[a] * normal[b]).sum(1).clip(-1, 1)))
+    a, b, angle = fill_shapes.turns_at_edges(vertices, faces)
     across, old = angle[new[a] != new[b]], angle[~new[a] & ~new[b]]
     own = float(np.percentile(old, 99))
     if not len(across):

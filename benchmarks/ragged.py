@@ -9,6 +9,7 @@ from time import process_time
 from typing import Any
 
 import discrete_fairing as df
+import fill_shapes
 import from_tests
 import numpy as np
 import rivals
@@ -73,17 +74,8 @@ def case(number: int, whole: list[tuple[str, np.ndarray, np.ndarray]]) -> Any:
 
 def turns(points: np.ndarray, triangles: np.ndarray, first: int = 0) -> float:
     """Degrees: the largest at an edge of a triangle from the `first` on."""
-    corner = points[triangles]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    owner = np.repeat(np.arange(len(triangles)), 3)
-    order = np.lexsort(sides.T)
-    sides, owner = sides[order], owner[order]
-    same = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
-    a, b = owner[same], owner[same + 1]
-    cosine = (normal[a] * normal[b]).sum(axis=1)[(a >= first) | (b >= first)]
-    return float(np.degrees(np.arccos(cosine.clip(-1, 1))).max(initial=0.0))
+    a, b, degrees = fill_shapes.turns_at_edges(points, triangles)
+    return float(degrees[(a >= first) | (b >= first)].max(initial=0.0))
 
 
 def angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
