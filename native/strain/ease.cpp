@@ -221,14 +221,26 @@ Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   return within;
 }
 
-double cross_validated(const EaseSystem& system) {
-  if (!(system.mean() > 0)) return 0;
-  std::vector<double> amount, score;
+namespace {
+
+// All that are tried, rising. None where G is nothing.
+std::vector<double> ladder(const EaseSystem& system) {
+  std::vector<double> out;
+  if (!(system.mean() > 0)) return out;
   double s = least_amount / system.mean();
-  for (int i = 0; i < amounts; ++i, s *= ten_a_decade) {
+  for (int i = 0; i < amounts; ++i, s *= ten_a_decade) out.push_back(s);
+  return out;
+}
+
+}  // namespace
+
+double cross_validated(const EaseSystem& system) {
+  const std::vector<double> amount = ladder(system);
+  if (amount.empty()) return 0;
+  std::vector<double> score;
+  for (const double s : amount) {
     const double trace = system.trace(s);
     const double kept = system.squared_trace(s) / double(system.unknowns());
-    amount.push_back(s);
     score.push_back(system.squared_moves(s) / (trace * trace) *
                     (robustness + (1 - robustness) * kept));
   }
@@ -243,22 +255,15 @@ double cross_validated(const EaseSystem& system) {
 
 // Moves grow with the amount, so the ladder of amounts is halved.
 double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
-  if (!(system.mean() > 0)) return 0;
-  const auto amount = [&](int i) {
-    return least_amount / system.mean() * std::pow(ten_a_decade, i);
-  };
-  const auto fits = [&](int i) {
-    const Columns moves = system.moves(amount(i));
+  const std::vector<double> amount = ladder(system);
+  const auto fits = [&](double s) {
+    const Columns moves = system.moves(s);
     for (Eigen::Index j = 0; j < system.unknowns(); ++j)
       if (bounds[j] > 0 && moves.row(j).norm() > bounds[j]) return false;
     return true;
   };
-  int within = -1, outside = amounts;
-  while (outside - within > 1) {
-    const int middle = (within + outside) / 2;
-    (fits(middle) ? within : outside) = middle;
-  }
-  return within < 0 ? 0 : amount(within);
+  const auto outside = std::partition_point(amount.begin(), amount.end(), fits);
+  return outside == amount.begin() ? 0 : *(outside - 1);
 }
 
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {

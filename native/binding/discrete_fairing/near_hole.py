@@ -252,6 +252,11 @@ class MeshPart:
         return self.corners[_runs(self.offsets[faces], sizes)]
 
 
+def angles_between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """(…) radians, of vectors (…, 3)."""
+    return np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1))
+
+
 def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """start, start + 1, … of each, `size` of them, one after another."""
     return np.arange(sizes.sum()) + np.repeat(starts - np.cumsum(sizes) + sizes, sizes)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .near_hole import MeshPart, NearHole
+from .near_hole import MeshPart, NearHole, angles_between
 from .rounds import Filling, Wanted
 
 # Sums of four angles that differ by less are one: among such corners the sides decide.
@@ -46,13 +46,8 @@ def _hole_angles(mesh: MeshPart, loop: np.ndarray) -> np.ndarray:
     to_next = point[starts + (place + 1) % size] - point
     to_last = point[starts + (place - 1) % size] - point
     used = np.zeros(len(mesh.points))
-    np.add.at(used, corners, _between(to_next, to_last))
+    np.add.at(used, corners, angles_between(to_next, to_last))
     return 2 * np.pi - used[loop]
-
-
-def _between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Angles, in radians."""
-    return np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), (u * v).sum(axis=1))
 
 
 def grid_of(loop: np.ndarray, points: np.ndarray, start: int, a: int, first: int) -> Any:
@@ -118,7 +113,7 @@ def _joins_again(mesh: MeshPart, loop: np.ndarray, quads: np.ndarray) -> bool:
 def _angles(corner: np.ndarray) -> tuple[float, float]:
     """The least and the largest of quads (q, 4, 3), in degrees; those that turn in count as such."""
     after, before = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
-    found = np.degrees(_between(after.reshape(-1, 3), before.reshape(-1, 3)))
+    found = np.degrees(angles_between(after, before)).ravel()
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
     turns_in = (np.cross(after, before) * normal[:, None]).sum(axis=2).ravel() < 0.0
     found = np.where(turns_in, 360.0 - found, found)

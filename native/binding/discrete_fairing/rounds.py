@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from .errors import fairing_error
-from .near_hole import Made, MeshPart, NearHole, RefusedAround
+from .near_hole import Made, MeshPart, NearHole, RefusedAround, angles_between
 from .watching import SeveralRuns
 
 # A filling is remeshed where fairing has made its area so many times as large: up to there its edges
@@ -30,7 +30,6 @@ _MOST_ROUNDS = 5
 _MOST_GROWN = 20.0
 
 _SHOWN = 8  # ids that a message lists
-
 
 # Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer; a
 # rim that forces some has as many in each round.
@@ -128,10 +127,7 @@ _Rank = tuple[int, bool, bool, int]
 def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
     """The less the better; of triangles with these `corners` (t, 3, 3)."""
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    sine = np.linalg.norm(np.cross(after, before), axis=2)
-    slivers = (
-        np.arctan2(sine, (after * before).sum(axis=2)).min(axis=1) < np.radians(_SLIVER)
-    ).sum()
+    slivers = (angles_between(after, before).min(axis=1) < np.radians(_SLIVER)).sum()
     return made.folds, not made.converged, made.energy != wanted.energy, int(slivers)
 
 
