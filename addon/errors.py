@@ -7,6 +7,7 @@ from typing import Any
 
 from . import core
 
+_OR_MEND = ", or let Defects be Mend"
 _REMEDIES = {
     "EMPTY_MESH": "Add a mesh with faces first",
     "NO_FACES": "Fill the edges with faces (F in Edit Mode)",
@@ -15,7 +16,7 @@ _REMEDIES = {
     "DUPLICATE_FACE": "Delete one of each pair",
     "NONMANIFOLD_EDGE": "Leave them: the sheets meet in a curve. Delete inner faces that you do not want",
     "NONMANIFOLD_VERTEX": "Leave them, or separate the parts (V)",
-    "INCONSISTENT_ORIENTATION": "Recalculate the normals (Shift N in Edit Mode), or let Defects be Mend",
+    "INCONSISTENT_ORIENTATION": f"Recalculate the normals (Shift N in Edit Mode){_OR_MEND}",
     "NON_ORIENTABLE": "Use Thin Plate, or cut it open along a row of edges (V in Edit Mode)",
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
@@ -103,16 +104,20 @@ def remedy(code: str) -> str:
     return _sentence(_REMEDIES[code]) if code in _REMEDIES else ""
 
 
-def error_text(object_name: str, error: Any) -> str:
-    """One paragraph for a FairingError: which object, what is wrong where, what to do."""
+def error_text(object_name: str, error: Any, may_mend: bool = True) -> str:
+    """One paragraph for a FairingError: which object, what is wrong where, what to do. `may_mend`: whether there is the
+    setting Defects.
+    """
     what, help_by = str(error), _REMEDIES.get(error.code, "")
+    if not may_mend:
+        help_by = help_by.removesuffix(_OR_MEND)
     if help_by and error.code in _WITH_REMEDY:  # ours knows Blender, and one is enough
         what = what.partition(". ")[0]
     return " ".join(_sentence(part) for part in (f"{object_name}: {what}", help_by) if part)
 
 
 @contextmanager
-def explained(object_name: str) -> Iterator[None]:
+def explained(object_name: str, may_mend: bool = True) -> Iterator[None]:
     """Inside the `with` an error of the core becomes a JobError, in words for the user."""
     fairing_error = core.module().FairingError
     try:
@@ -120,7 +125,7 @@ def explained(object_name: str) -> Iterator[None]:
     except fairing_error as error:
         kind = JobCancelled if error.code == "CANCELLED" else JobError
         raise kind(
-            error_text(object_name, error), error.code, error.kind, error.elements
+            error_text(object_name, error, may_mend), error.code, error.kind, error.elements
         ) from error
 
 

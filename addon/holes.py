@@ -134,7 +134,8 @@ class HoleJob:
             self._holes = [[loop] for loop in loops if not chosen.isdisjoint(sides_of(loop))]
         if not self._holes:
             raise JobError(
-                f"{self.name}: {_none_text(wish, self._editing, self._unclear)}", NO_HOLE
+                f"{self.name}: {_none_text(wish, self._editing, self._unclear, len(loops))}",
+                NO_HOLE,
             )
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
 
@@ -156,7 +157,7 @@ class HoleJob:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         try:
-            with errors.explained(self.name):
+            with errors.explained(self.name, may_mend=False):
                 self.result = self._filled(watchers)
         except JobCancelled:
             raise
@@ -257,11 +258,13 @@ def _triangles_in(edges: int, density: float) -> int:
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
 
 
-def _none_text(wish: Wish, editing: bool, unclear: int) -> str:
+def _none_text(wish: Wish, editing: bool, unclear: int, loops: int) -> str:
     if wish.edge is not None:
         return "this hole is no longer there. Press Check Mesh again"
     if unclear:
         return _unclear_text(unclear)
+    if not editing and not loops:
+        return "there is no hole: every edge has a face on both sides"
     if not editing:
         return f"there is no hole of at most {wish.most_edges} edges. Raise Largest Hole"
     if wish.replaces:

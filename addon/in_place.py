@@ -148,7 +148,7 @@ class InPlaceJob:
         begun = perf_counter()
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
-        with errors.explained(self.name):
+        with errors.explained(self.name, may_mend=False):
             if self._wish.measured:
                 result, noise = self._smoothed(watchers)
                 moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}

@@ -12,7 +12,7 @@ from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import edit_mode_reason, mesh_poll_reason
 from ..strain.ease import EaseJob, EaseSelectedJob, Wish
-from ..ui.main import remembered
+from ..ui.main import fairing_operator
 from ..units import length_text
 from . import fill
 from .fair import WholeFairing, poll_reason
@@ -140,10 +140,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
             for job in jobs:
                 job.write_key()
             if self.fair_afterwards:
-                operators: Any = bpy.ops.object
-                again = remembered(context) is not None
-                operator = operators.fairing_recompute if again else operators.fairing_surface
-                fill.invoke_soon(context, operator, {})
+                fill.invoke_soon(context, fairing_operator(context), {})
         else:
             select_only(context, [job.write_copy() for job in jobs])
 

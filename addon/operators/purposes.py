@@ -9,7 +9,7 @@ from bpy.props import EnumProperty
 from ..blender import Answer, Context, registration
 from ..poll import ExplainedPoll
 from ..purposes import EASED_FIRST, PURPOSES, preset_file
-from ..ui.main import remembered, settings_at_hand
+from ..ui.main import fairing_operator, remembered, settings_at_hand
 from .fair import poll_reason
 
 
@@ -33,10 +33,21 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         return poll_reason(context) or ("" if mesh else "Select a mesh object first")
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
-        return self._run(context, "INVOKE_DEFAULT")
+        return self._run_or_say(context, "INVOKE_DEFAULT")
 
     def execute(self, context: Context) -> Answer:
-        return self._run(context, "EXEC_DEFAULT")
+        return self._run_or_say(context, "EXEC_DEFAULT")
+
+    def _run_or_say(self, context: Context, how: str) -> Answer:
+        """What an operator within this one reports as an error is an exception here, and would be shown as one."""
+        had_object_mode = context.mode == "OBJECT"
+        try:
+            return self._run(context, how)
+        except RuntimeError as error:
+            if had_object_mode and context.mode != "OBJECT":
+                bpy.ops.object.mode_set(mode="OBJECT")
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
 
     def _run(self, context: Context, how: str) -> Answer:
         operators: Any = bpy.ops.object
@@ -52,11 +63,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             if how == "INVOKE_DEFAULT":
                 return operators.fairing_ease(how, fair_afterwards=True)
             operators.fairing_ease(how)
-        if remembered(context) is not None:
-            return operators.fairing_recompute(how)
+        if how == "INVOKE_DEFAULT" or remembered(context) is not None:
+            return fairing_operator(context)(how)
         settings: Any = settings_at_hand(context)
-        if how == "INVOKE_DEFAULT":
-            return operators.fairing_surface(how)
         return operators.fairing_surface(
             how, **{name: getattr(settings, name) for name in settings.__annotations__}
         )

@@ -131,6 +131,13 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
     return active.discrete_fairing
 
 
+def fairing_operator(context: Context) -> Any:
+    """What the button runs: Recompute where the active object's surface is remembered, else Fair Surface."""
+    operators: Any = bpy.ops.object
+    again = remembered(context) is not None
+    return operators.fairing_recompute if again else operators.fairing_surface
+
+
 def _size_text(settings: Settings, sources: list[Object], triangles: int) -> str:
     """`61,952 triangles, about 12 s`; empty where there are none."""
     mesh = session_key(sources[0]) if len(sources) == 1 else None

@@ -28,6 +28,12 @@ def test_larger_holes_stay_open():
     assert len(target.data.polygons) == count
 
 
+def test_a_closed_mesh_has_none():
+    ball()
+    with pytest.raises(RuntimeError, match="no hole: every edge has a face on both sides"):
+        bpy.ops.object.fairing_fill()
+
+
 def test_one_edge_names_its_hole():
     target = without(ball(), lambda c: abs(c[2]) > 0.7)
     edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])

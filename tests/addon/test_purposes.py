@@ -118,3 +118,12 @@ def test_how_many_vertices_are_at_the_limit_is_said():
 def test_nothing_selected_is_said():
     with pytest.raises(RuntimeError, match="Select a mesh object first"):
         bpy.ops.object.fairing_for(purpose="HULL")
+
+
+def test_a_refusal_is_a_sentence_and_leaves_the_mode():
+    add("Triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    with pytest.raises(RuntimeError) as refused:
+        bpy.ops.object.fairing_for(purpose="SCAN_PATCH")
+    assert str(refused.value).startswith("Error: Triangle: no vertex lies inside")
+    assert "Traceback" not in str(refused.value)
+    assert bpy.context.mode == "OBJECT"
