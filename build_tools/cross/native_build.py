@@ -80,9 +80,7 @@ def module(target: Target, python: str) -> Path:
     )
     build(target, "_native")
     made = build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
-    if target.is_linux:
-        return stripped(made)
-    return with_own_identity(made) if target.is_windows else made
+    return with_own_identity(made) if target.is_windows else stripped(target, made)
 
 
 def with_own_identity(made: Path) -> Path:
@@ -94,15 +92,17 @@ def with_own_identity(made: Path) -> Path:
     return path
 
 
-def stripped(made: Path) -> Path:
-    """A module for Linux without the data for debuggers that zig's own libraries bring: two thirds of it.
+def stripped(target: Target, made: Path) -> Path:
+    """A module without the data for debuggers that zig's own libraries bring: two thirds of it for Linux; for macOS
+    these name the folder where it was compiled. One that was signed is signed again.
 
     The linker could leave them out, but then zig builds its libraries once more.
     """
     system_packages.install(["llvm"])
     folder = made.parent / "stripped"
     folder.mkdir(exist_ok=True)
-    run("llvm-strip", "--strip-all", "-o", folder / made.name, made)
+    what = ["--strip-debug", "--discard-all"] if target.is_macos else ["--strip-all"]
+    run("llvm-strip", *what, "-o", folder / made.name, made)
     return folder / made.name
 
 

@@ -21,10 +21,6 @@ class Target:
         return self.name.startswith("windows")
 
     @property
-    def is_linux(self) -> bool:
-        return self.name.startswith("linux")
-
-    @property
     def is_macos(self) -> bool:
         return self.name.startswith("macos")
 
