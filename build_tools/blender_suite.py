@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import monotonic
 
+from debian_root import ROOTS
 from durations import REPORTS, write_report
 from extension import build
 from layout import OUT, ROOT
@@ -20,6 +21,15 @@ SCRIPTS = ROOT / "tests" / "blender"
 SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # what timeout(1) ends with
+# Over a minute each: all of them take more than half of a Blender's time. Every one runs in one Blender, all others
+# in each; `nightly`, and a script that is named, in every Blender.
+LONG = [
+    "window_live.py",
+    "headless_endurance.py",
+    "window_run.py",
+    "window_curves.py",
+    "window_jobs.py",
+]
 
 
 def install(blender: RealBlender) -> None:
@@ -68,13 +78,24 @@ def run_script(blender: RealBlender, script: Path) -> Tally:
     return count(code, text, script.name)
 
 
-def try_all(blender: RealBlender, wanted: str) -> Tally:
-    """Every script whose name contains `wanted`, in one Blender that has the extension."""
+def left_to_others(place: str) -> set[str]:
+    """The long scripts that this place does not run: the Debian roots, which have screens, take turns."""
+    takers = [root.suite for root in ROOTS]
+    return {script for k, script in enumerate(LONG) if takers[k % len(takers)] != place}
+
+
+def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
+    """Every script whose name contains `wanted`, but for some, in one Blender that has the extension."""
     folder = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (blender.exchange / "screenshots").mkdir()
     kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
-    scripts = [path for kind in kinds for path in sorted(folder.glob(kind)) if wanted in path.name]
+    scripts = [
+        path
+        for kind in kinds
+        for path in sorted(folder.glob(kind))
+        if wanted in path.name and path.name not in left_out
+    ]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
     total, seconds = Tally(), []
@@ -100,19 +121,19 @@ def prepared(get: Callable[[], RealBlender]) -> RealBlender | str:
         return str(error)
 
 
-def attempt(blender: RealBlender | str, wanted: str) -> Tally:
+def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tally:
     """The tally of one Blender; one that cannot be had is one failure."""
     if isinstance(blender, str):
         return Tally(failed=1, note=blender)
     try:
-        return try_all(blender, wanted)
+        return try_all(blender, wanted, left_out)
     except DevError as error:
         print(f"dev.py: {error}", flush=True)
         return Tally(failed=1, note=str(error))
 
 
-def run_suite(wanted: str = "") -> dict[str, Tally]:
-    """The tallies by Blender.
+def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
+    """The tallies by Blender; long scripts run in one of them, unless they are `wanted` or `everything` is.
 
     They are installed one after the other, since compilers use all cores, and then run side by side: each
     has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same folders.
@@ -123,6 +144,12 @@ def run_suite(wanted: str = "") -> dict[str, Tally]:
             place if isinstance(blender, str) else f"{place} {blender.version}"
             for place, blender in blenders.items()
         ]
+        every = bool(wanted) or everything
         with ThreadPoolExecutor(max_workers=len(blenders)) as pool:
-            tallies = pool.map(lambda blender: attempt(blender, wanted), blenders.values())
+            tallies = pool.map(
+                lambda place: attempt(
+                    blenders[place], wanted, set() if every else left_to_others(place)
+                ),
+                blenders,
+            )
         return dict(zip(names, tallies, strict=True))

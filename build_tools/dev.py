@@ -6,7 +6,7 @@ python3 build_tools/dev.py demo           the main job on real meshes; results a
 python3 build_tools/dev.py test           all tests; the last line counts them
 python3 build_tools/dev.py test windows arm   the tests as programs for other machines, under Wine and qemu
 python3 build_tools/dev.py test quick     what a change needs daily: form, the core, a few files of each other suite
-python3 build_tools/dev.py test nightly   races between threads, and half an hour of new random calls
+python3 build_tools/dev.py test nightly    long scripts in every Blender, races, half an hour of new random calls
 python3 build_tools/dev.py setup          system packages, .venv and the native build
 python3 build_tools/dev.py fuzz --minutes N   random meshes and options until time is up; failures under out/fuzz/
 python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench/

@@ -151,8 +151,10 @@ def long_fuzz() -> Tally:
 
 
 def nightly_suite() -> dict[str, Tally]:
-    """What is too long for every day: races between threads, new random calls."""
+    """What is too long for every day: long scripts in every Blender, races between threads, new random calls."""
+    blenders = blender_suite.run_suite(everything=True)
     return {
+        **{f"Blender of {place}": tally for place, tally in blenders.items()},
         "races, native": native_suite(fuzzing.THREADS, *NO_FAULTS),
         "races, package": pytest_suite(
             "python/test_threads.py", **fuzzing.sanitized_environment(fuzzing.THREADS)
