@@ -5,6 +5,7 @@ import re
 import shutil
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from time import monotonic
 
@@ -32,16 +33,17 @@ LONG = [
 ]
 
 
-def install(blender: RealBlender) -> None:
-    """Packs the extension and installs it as a user would, into settings that nobody else has."""
+def install(blender: RealBlender) -> RealBlender:
+    """The Blender, with the extension packed and installed as a user would, into settings that nobody else has."""
     blender.clear()
     made = build([blender.wheel()], blender)
     where = ["--repo", "user_default", "--enable", blender.seen(made)]
     run(*blender.headless("--command", "extension", "install-file", *where))
+    return blender
 
 
 def count(code: int, text: str, script: str) -> Tally:
-    """The tally of one script by what it printed: each line `PASS name` or `FAIL name` is a test."""
+    """The tally of one script by what it printed: each line `PASS name …` or `FAIL name …` is a test."""
     results = re.findall(r"^(PASS|FAIL) ", text, re.MULTILINE)
     tally = Tally(passed=results.count("PASS"), failed=results.count("FAIL"))
     if code in HUNG:
@@ -66,16 +68,26 @@ def counting_allocator(script: Path) -> dict[str, str]:
     }
 
 
-def run_script(blender: RealBlender, script: Path) -> Tally:
-    """One script in one Blender, in a window if its name says so."""
+def timed(text: str, script: str, whole: float) -> list[tuple[str, float]]:
+    """Names and seconds of a script's tests, by what it printed, and of what is around them."""
+    lines = re.findall(r"^(?:PASS|FAIL) (\S+) ([\d.]+) s$", text, re.MULTILINE)
+    tests = [(f"{script}: {name}", float(seconds)) for name, seconds in lines]
+    around = whole - sum(seconds for _, seconds in tests)
+    return [*tests, (f"{script}: start and end", around)]
+
+
+def run_script(blender: RealBlender, script: Path) -> tuple[Tally, list[tuple[str, float]]]:
+    """One script in one Blender, in a window if its name says so; and how long its tests took."""
     say(f"Blender {blender.version}: {script.name}")
     start = blender.window if script.match(WINDOW) else blender.headless
     screenshots = blender.seen(blender.exchange / "screenshots")
     arguments = ["--python-exit-code", "1", "--python", blender.seen(script)]
     variables = {"DF_SCREENSHOTS": str(screenshots), **counting_allocator(script)}
+    begun = monotonic()
     code, text = output(*start(*arguments, **variables))
     print(text, flush=True)
-    return count(code, text, script.name)
+    seconds = timed(text, script.name, monotonic() - begun)
+    return count(code, text, script.name), seconds
 
 
 def left_to_others(place: str) -> set[str]:
@@ -100,9 +112,9 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
         return Tally(failed=1, note=f"no script for '{wanted}'")
     total, seconds = Tally(), []
     for script in scripts:
-        start = monotonic()
-        total += run_script(blender, script)
-        seconds.append((script.name, monotonic() - start))
+        tally, of_script = run_script(blender, script)
+        total += tally
+        seconds += of_script
     write_report(REPORTS / f"blender-{blender.version}.xml", seconds)
     kept = SCREENSHOTS / blender.version
     shutil.rmtree(kept, ignore_errors=True)
@@ -110,15 +122,28 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     return total
 
 
-def prepared(get: Callable[[], RealBlender]) -> RealBlender | str:
-    """A Blender with the extension installed, or why there is none."""
+def or_why(get: Callable[[], RealBlender]) -> RealBlender | str:
+    """A Blender, or why there is none."""
     try:
-        blender = get()
-        install(blender)
-        return blender
+        return get()
     except DevError as error:
         print(f"dev.py: {error}", flush=True)
         return str(error)
+
+
+def prepared() -> dict[str, RealBlender | str]:
+    """Each Blender at hand with the extension installed, or why there is none.
+
+    The systems in folders are made side by side, as each waits for the network and for one processor; the extension
+    is installed in one after the other, since compilers use all cores.
+    """
+    getters = places()
+    with ThreadPoolExecutor(max_workers=len(getters)) as pool:
+        found = list(pool.map(or_why, getters.values()))
+    return {
+        place: blender if isinstance(blender, str) else or_why(partial(install, blender))
+        for place, blender in zip(getters, found, strict=True)
+    }
 
 
 def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tally:
@@ -135,11 +160,11 @@ def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tall
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
     """The tallies by Blender; long scripts run in one of them, unless they are `wanted` or `everything` is.
 
-    They are installed one after the other, since compilers use all cores, and then run side by side: each
-    has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same folders.
+    They run side by side: each has a folder, settings and a screen of its own. One suite at a time, as the next one
+    takes the same folders.
     """
     with alone("blender"):
-        blenders = {place: prepared(get) for place, get in places().items()}
+        blenders = prepared()
         names = [
             place if isinstance(blender, str) else f"{place} {blender.version}"
             for place, blender in blenders.items()

@@ -16,8 +16,10 @@ from shell import DevError, as_root, output, run, say
 OLDEST = (4, 3)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
-# each Blender has a screen of its own: their locks are apart in the roots, their sockets are not
+# the Blenders of one clone, if they share a system, have screens of their own
 FIRST_SCREEN = 90
+# sockets in the root's own folder alone: those without a folder are common to all clones on a machine
+SCREEN = "-screen 0 {}x{}x24 -nolisten local"
 TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs
 
 
@@ -56,7 +58,7 @@ class RealBlender:
         width, height = map(str, WINDOW)
         number = FIRST_SCREEN + (ROOTS.index(self.root) if self.root else len(ROOTS))
         screen = ["xvfb-run", f"--server-num={number}"]
-        screen += ["--server-args", f"-screen 0 {width}x{height}x24"]
+        screen += ["--server-args", SCREEN.format(width, height)]
         blender = ["blender", "--window-geometry", "0", "0", width, height, *arguments]
         return self.command(*screen, *blender, LIBGL_ALWAYS_SOFTWARE="1", **extra)
 

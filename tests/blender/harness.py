@@ -2,7 +2,7 @@
 """What the scripts in this folder share: they run inside a real Blender, which knows no test framework.
 
 A script ends with `harness.run(globals())`, or `harness.run_in_window(globals())`. Every function named `test_…`
-is run in a fresh scene; `PASS name` or `FAIL name` is printed for it and `RAN n` at the end, which
+is run in a fresh scene; `PASS name`, or `FAIL name`, with its seconds is printed for it and `RAN n` at the end, which
 build_tools/blender_suite.py counts. In a window a test may be a generator: at each `yield SECONDS` the window
 gets that time to draw and to take events.
 """
@@ -14,6 +14,7 @@ import subprocess
 import sys
 import traceback
 from pathlib import Path
+from time import perf_counter
 
 import bpy
 
@@ -38,11 +39,11 @@ def steps(test):
         yield from result
 
 
-def report(name, error=None):
-    """The line of one test; True if it passed."""
+def report(name, start, error=None):
+    """The line of one test that began at `start`; True if it passed."""
     if error is not None:
         traceback.print_exception(error, file=sys.stdout)
-    print(f"{'FAIL' if error else 'PASS'} {name}", flush=True)
+    print(f"{'FAIL' if error else 'PASS'} {name} {perf_counter() - start:.2f} s", flush=True)
     return error is None
 
 
@@ -50,13 +51,14 @@ def run(namespace):
     """Every test in a scene of its own, without a window; then the process ends, with 1 if any failed."""
     passed = []
     for name, test in tests_in(namespace).items():
+        start = perf_counter()
         try:
             fresh_scene()
             test()
         except Exception as error:
-            passed.append(report(name, error))
+            passed.append(report(name, start, error))
         else:
-            passed.append(report(name))
+            passed.append(report(name, start))
     print(f"RAN {len(passed)}", flush=True)
     sys.exit(0 if all(passed) else 1)
 
@@ -74,16 +76,17 @@ def run_in_window(namespace):
 
 def _walk_in_window(tests):
     for name, test in tests.items():
+        start = perf_counter()
         try:
             fresh_scene(empty=False)
             yield 0.5
             yield from steps(test)
         except Exception as error:
-            report(name, error)
+            report(name, start, error)
             with contextlib.suppress(OSError, subprocess.SubprocessError):
                 photograph(f"failed_{name}")
         else:
-            report(name)
+            report(name, start)
     print(f"RAN {len(tests)}", flush=True)
     bpy.ops.wm.quit_blender()
 
