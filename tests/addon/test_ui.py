@@ -161,13 +161,14 @@ def test_pictures_are_small_and_the_panel_does_without():
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-def test_fairness_is_the_first_of_more_with_what_it_means(energy):
+def test_a_beginner_has_fairness_levels_and_vertices_above_the_button(energy):
     add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = energy
     shown = draw(main.VIEW3D_PT_fairing)
-    more = shown[shown.index("More") + 1 :]
-    assert more[0] == "Fairness"
-    assert more[more.index("energy") : more.index("Vertices")][-1] == ENERGY_MEANINGS[energy]
+    order = ["levels", "Fairness", "Vertices", "object.fairing_surface", "More", "pad_size"]
+    places = [shown.index(name) for name in order]
+    assert places == sorted(places)
+    assert shown[shown.index("energy") : places[2]][-1] == ENERGY_MEANINGS[energy]
 
 
 def test_what_an_energy_costs_is_said_once():
