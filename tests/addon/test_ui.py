@@ -19,7 +19,7 @@ from addon.choices import (
 )
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
 from addon.operators.fair import FairSurface
-from addon.purposes import PURPOSES
+from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, notice, pictures
@@ -113,6 +113,24 @@ def test_triangle_count_stands_under_the_levels():
 def named(monkeypatch):
     """Pictures by their names: without a window they have no numbers."""
     monkeypatch.setattr(pictures, "icon", lambda key: f"picture of {key}")
+
+
+@pytest.mark.parametrize("own", [False, True], ids=["none of one's own", "one of one's own"])
+def test_a_preset_can_be_saved(own, tmp_path):
+    """Also as the first one: then Blender has no folder for them yet."""
+    (tmp_path / "Mine.py").write_text("")
+    instance = SimpleNamespace(layout=Layout(), bl_idname="VIEW3D_PT_fairing_presets")
+    shipped = str(FOLDER / PRESET_FOLDER)
+    main.VIEW3D_PT_fairing_presets.path_menu(
+        instance,
+        [shipped, str(tmp_path)] if own else [shipped],
+        "object.fairing_preset_apply",
+        filter_ext=lambda ext: ext == ".py",
+        add_operator="object.fairing_preset_add",
+    )
+    log = instance.layout.log
+    assert log.count("object.fairing_preset_apply") == own
+    assert log[-2:] == ["preset_name", "object.fairing_preset_add"]
 
 
 def test_what_the_surface_is_for_comes_first(named):
