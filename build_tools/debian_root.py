@@ -105,7 +105,12 @@ class DebianRoot:
         )
         self.stamp.unlink(missing_ok=True)
         run(*as_root("rm", "-rf", "--one-file-system", self.folder))
-        options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"', *LEAN, *self.options]
+        options = [
+            "--variant=minbase",
+            '--aptopt=APT::Install-Recommends "false"',
+            *LEAN,
+            *self.options,
+        ]
         words = ["mmdebstrap", *options, f"--include={','.join(packages)}", self.suite, self.folder]
         if run(*as_root(*words), check=False):
             raise DevError(

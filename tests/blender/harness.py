@@ -19,7 +19,7 @@ from time import perf_counter
 import bpy
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
-FIRST_DRAWING = 2.0  # seconds: the window opens after the scripts have been read
+DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
 
 
 def fresh_scene(empty=True):
@@ -71,15 +71,33 @@ def run_in_window(namespace):
     bpy.context.preferences.view.show_splash = False
     walk = _walk_in_window(tests_in(namespace))
     # persistent: loading a scene would remove it
-    bpy.app.timers.register(lambda: next(walk, None), first_interval=FIRST_DRAWING, persistent=True)
+    bpy.app.timers.register(lambda: next(walk, None), first_interval=0.5, persistent=True)
+
+
+def drawn():
+    """Until the viewport has been drawn, of which operators that turn it ask sizes and matrices; a generator.
+
+    At first there is no window: it opens after the scripts have been read.
+    """
+    begun, seen = perf_counter(), []
+    add = bpy.types.SpaceView3D.draw_handler_add
+    handle = add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
+    while not seen and perf_counter() - begun < DRAWN:
+        yield 0.1
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                area.tag_redraw()
+    bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
 
 
 def _walk_in_window(tests):
+    yield from drawn()
     for name, test in tests.items():
         start = perf_counter()
         try:
             fresh_scene(empty=False)
-            yield 0.5
+            yield from drawn()
+            yield 0.2
             yield from steps(test)
         except Exception as error:
             report(name, start, error)
@@ -134,6 +152,14 @@ def open_sidebar(category):
     yield 0.5
 
 
+def show_the_end_of_the_sidebar():
+    """Scrolls to the last panels; a generator."""
+    sidebar = next(region for region in view()["area"].regions if region.type == "UI")
+    with bpy.context.temp_override(**{**view(), "region": sidebar}):
+        bpy.ops.view2d.scroll_down(deltay=-10_000)
+    yield 0.5
+
+
 def photograph(name):
     """Saves a picture of the whole screen, as X shows it, among the screenshots; returns its path.
 
@@ -142,6 +168,15 @@ def photograph(name):
     path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
     subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
     return path
+
+
+def photograph_until(name, is_ready, patience):
+    """Takes pictures until `is_ready(path)`: pictures and shaders are read beside drawing. A generator."""
+    begun = perf_counter()
+    while not is_ready(photograph(name)):
+        assert perf_counter() - begun < patience, f"{name} is not as it should be"
+        view()["area"].tag_redraw()
+        yield 0.5
 
 
 def colours(path):
