@@ -132,10 +132,15 @@ def add_suzanne():
 
 def unfold_panels(*panels):
     """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
-    for name in panels:
-        cls = getattr(bpy.types, name)
-        bpy.utils.unregister_class(cls)
+    opened = [getattr(bpy.types, name) for name in panels]
+    known = (getattr(bpy.types, name) for name in dir(bpy.types))
+    children = [
+        cls for cls in known if getattr(cls, "bl_parent_id", "") in panels and cls not in opened
+    ]
+    for cls in opened:
         cls.bl_options = set()
+    for cls in (*opened, *children):  # which would lose their parent
+        bpy.utils.unregister_class(cls)
         bpy.utils.register_class(cls)
     yield from open_sidebar("Fairing")
     yield 0.5
@@ -156,7 +161,8 @@ def show_the_end_of_the_sidebar():
     """Scrolls to the last panels; a generator."""
     sidebar = next(region for region in view()["area"].regions if region.type == "UI")
     with bpy.context.temp_override(**{**view(), "region": sidebar}):
-        bpy.ops.view2d.scroll_down(deltay=-10_000)
+        for _ in range(4):
+            bpy.ops.view2d.scroll_down(page=True)
     yield 0.5
 
 
