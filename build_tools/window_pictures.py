@@ -13,7 +13,7 @@ from real_blender import of_debian
 from shell import run, say
 
 PICTURES = ROOT / "docs" / "images" / "settings"
-VIEWPORT = "1320x840+0+68"  # with the sidebar, of a window of 1600 by 1000
+VIEWPORT = "1262x814+58+84"  # with the sidebar, of a window of 1600 by 1000
 # by the names of pictures: the screenshot, the part of it, how wide it becomes
 PARTS = {
     "window_surface": ("redo", VIEWPORT, 945),
