@@ -24,13 +24,13 @@ SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # what timeout(1) ends with
 # Over a minute each: all of them take more than half of a Blender's time. Every one runs in one Blender, all others
-# in each; `nightly`, and a script that is named, in every Blender.
+# in each; `nightly`, and a script that is named, in every Blender. In turn: so each Blender has about as much to do.
 LONG = [
-    "window_live.py",
-    "headless_endurance.py",
     "window_run.py",
-    "window_curves.py",
+    "window_live.py",
     "window_jobs.py",
+    "window_curves.py",
+    "headless_endurance.py",
 ]
 # They time how long a window stops, so nothing else of the suite runs beside them in the same Blender.
 TIMED = ["window_gaps.py", "window_redo.py"]
