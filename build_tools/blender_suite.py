@@ -5,7 +5,9 @@ import re
 import shutil
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from queue import SimpleQueue
 from time import monotonic
 
 from debian_root import ROOTS
@@ -22,26 +24,31 @@ SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # what timeout(1) ends with
 # Over a minute each: all of them take more than half of a Blender's time. Every one runs in one Blender, all others
-# in each; `nightly`, and a script that is named, in every Blender.
+# in each; `nightly`, and a script that is named, in every Blender. In turn: so each Blender has about as much to do.
 LONG = [
-    "window_live.py",
-    "headless_endurance.py",
     "window_run.py",
-    "window_curves.py",
+    "window_live.py",
     "window_jobs.py",
+    "window_curves.py",
+    "headless_endurance.py",
 ]
+# They time how long a window stops, so nothing else of the suite runs beside them in the same Blender.
+TIMED = ["window_gaps.py", "window_redo.py"]
+# of scripts at a time in one Blender: they wait for half of their time
+LANES = 2
 
 
-def install(blender: RealBlender) -> None:
-    """Packs the extension and installs it as a user would, into settings that nobody else has."""
+def install(blender: RealBlender) -> RealBlender:
+    """The Blender, with the extension packed and installed as a user would, into settings that nobody else has."""
     blender.clear()
     made = build([blender.wheel()], blender)
     where = ["--repo", "user_default", "--enable", blender.seen(made)]
     run(*blender.headless("--command", "extension", "install-file", *where))
+    return blender
 
 
 def count(code: int, text: str, script: str) -> Tally:
-    """The tally of one script by what it printed: each line `PASS name` or `FAIL name` is a test."""
+    """The tally of one script by what it printed: each line `PASS name …` or `FAIL name …` is a test."""
     results = re.findall(r"^(PASS|FAIL) ", text, re.MULTILINE)
     tally = Tally(passed=results.count("PASS"), failed=results.count("FAIL"))
     if code in HUNG:
@@ -66,16 +73,45 @@ def counting_allocator(script: Path) -> dict[str, str]:
     }
 
 
-def run_script(blender: RealBlender, script: Path) -> Tally:
-    """One script in one Blender, in a window if its name says so."""
+def timed(text: str, script: str, whole: float) -> list[tuple[str, float]]:
+    """Names and seconds of a script's tests, by what it printed, and of what is around them."""
+    lines = re.findall(r"^(?:PASS|FAIL) (\S+) ([\d.]+) s$", text, re.MULTILINE)
+    tests = [(f"{script}: {name}", float(seconds)) for name, seconds in lines]
+    around = whole - sum(seconds for _, seconds in tests)
+    return [*tests, (f"{script}: start and end", around)]
+
+
+def run_script(blender: RealBlender, script: Path) -> tuple[Tally, list[tuple[str, float]]]:
+    """One script in one Blender, in a window if its name says so; and how long its tests took."""
     say(f"Blender {blender.version}: {script.name}")
     start = blender.window if script.match(WINDOW) else blender.headless
     screenshots = blender.seen(blender.exchange / "screenshots")
     arguments = ["--python-exit-code", "1", "--python", blender.seen(script)]
     variables = {"DF_SCREENSHOTS": str(screenshots), **counting_allocator(script)}
+    begun = monotonic()
     code, text = output(*start(*arguments, **variables))
     print(text, flush=True)
-    return count(code, text, script.name)
+    seconds = timed(text, script.name, monotonic() - begun)
+    return count(code, text, script.name), seconds
+
+
+def run_in_lanes(
+    lanes: list[RealBlender], scripts: list[Path]
+) -> list[tuple[Tally, list[tuple[str, float]]]]:
+    """Scripts in their order, each in the lane that is free first."""
+    free: SimpleQueue[RealBlender] = SimpleQueue()
+    for lane in lanes:
+        free.put(lane)
+
+    def run_next(script: Path) -> tuple[Tally, list[tuple[str, float]]]:
+        lane = free.get()
+        try:
+            return run_script(lane, script)
+        finally:
+            free.put(lane)
+
+    with ThreadPoolExecutor(max_workers=len(lanes)) as pool:
+        return list(pool.map(run_next, scripts))
 
 
 def left_to_others(place: str) -> set[str]:
@@ -98,11 +134,14 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     ]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
-    total, seconds = Tally(), []
-    for script in scripts:
-        start = monotonic()
-        total += run_script(blender, script)
-        seconds.append((script.name, monotonic() - start))
+    scripts.sort(
+        key=lambda path: path.name not in LONG
+    )  # the long ones first, so that none is left at the end
+    lanes = blender.lanes(LANES)
+    done = run_in_lanes(lanes, [script for script in scripts if script.name not in TIMED])
+    done += run_in_lanes(lanes[:1], [script for script in scripts if script.name in TIMED])
+    total = sum((tally for tally, _ in done), Tally())
+    seconds = [test for _, tests in done for test in tests]
     write_report(REPORTS / f"blender-{blender.version}.xml", seconds)
     kept = SCREENSHOTS / blender.version
     shutil.rmtree(kept, ignore_errors=True)
@@ -110,15 +149,28 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     return total
 
 
-def prepared(get: Callable[[], RealBlender]) -> RealBlender | str:
-    """A Blender with the extension installed, or why there is none."""
+def or_why(get: Callable[[], RealBlender]) -> RealBlender | str:
+    """A Blender, or why there is none."""
     try:
-        blender = get()
-        install(blender)
-        return blender
+        return get()
     except DevError as error:
         print(f"dev.py: {error}", flush=True)
         return str(error)
+
+
+def prepared() -> dict[str, RealBlender | str]:
+    """Each Blender at hand with the extension installed, or why there is none.
+
+    The systems in folders are made side by side, as each waits for the network and for one processor; the extension
+    is installed in one after the other, since compilers use all cores.
+    """
+    getters = places()
+    with ThreadPoolExecutor(max_workers=len(getters)) as pool:
+        found = list(pool.map(or_why, getters.values()))
+    return {
+        place: blender if isinstance(blender, str) else or_why(partial(install, blender))
+        for place, blender in zip(getters, found, strict=True)
+    }
 
 
 def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tally:
@@ -135,11 +187,11 @@ def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tall
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
     """The tallies by Blender; long scripts run in one of them, unless they are `wanted` or `everything` is.
 
-    They are installed one after the other, since compilers use all cores, and then run side by side: each
-    has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same folders.
+    They run side by side: each has a folder, settings and a screen of its own. One suite at a time, as the next one
+    takes the same folders.
     """
     with alone("blender"):
-        blenders = {place: prepared(get) for place, get in places().items()}
+        blenders = prepared()
         names = [
             place if isinstance(blender, str) else f"{place} {blender.version}"
             for place, blender in blenders.items()

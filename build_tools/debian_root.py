@@ -17,13 +17,20 @@ from stamp import alone, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART
 
 PACKAGES = ["blender", "python3-numpy"]
-PACKAGES += ["g++", "cmake", "ninja-build", "libopenmesh-dev", "libeigen3-dev"]
+PACKAGES += ["g++", "ccache", "cmake", "ninja-build", "libopenmesh-dev", "libeigen3-dev"]
 PACKAGES += ["python3-dev", "python3-pip", "python3-scikit-build-core", "pybind11-dev"]
 # a window without a screen, drawn by the processor, and photographs of it
 PACKAGES += ["xvfb", "xauth", "libgl1-mesa-dri", "xdotool", "imagemagick", "fonts-dejavu-core"]
 
 INSIDE = Path("/srv/discrete_fairing")  # one folder that both sides may write
 ENTER = ROOT / "build_tools" / "enter_root.sh"
+# nobody reads the documents of a system in a folder, and a crash of the machine may spoil it
+LEAN = [
+    "--dpkgopt=path-exclude=/usr/share/doc/*",
+    "--dpkgopt=path-exclude=/usr/share/man/*",
+    "--dpkgopt=path-exclude=/usr/share/locale/*",
+    "--dpkgopt=force-unsafe-io",
+]
 
 
 @dataclass(frozen=True)
@@ -58,6 +65,11 @@ class DebianRoot:
     def stamp(self) -> Path:
         return CACHE / f"{self.place}.stamp"
 
+    @property
+    def ccache(self) -> Path:
+        """What its compiler made before, in this clone or another; another compiler is another cache."""
+        return Path.home() / ".cache" / f"ccache-{self.place}"
+
     def command(self, *words: str | Path, **extra: str) -> list[str]:
         """The command line that runs `words` inside, as root, with the project read-only at /project."""
         variables = {
@@ -72,13 +84,14 @@ class DebianRoot:
             *(f"{name}={value}" for name, value in variables.items()),
             *map(str, words),
         ]
-        return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, *inner)
+        self.ccache.mkdir(parents=True, exist_ok=True)
+        return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, self.ccache, *inner)
 
     def make(self) -> None:
         """Makes the folder, a minute's work; returns at once when it is there."""
         with alone(self.place):
             packages = [*self.base_packages, *self.extra_packages]
-            value = fingerprint([], self.suite, *packages, *self.options, str(INSIDE))
+            value = fingerprint([], self.suite, *packages, *LEAN, *self.options, str(INSIDE))
             if is_fresh(self.stamp, value) and self.folder.is_dir():
                 return
             self._bootstrap(packages)
@@ -92,7 +105,12 @@ class DebianRoot:
         )
         self.stamp.unlink(missing_ok=True)
         run(*as_root("rm", "-rf", "--one-file-system", self.folder))
-        options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"', *self.options]
+        options = [
+            "--variant=minbase",
+            '--aptopt=APT::Install-Recommends "false"',
+            *LEAN,
+            *self.options,
+        ]
         words = ["mmdebstrap", *options, f"--include={','.join(packages)}", self.suite, self.folder]
         if run(*as_root(*words), check=False):
             raise DevError(

@@ -4,7 +4,7 @@
 import re
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -16,8 +16,9 @@ from shell import DevError, as_root, output, run, say
 OLDEST = (4, 3)
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
-# each Blender has a screen of its own: their locks are apart in the roots, their sockets are not
-FIRST_SCREEN = 90
+FIRST_SCREEN = 70
+# sockets in the root's own folder alone: those without a folder would be common to all roots of a machine
+SCREEN = "-screen 0 {}x{}x24 -nolisten local"
 TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs
 
 
@@ -30,18 +31,35 @@ class RealBlender:
     folder: Path  # as we see it
     inside: Path  # as Blender sees it
     root: DebianRoot | None = None  # None: the machine's own
+    lane: int = (
+        0  # of several that run at the same time, each with settings and a screen of its own
+    )
 
     @property
     def exchange(self) -> Path:
         """Where files for Blender and from it lie, as we see it."""
         return self.folder / "exchange"
 
+    @property
+    def user(self) -> str:
+        """The name of the user's folder in the common one."""
+        return f"user-{self.lane}"
+
+    def lanes(self, count: int) -> "list[RealBlender]":
+        """So many of this Blender that may run at the same time, all with what is installed now."""
+        found = [replace(self, lane=lane) for lane in range(count)]
+        for other in found[1:]:
+            copied = ["cp", "--archive", self.folder / self.user, self.folder / other.user]
+            run(*as_root("rm", "-rf", copied[-1]))
+            run(*as_root(*copied))
+        return found
+
     def command(self, *words: str | Path, **extra: str) -> list[str]:
         """The command line of a program beside this Blender, isolated from the user's settings.
 
         timeout(1) ends it in time, with all that it started.
         """
-        variables = {"BLENDER_USER_RESOURCES": str(self.inside / "user"), **extra}
+        variables = {"BLENDER_USER_RESOURCES": str(self.inside / self.user), **extra}
         limited = ["timeout", "--kill-after=10", str(TIME_LIMIT), *map(str, words)]
         if self.root:
             return self.root.command(*limited, **variables)
@@ -54,9 +72,9 @@ class RealBlender:
     def window(self, *arguments: str | Path, **extra: str) -> list[str]:
         """The command line of Blender in a window on a screen of its own, drawn by the processor."""
         width, height = map(str, WINDOW)
-        number = FIRST_SCREEN + (ROOTS.index(self.root) if self.root else len(ROOTS))
+        number = FIRST_SCREEN + self.lane
         screen = ["xvfb-run", f"--server-num={number}"]
-        screen += ["--server-args", f"-screen 0 {width}x{height}x24"]
+        screen += ["--server-args", SCREEN.format(width, height)]
         blender = ["blender", "--window-geometry", "0", "0", width, height, *arguments]
         return self.command(*screen, *blender, LIBGL_ALWAYS_SOFTWARE="1", **extra)
 
@@ -70,8 +88,8 @@ class RealBlender:
 
     def clear(self) -> None:
         """Empties the common folder, but for what the Debian root keeps there."""
-        for name in ("user", "exchange"):
-            run(*as_root("rm", "-rf", self.folder / name))
+        old = [*self.folder.glob("user*"), self.exchange]
+        run(*as_root("rm", "-rf", *old))
         self.exchange.mkdir(parents=True)
         self.exchange.chmod(0o777)
 

@@ -87,7 +87,11 @@ def live(blender: RealBlender) -> Tally:
     tests = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, tests, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(BLENDER_SCRIPTS / "harness.py", tests)
-    user, now, then = blender.folder / "user", manifest_version(), next_version(manifest_version())
+    user, now, then = (
+        blender.folder / blender.user,
+        manifest_version(),
+        next_version(manifest_version()),
+    )
     with served(folder) as address:
         blender_repository.generate(blender, [zipped], folder)
         # Blender's own repository is on the network, and tests are not

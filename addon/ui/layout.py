@@ -49,10 +49,13 @@ _NOTHING = Known()
 
 
 def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
-    """What everyone needs: how fine, and how near to the source."""
+    """What everyone needs: how fine, what is fair, how near to the source."""
     layout.prop(settings, "levels")
     if known.triangles:
         _remark(layout, known.triangles)
+    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
+    _remark(layout, ENERGY_MEANINGS[settings.energy])
+    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
     if known.vertices:
         _remark(layout, known.vertices)
     if is_limit(settings) or known.follows:
@@ -62,10 +65,7 @@ def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOT
 
 
 def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
-    """What makes the surface, beside that."""
-    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
-    _remark(layout, ENERGY_MEANINGS[settings.energy])
-    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
+    """What else shapes the surface."""
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)

@@ -32,7 +32,7 @@ from ..units import length_text
 from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
-from .pictures import draw_pictures, draw_purposes
+from .pictures import PRESETS, draw_pictures, draw_purposes
 
 _MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
 
@@ -48,11 +48,10 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
         super().draw(context)
 
     def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
-        """The user's own: those that come with the extension are there as pictures."""
+        """The user's own, and a field to save one: those that come with the extension are there as pictures."""
         own = [path for path in searchpaths if not is_shipped(path)]
-        if not own:  # of which Blender would say that paths are missing
-            return None
-        return bpy.types.Menu.path_menu(cast(Any, self), own, *args, **names)
+        # of no folder Blender would say that it is missing; that of the pictures has no presets
+        return bpy.types.Menu.path_menu(cast(Any, self), own or [str(PRESETS)], *args, **names)
 
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):

@@ -31,6 +31,11 @@ def name_of(owner: Any, name: str) -> str:
     return owner.rna_type.properties[name].name
 
 
+def _short(label: str) -> str:
+    """A name without what stands in brackets, for a button under a picture."""
+    return label.partition(" (")[0]
+
+
 def draw_pictures(layout: bpy.types.UILayout) -> None:
     """The purposes with settings, two in a row."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True)
@@ -40,7 +45,7 @@ def draw_pictures(layout: bpy.types.UILayout) -> None:
             continue
         column = grid.column(align=True)
         column.template_icon(icon_value=icon(purpose), scale=_LARGE)
-        button: Any = column.operator("object.fairing_preset_apply", text=label)
+        button: Any = column.operator("object.fairing_preset_apply", text=_short(label))
         button.filepath = str(path)
 
 
@@ -50,7 +55,7 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
     for purpose, label, *_ in PURPOSES:
         column = grid.column(align=True)
         column.template_icon(icon_value=icon(purpose), scale=_SMALL)
-        button: Any = column.operator("object.fairing_for", text=label.partition(" (")[0])
+        button: Any = column.operator("object.fairing_for", text=_short(label))
         button.purpose = purpose
 
 

@@ -2,6 +2,7 @@
 """The native core, compiled for another platform by zig's clang: its modules and its tests."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import system_packages
@@ -10,7 +11,7 @@ from native_wheel import local_version
 from shell import DevError, output, run
 from wheel_version import manifest_version
 
-from cross.pe_identity import settled
+from cross import macho_identity, pe_identity
 from cross.python_parts import headers, import_library
 from cross.sources import openmesh, zig
 from cross.targets import Target
@@ -80,30 +81,39 @@ def module(target: Target, python: str) -> Path:
     )
     build(target, "_native")
     made = build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
-    return with_own_identity(made) if target.is_windows else stripped(target, made)
+    if target.is_windows:
+        return with_identity(made, pe_identity.settled)
+    if target.is_macos:
+        what = ["--strip-debug", "--discard-all"]
+        # once more, which signs a module again that was signed
+        return stripped(with_identity(stripped(made, *what), macho_identity.settled), *what)
+    return stripped(made, "--strip-all")
 
 
-def with_own_identity(made: Path) -> Path:
-    """A module for Windows with the same bytes wherever it is compiled."""
-    folder = made.parent / "settled"
-    folder.mkdir(exist_ok=True)
-    path = folder / made.name
+def beside(made: Path, folder: str) -> Path:
+    """The place of a module's next state."""
+    place = made.parent / folder
+    place.mkdir(exist_ok=True)
+    return place / made.name
+
+
+def with_identity(made: Path, settled: Callable[[bytes], bytes]) -> Path:
+    """A module with the same bytes wherever it is compiled."""
+    path = beside(made, "settled")
     path.write_bytes(settled(made.read_bytes()))
     return path
 
 
-def stripped(target: Target, made: Path) -> Path:
+def stripped(made: Path, *what: str) -> Path:
     """A module without the data for debuggers that zig's own libraries bring: two thirds of it for Linux; for macOS
-    these name the folder where it was compiled. One that was signed is signed again.
+    these name the folder where it was compiled.
 
     The linker could leave them out, but then zig builds its libraries once more.
     """
     system_packages.install(["llvm"])
-    folder = made.parent / "stripped"
-    folder.mkdir(exist_ok=True)
-    what = ["--strip-debug", "--discard-all"] if target.is_macos else ["--strip-all"]
-    run("llvm-strip", *what, "-o", folder / made.name, made)
-    return folder / made.name
+    path = beside(made, "stripped")
+    run("llvm-strip", *what, "-o", path, made)
+    return path
 
 
 def tests(target: Target) -> Path:

@@ -19,7 +19,7 @@ from addon.choices import (
 )
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
 from addon.operators.fair import FairSurface
-from addon.purposes import PURPOSES
+from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, notice, pictures
@@ -115,6 +115,24 @@ def named(monkeypatch):
     monkeypatch.setattr(pictures, "icon", lambda key: f"picture of {key}")
 
 
+@pytest.mark.parametrize("own", [False, True], ids=["none of one's own", "one of one's own"])
+def test_a_preset_can_be_saved(own, tmp_path):
+    """Also as the first one: then Blender has no folder for them yet."""
+    (tmp_path / "Mine.py").write_text("")
+    instance = SimpleNamespace(layout=Layout(), bl_idname="VIEW3D_PT_fairing_presets")
+    shipped = str(FOLDER / PRESET_FOLDER)
+    main.VIEW3D_PT_fairing_presets.path_menu(
+        instance,
+        [shipped, str(tmp_path)] if own else [shipped],
+        "object.fairing_preset_apply",
+        filter_ext=lambda ext: ext == ".py",
+        add_operator="object.fairing_preset_add",
+    )
+    log = instance.layout.log
+    assert log.count("object.fairing_preset_apply") == own
+    assert log[-2:] == ["preset_name", "object.fairing_preset_add"]
+
+
 def test_what_the_surface_is_for_comes_first(named):
     add("Box", *CUBE)
     shown = draw(main.VIEW3D_PT_fairing)
@@ -161,13 +179,14 @@ def test_pictures_are_small_and_the_panel_does_without():
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-def test_fairness_is_the_first_of_more_with_what_it_means(energy):
+def test_a_beginner_has_fairness_levels_and_vertices_above_the_button(energy):
     add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = energy
     shown = draw(main.VIEW3D_PT_fairing)
-    more = shown[shown.index("More") + 1 :]
-    assert more[0] == "Fairness"
-    assert more[more.index("energy") : more.index("Vertices")][-1] == ENERGY_MEANINGS[energy]
+    order = ["levels", "Fairness", "Vertices", "object.fairing_surface", "More", "pad_size"]
+    places = [shown.index(name) for name in order]
+    assert places == sorted(places)
+    assert shown[shown.index("energy") : places[2]][-1] == ENERGY_MEANINGS[energy]
 
 
 def test_what_an_energy_costs_is_said_once():

@@ -2,7 +2,7 @@
 """What the scripts in this folder share: they run inside a real Blender, which knows no test framework.
 
 A script ends with `harness.run(globals())`, or `harness.run_in_window(globals())`. Every function named `test_…`
-is run in a fresh scene; `PASS name` or `FAIL name` is printed for it and `RAN n` at the end, which
+is run in a fresh scene; `PASS name`, or `FAIL name`, with its seconds is printed for it and `RAN n` at the end, which
 build_tools/blender_suite.py counts. In a window a test may be a generator: at each `yield SECONDS` the window
 gets that time to draw and to take events.
 """
@@ -14,11 +14,12 @@ import subprocess
 import sys
 import traceback
 from pathlib import Path
+from time import perf_counter
 
 import bpy
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
-FIRST_DRAWING = 2.0  # seconds: the window opens after the scripts have been read
+DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
 
 
 def fresh_scene(empty=True):
@@ -38,11 +39,11 @@ def steps(test):
         yield from result
 
 
-def report(name, error=None):
-    """The line of one test; True if it passed."""
+def report(name, start, error=None):
+    """The line of one test that began at `start`; True if it passed."""
     if error is not None:
         traceback.print_exception(error, file=sys.stdout)
-    print(f"{'FAIL' if error else 'PASS'} {name}", flush=True)
+    print(f"{'FAIL' if error else 'PASS'} {name} {perf_counter() - start:.2f} s", flush=True)
     return error is None
 
 
@@ -50,13 +51,14 @@ def run(namespace):
     """Every test in a scene of its own, without a window; then the process ends, with 1 if any failed."""
     passed = []
     for name, test in tests_in(namespace).items():
+        start = perf_counter()
         try:
             fresh_scene()
             test()
         except Exception as error:
-            passed.append(report(name, error))
+            passed.append(report(name, start, error))
         else:
-            passed.append(report(name))
+            passed.append(report(name, start))
     print(f"RAN {len(passed)}", flush=True)
     sys.exit(0 if all(passed) else 1)
 
@@ -69,21 +71,40 @@ def run_in_window(namespace):
     bpy.context.preferences.view.show_splash = False
     walk = _walk_in_window(tests_in(namespace))
     # persistent: loading a scene would remove it
-    bpy.app.timers.register(lambda: next(walk, None), first_interval=FIRST_DRAWING, persistent=True)
+    bpy.app.timers.register(lambda: next(walk, None), first_interval=0.5, persistent=True)
+
+
+def drawn():
+    """Until the viewport has been drawn, of which operators that turn it ask sizes and matrices; a generator.
+
+    At first there is no window: it opens after the scripts have been read.
+    """
+    begun, seen = perf_counter(), []
+    add = bpy.types.SpaceView3D.draw_handler_add
+    handle = add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
+    while not seen and perf_counter() - begun < DRAWN:
+        yield 0.1
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                area.tag_redraw()
+    bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
 
 
 def _walk_in_window(tests):
+    yield from drawn()
     for name, test in tests.items():
+        start = perf_counter()
         try:
             fresh_scene(empty=False)
-            yield 0.5
+            yield from drawn()
+            yield 0.2
             yield from steps(test)
         except Exception as error:
-            report(name, error)
+            report(name, start, error)
             with contextlib.suppress(OSError, subprocess.SubprocessError):
                 photograph(f"failed_{name}")
         else:
-            report(name)
+            report(name, start)
     print(f"RAN {len(tests)}", flush=True)
     bpy.ops.wm.quit_blender()
 
@@ -111,10 +132,15 @@ def add_suzanne():
 
 def unfold_panels(*panels):
     """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
-    for name in panels:
-        cls = getattr(bpy.types, name)
-        bpy.utils.unregister_class(cls)
+    opened = [getattr(bpy.types, name) for name in panels]
+    known = (getattr(bpy.types, name) for name in dir(bpy.types))
+    children = [
+        cls for cls in known if getattr(cls, "bl_parent_id", "") in panels and cls not in opened
+    ]
+    for cls in opened:
         cls.bl_options = set()
+    for cls in (*opened, *children):  # which would lose their parent
+        bpy.utils.unregister_class(cls)
         bpy.utils.register_class(cls)
     yield from open_sidebar("Fairing")
     yield 0.5
@@ -131,6 +157,15 @@ def open_sidebar(category):
     yield 0.5
 
 
+def show_the_end_of_the_sidebar():
+    """Scrolls to the last panels; a generator."""
+    sidebar = next(region for region in view()["area"].regions if region.type == "UI")
+    with bpy.context.temp_override(**{**view(), "region": sidebar}):
+        for _ in range(4):
+            bpy.ops.view2d.scroll_down(page=True)
+    yield 0.5
+
+
 def photograph(name):
     """Saves a picture of the whole screen, as X shows it, among the screenshots; returns its path.
 
@@ -139,6 +174,15 @@ def photograph(name):
     path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
     subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
     return path
+
+
+def photograph_until(name, is_ready, patience):
+    """Takes pictures until `is_ready(path)`: pictures and shaders are read beside drawing. A generator."""
+    begun = perf_counter()
+    while not is_ready(photograph(name)):
+        assert perf_counter() - begun < patience, f"{name} is not as it should be"
+        view()["area"].tag_redraw()
+        yield 0.5
 
 
 def colours(path):

@@ -12,19 +12,15 @@ import bpy
 import harness
 
 STRIPES = 0.25  # contrast of black and white stripes; clay has less than a third of it
+COMPILED = 120.0  # seconds until shaders must be there
 
 
 def wait_for_shading(name, least):
-    """Until the middle of the viewport has that many colours: shaders take their time to compile. A generator."""
-    view = harness.view()
-    width, height = view["region"].width, view["region"].height
+    """Until the middle of the viewport has that much contrast: shaders take their time to compile. A generator."""
+    region = harness.view()["region"]
+    width, height = region.width, region.height
     crop = f"{width // 4}x{height // 3}+{width // 3}+{height // 3}"
-    for _ in range(40):
-        view["area"].tag_redraw()
-        yield 3.0
-        if contrast(harness.photograph(name), crop) > least:
-            return
-    raise AssertionError(f"{name} is not seen")
+    yield from harness.photograph_until(name, lambda path: contrast(path, crop) > least, COMPILED)
 
 
 def contrast(path, crop):
@@ -46,13 +42,14 @@ def test_check_selects_what_is_wrong():
     bm.faces.new((a, b, bm.verts.new(0.5 * (a.co + b.co) + bm.faces[320].normal * 0.4)))
     bm.to_mesh(source.data)
     bm.free()
-    yield from harness.unfold_panels("VIEW3D_PT_fairing_check")
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_check")
     with bpy.context.temp_override(**harness.view(), active_object=source, object=source):
         assert bpy.ops.object.fairing_check("INVOKE_DEFAULT") == {"FINISHED"}
     yield 1.0
     assert source.mode == "EDIT", "the defects are shown in Edit Mode"
     selected = [edge for edge in bmesh.from_edit_mesh(source.data).edges if edge.select]
     assert selected, "something is selected"
+    yield from harness.show_the_end_of_the_sidebar()
     harness.photograph("check")
 
 

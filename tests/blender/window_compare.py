@@ -18,7 +18,7 @@ def test_one_click_puts_the_energies_side_by_side():
     running = importlib.import_module(f"{harness.EXTENSION}.queue").running
     harness.add_suzanne()
     bpy.context.scene.discrete_fairing.levels = 2
-    yield from harness.open_sidebar("Fairing")
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_compare")
     with bpy.context.temp_override(**harness.view()):
         assert bpy.ops.object.fairing_compare("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
     begun = perf_counter()
@@ -32,7 +32,8 @@ def test_one_click_puts_the_energies_side_by_side():
         bpy.ops.object.fairing_show_source()
         bpy.ops.view3d.view_axis(type="FRONT")
         bpy.ops.view3d.view_all()
-    yield 3.0
+    yield 1.0
+    yield from harness.show_the_end_of_the_sidebar()
     harness.photograph("compare")
 
 

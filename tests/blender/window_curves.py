@@ -104,7 +104,7 @@ def one_click(name, make):
     assert surface.discrete_fairing.source.discrete_fairing_curves.curves[0].source in curves
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    yield 3.0
+    yield 1.0
     harness.photograph(f"curves_{name}")
     return surface
 

@@ -109,7 +109,7 @@ def one_click(purpose, model):
     elif result != source:
         with bpy.context.temp_override(**harness.view()):
             bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    yield 3.0
+    yield 1.0
     harness.photograph(f"job_{purpose.lower()}")
     return source, result
 

@@ -6,6 +6,7 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -33,23 +34,33 @@ def pixels(path):
     return values.reshape(height, width, 4)[::-1, :, :3].sum(axis=2)
 
 
+def sidebar_at_rest(name):
+    """A picture of the sidebar, as `pixels`, that another one equals: panels read their pictures beside drawing.
+    A generator.
+    """
+    sidebar = next(region for region in harness.view()["area"].regions if region.type == "UI")
+    begun, last = perf_counter(), None
+    while True:
+        yield 0.5
+        now = pixels(harness.photograph(name))[:, sidebar.x : sidebar.x + sidebar.width]
+        if last is not None and np.array_equal(now, last):
+            (Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png").unlink()
+            return sidebar.x, now
+        assert perf_counter() - begun < PATIENCE, "the sidebar does not come to rest"
+        last = now
+
+
 def find_button(settings):
     """Where the button is on the screen: its text is all that changes with this setting. A generator; returns (x, y)."""
-    yield 0.7  # the viewport smooths its edges for a moment
-    before = pixels(harness.photograph("button_before"))
+    left, before = yield from sidebar_at_rest("button_before")
     settings.use_selection = True
-    yield 0.7
-    after = pixels(harness.photograph("button_after"))
+    _, after = yield from sidebar_at_rest("button_after")
     settings.use_selection = False
-    yield 0.7
-    for name in ("button_before", "button_after"):
-        (Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png").unlink()
-    sidebar = next(region for region in harness.view()["area"].regions if region.type == "UI")
-    difference = np.abs(after - before)[:, sidebar.x : sidebar.x + sidebar.width]
-    rows, columns = np.nonzero(difference > 0.5)
+    yield 0.5
+    rows, columns = np.nonzero(np.abs(after - before) > 0.5)
     assert len(rows), "the button's text has not changed"
     assert np.ptp(rows) < 40, "more than one line has changed"
-    return sidebar.x + int(columns.mean()), int(rows.mean())
+    return left + int(columns.mean()), int(rows.mean())
 
 
 def press(settings):

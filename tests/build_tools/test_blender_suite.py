@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which scripts run in which of the real Blenders."""
 
+from time import sleep
+
 import blender_suite
 from debian_root import ROOTS
 
@@ -17,3 +19,37 @@ def test_every_long_script_runs_in_one_blender():
 
 def test_a_blender_without_a_screen_takes_none():
     assert blender_suite.left_to_others("path") == set(blender_suite.LONG)
+
+
+def test_timed_scripts_are_there():
+    there = {path.name for path in blender_suite.SCRIPTS.glob("*.py")}
+    assert set(blender_suite.TIMED) <= there
+
+
+def test_two_lanes_never_run_in_one_another(monkeypatch):
+    """Each lane has one script at a time, and the results stand in the order of the scripts."""
+    busy, most = set(), []
+
+    def run_script(lane, script):
+        assert lane not in busy
+        busy.add(lane)
+        most.append(len(busy))
+        sleep(0.01)
+        busy.remove(lane)
+        return script, lane
+
+    monkeypatch.setattr(blender_suite, "run_script", run_script)
+    done = blender_suite.run_in_lanes(["a", "b"], list(range(20)))
+    assert [script for script, _ in done] == list(range(20))
+    assert {lane for _, lane in done} == {"a", "b"} and max(most) == 2
+
+
+def test_the_seconds_of_a_script_are_those_of_its_tests():
+    text = "PASS test_one 1.25 s\nnoise\nFAIL test_two 0.50 s\nRAN 2\n"
+    tests = blender_suite.timed(text, "window_a.py", 4.0)
+    assert tests == [
+        ("window_a.py: test_one", 1.25),
+        ("window_a.py: test_two", 0.5),
+        ("window_a.py: start and end", 2.25),
+    ]
+    assert blender_suite.count(1, text, "window_a.py") == blender_suite.Tally(passed=1, failed=1)

@@ -29,8 +29,11 @@ def site():
 
 
 def test_every_document_has_a_page(site):
-    for document in sorted((ROOT / "docs").glob("*.md")):
-        assert (site / "docs" / f"{document.stem}.html").is_file(), document.name
+    documents = ROOT / "docs"
+    pages = [path for path in documents.rglob("*.md") if path.parent != documents / "site"]
+    assert len(pages) > 40
+    for page in pages:
+        assert (site / page.relative_to(ROOT).with_suffix(".html")).is_file(), page
 
 
 def test_every_public_name_is_in_the_reference(site):
@@ -81,6 +84,18 @@ def test_browser_draws_the_page_in_the_dark(address, page):
     photograph(f"{address}/{page}.html", dark, WIDE, DARK)
     assert png_size(dark) == WIDE
     assert light.read_bytes() != dark.read_bytes()
+
+
+RESULT = re.compile(r'<li[^>]*>\s*<a href="([^"#?]+)')
+
+
+@pytest.mark.parametrize("from_disk", [False, True], ids=["served", "from a disk"])
+def test_search_finds_pages(site, address, from_disk):
+    """Without a network; from a disk too, where pages cannot read one another."""
+    page = (site / "search.html").as_uri() if from_disk else f"{address}/search.html"
+    html = html_of(f"{page}?q=reflections")
+    found = RESULT.findall(html[html.index('id="search-results"') :])
+    assert any(path.endswith("how-to/inspecting.html") for path in found), found
 
 
 def figures(page):
