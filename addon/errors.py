@@ -190,13 +190,10 @@ def _listed(parts: list[str], last: str = "and") -> str:
 
 def pads_text(pads: Mapping[str, Any]) -> str:
     """Where pads gave way, in one sentence, from the report's `pads`; empty if none did."""
-    narrower, gone = pads.get("narrower", 0), pads.get("gone", 0)
-    if not (narrower or gone):
+    gone = pads.get("gone", 0)
+    if not gone:
         return ""
-    one_or_more = "1 vertex" if (narrower or gone) == 1 else f"{narrower or gone:,} vertices"
-    if narrower:
-        both = f", and not softly at {gone:,}" if gone else ""
-        return f"Held less softly at {one_or_more}{both}, where faces turn sharply."
+    one_or_more = "1 vertex" if gone == 1 else f"{gone:,} vertices"
     return f"Not held softly at {one_or_more}, where faces turn sharply."
 
 

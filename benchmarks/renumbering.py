@@ -84,12 +84,12 @@ def run() -> dict[str, Any]:
         reports = [r.report for r in results]
         damped = [any(level["damped"] for level in r["curvature"]) for r in reports]
         energies = [r["curvature"][-1]["energy"] for r in reports]
-        widths = [(r["pads"]["narrower"], r["pads"]["gone"]) for r in reports]
-        out[name] = {"moved": moved, "damped": damped, "energies": energies, "narrowed": widths}
+        gone = [r["pads"]["gone"] for r in reports]
+        out[name] = {"moved": moved, "damped": damped, "energies": energies, "gone": gone}
         apart = max(energies) / min(energies) - 1 if min(energies) > 0 else 0.0
-        rows.append([name, len(faces), sum(damped), *moved, energies[0], apart, len(set(widths))])
+        rows.append([name, len(faces), sum(damped), *moved, energies[0], apart, len(set(gone))])
     heads = ["mesh", "faces", "damped", "renumbered", *["turned"] * (TRIALS - 1)]
-    table.show("Moved, in sizes of the mesh", [*heads, "energy", "apart", "widths"], rows)
+    table.show("Moved, in sizes of the mesh", [*heads, "energy", "apart", "pads"], rows)
     for kind in (False, True):
         of_kind = [max(r["moved"]) for r in out.values() if any(r["damped"]) is kind]
         still = sum(m <= STILL for m in of_kind)

@@ -101,7 +101,7 @@ def write_pad_sizes(mesh: Mesh, result: Any, carrier: Carrier) -> None:
     way.
     """
     pads = result.report["pads"]
-    if pads["narrower"] or pads["gone"]:
+    if pads["gone"]:
         widths = carrier.point(np.asarray(pads["widths"], np.float32))
         fill_layer(make_layer(mesh, PAD_SIZES, "FLOAT", "POINT"), widths.ravel())
 

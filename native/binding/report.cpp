@@ -105,7 +105,6 @@ py::dict to_python(const NormalReport& n) {
 
 py::dict to_python(const PadReport& p) {
   py::dict d;
-  d["narrower"] = p.narrower;
   d["gone"] = p.gone;
   d["widths"] = p.widths;
   return d;

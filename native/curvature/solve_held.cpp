@@ -39,9 +39,9 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
 
 bool GaussNewtonSystem::stand_on(const Pads* pads) {
   if (!pads) return false;
-  if (pads_ && given_shares_ == pads->shares()) return false;
+  if (pads_ && given_places_ == pads->places()) return false;
   pads_ = std::make_unique<Pads>(*pads);
-  given_shares_ = pads->shares();
+  given_places_ = pads->places();
   shared_.pad_rows = &pads_->rows();
   return true;
 }

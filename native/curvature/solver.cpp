@@ -3,18 +3,15 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "curvature/start.h"
 #include "curvature/total_curvature.h"
-#include "hold/pad_widths.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
-
-// Plain steps until plain_decrement, where nothing is known of how they go.
-constexpr int long_patience = 14;
 
 // Plain steps below the finest level end here on pads: what is left is less than what the next level
 // changes.
@@ -23,33 +20,6 @@ constexpr double start_decrement = 1e-2;
 // After control vertices have moved: a change of the energy, relative, at which what only
 // preconditions may stay as it is.
 constexpr double nearby = 0.02;
-
-// A star that has folded on pads counts as one of so many times the energy.
-constexpr double price_of_folds = 8;
-// Rounds in which pads beside folds are taken away on the finest level: those in the folds' stars,
-// and one ring more each time.
-constexpr int most_rounds = 3;
-
-// Of each control vertex: the folds in its star.
-std::vector<std::size_t> folds_of_stars(const ControlMesh& mesh, const Folds& folds) {
-  std::vector<std::size_t> stars(std::size_t(mesh.vertex_count()), 0);
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    for (const Spoke& spoke : mesh.ring(v)) {
-      stars[std::size_t(v)] += folds.on_edge[std::size_t(spoke.edge)];
-      if (spoke.face >= 0) stars[std::size_t(v)] += folds.in_face[std::size_t(spoke.face)];
-    }
-  return stars;
-}
-
-// Marks the neighbours of marked control vertices.
-void dilate_vertices(const ControlMesh& mesh, std::vector<std::uint8_t>& marks) {
-  const std::vector<std::uint8_t> before = marks;
-  for (const Edge& edge : mesh.edges) {
-    const auto a = std::size_t(edge.vertex[0]), b = std::size_t(edge.vertex[1]);
-    marks[a] |= before[b];
-    marks[b] |= before[a];
-  }
-}
 
 // On pads the least total curvature is another's least: it may be a little above the plate's.
 constexpr double most_over_plate = 1.2;
@@ -74,6 +44,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
       steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
+      rough_(iterate_, unfolding_, steps_),
       variation_(iterate_, options_) {
   system_.hold_by(&hold_);
 }
@@ -84,7 +55,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (system_.stand_on(pads_)) iterate_.current.held.loads.clear();
-  system_.allow_blocks(stepping_ != Stepping::damped);
+  system_.allow_blocks(is_plain_);
   choose_start(iterate_, level, plate, plate_below_, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
@@ -95,134 +66,35 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   return report;
 }
 
+// Plain steps, which on an even mesh settle without a fold; else the mesh is rough, on finer levels
+// too. A surface that they have found stands unless the other one is as near to its solution and
+// folds less.
 void GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
                                               CurvatureLevelReport& report) {
-  if (system_.pads() &&
-      iterate_.level == std::clamp(widths_level, system_.base(), system_.finest()))
-    choose_widths(start, report);
-  else
-    minimize(start, effort_of_level(), report);
-  if (is_finest()) return finish(start, plate, report);
+  if (is_plain_) steps_.run_plain(end(), long_patience, report);
+  is_plain_ &= is_settled(report);
+  if (is_plain_ && is_finest()) report.folds_before = report.folds = unfolding_.find().count();
+  if (!is_plain_ || report.folds > 0) {
+    LinearizedSurface plain = iterate_.current;
+    const CurvatureLevelReport of_plain = report;
+    const std::optional<Pads> pads =
+        system_.pads() ? std::optional<Pads>(*system_.pads()) : std::nullopt;
+    rough_.run(start, report);
+    is_plain_ &= report.folds >= of_plain.folds || report.converged < of_plain.converged;
+    if (is_plain_) {
+      iterate_.current = std::move(plain);
+      report = of_plain;
+      if (pads) *system_.pads() = *pads;
+    }
+  }
+  if (is_finest() && hold_.any()) fix_held(report);
   keep_start_if_worse(start, plate, report);
+  if (is_finest() && varies()) variation_.run(steps_.accurate_end(), report);
 }
 
-StepEnd GaussNewtonSolver::end_of(Effort effort) {
-  if (effort == Effort::accurate) return steps_.accurate_end();
-  if (effort == Effort::judging) return {damped_decrement, 0};
+StepEnd GaussNewtonSolver::end() {
+  if (is_finest()) return steps_.accurate_end();
   return {system_.pads() ? start_decrement : plain_decrement, 0};
-}
-
-StepStart GaussNewtonSolver::start_again(const StepStart& start, Array<double> points,
-                                         double plate_energy, CurvatureLevelReport& report) {
-  surface() = std::move(points);
-  iterate_.is_linearized = false;
-  report = start.report;
-  report.plate_energy = plate_energy;
-  return {surface(), iterate_.current.held, report};
-}
-
-// Plain steps first, on every level: where they fail on a coarse one, they may do on a finer one.
-// They stand if they come near a solution and have never failed so far, be it not as near as was
-// promised; else damped steps from the same start show whether they have found a worse surface.
-// Widths of pads are judged without another try.
-void GaussNewtonSolver::minimize(const StepStart& start, Effort effort,
-                                 CurvatureLevelReport& report) {
-  const bool is_accurate = effort == Effort::accurate, doubtful = stepping_ == Stepping::damped;
-  if (!doubtful || effort != Effort::judging) {
-    steps_.run_plain(end_of(effort), doubtful && is_accurate ? short_patience : long_patience,
-                     report);
-    if (is_settled(report) && stepping_ == Stepping::plain) return;
-  }
-  LinearizedSurface plain = iterate_.current;
-  const CurvatureLevelReport plain_report = std::exchange(report, start.report);
-  iterate_.current.points = start.points;
-  iterate_.current.held = start.held;
-  // A crumpled surface is hard for blocks too, and what they leave of a solve upsets the loads.
-  system_.allow_blocks(false);
-  LocalDamping damping(iterate_.grid(), system_.shared().unknowns, iterate_.workers());
-  steps_.run_damped(damping, report);
-  if (is_accurate) steps_.finish_damped(damping, report);
-  const bool plain_is_as_good =
-      is_settled(plain_report) && plain_report.energy <= equal_energy * report.energy;
-  stepping_ = plain_is_as_good ? Stepping::plain : Stepping::damped;
-  report.damped = !plain_is_as_good;
-  if (!plain_is_as_good) return;
-  iterate_.current = std::move(plain);
-  report = plain_report;
-}
-
-// The surface on point forces says what each star costs at the least, and is where those on pads
-// start: they have its shape, but for the marks.
-void GaussNewtonSolver::choose_widths(const StepStart& start, CurvatureLevelReport& report) {
-  const auto stars = [&] {
-    return total_curvature_of_stars(iterate_.grid(), iterate_.workers(), surface().data());
-  };
-  {
-    const GaussNewtonSystem::OffPads off_pads(system_);
-    iterate_.is_linearized = false;
-    minimize(start, Effort::judging, report);
-  }
-  const std::vector<double> of_needles = stars();
-  const std::vector<std::size_t> folds_of_needles =
-      folds_of_stars(system_.mesh(), unfolding_.find());
-  double mean = 0;
-  for (const double energy : of_needles) mean += energy / double(of_needles.size());
-  const Array<double> needles = surface();
-  const double energy_of_needles = report.energy;
-  const double bound = std::max(start.report.plate_energy, energy_of_needles);
-  int round = 0;
-  for (;; ++round) {
-    minimize(start_again(start, needles, bound, report), Effort::judging, report);
-    std::vector<double> energy = stars();
-    const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
-    for (std::size_t v = 0; v < energy.size(); ++v)
-      if (folds[v] > folds_of_needles[v])
-        energy[v] = std::max(energy[v], price_of_folds * (of_needles[v] + mean));
-    const std::vector<int> halvings =
-        halvings_of_pads(system_.grid(0), *system_.pads(), energy, of_needles, round);
-    if (halvings.empty()) break;
-    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
-  }
-  const bool is_crumpled = !(report.energy <= crumpled * energy_of_needles);
-  if (is_crumpled) {  // no widths will do
-    const std::vector<int> all(of_needles.size(), to_nothing);
-    narrow_pads<1>(all, *system_.pads(), iterate_.current.held.loads);
-  }
-  // Widths that have not changed go on from the surface that they were judged by.
-  const bool stands = round == 0 && !is_crumpled;
-  minimize(start_again(start, stands ? surface() : needles,
-                       is_crumpled ? start.report.plate_energy : bound, report),
-           effort_of_level(), report);
-}
-
-void GaussNewtonSolver::leave_folds(const StepStart& start, CurvatureLevelReport& report) {
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<std::size_t> folds = folds_of_stars(system_.mesh(), unfolding_.find());
-    std::vector<std::uint8_t> near(folds.size());
-    for (std::size_t v = 0; v < near.size(); ++v) near[v] = folds[v] > 0;
-    for (int ring = 0; ring < round; ++ring) dilate_vertices(system_.mesh(), near);
-    std::vector<int> halvings(folds.size(), 0);
-    bool any = false;
-    for (std::size_t v = 0; v < near.size(); ++v)
-      if (near[v] && system_.pads()->under(v)) {
-        halvings[v] = to_nothing;
-        any = true;
-      }
-    if (!any) return;
-    narrow_pads<1>(halvings, *system_.pads(), iterate_.current.held.loads);
-    minimize(start_again(start, surface(), start.report.plate_energy, report), Effort::accurate,
-             report);
-  }
-}
-
-// What the finest level's surface has beyond those of coarser ones.
-void GaussNewtonSolver::finish(const StepStart& start, const Array<double>& plate,
-                               CurvatureLevelReport& report) {
-  if (system_.pads()) leave_folds(start, report);
-  unfolding_.run(start, report);
-  if (hold_.any()) fix_held(report);
-  keep_start_if_worse(start, plate, report);
-  if (varies()) variation_.run(steps_.accurate_end(), report);
 }
 
 void GaussNewtonSolver::remember(CurvatureLevelReport& report) {
@@ -238,7 +110,7 @@ void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
   if (!hold_.active()) return;
   hold_.enforce(surface().data());
   iterate_.linearize();
-  steps_.polish(short_patience, equal_energy * iterate_.current.energy, report);
+  steps_.polish(short_patience, iterate_.current.energy, report);
 }
 
 double GaussNewtonSolver::tension_of(const Array<double>& x) {
@@ -293,9 +165,7 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 }
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
-bool GaussNewtonSolver::can_move() const {
-  return is_sound_ && stepping_ == Stepping::plain && !hold_.any();
-}
+bool GaussNewtonSolver::can_move() const { return is_sound_ && is_plain_ && !hold_.any(); }
 
 void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
   for_each_index(iterate_.workers(), surface().size(),

@@ -4,7 +4,7 @@
 // with the parts: start.h, steps.h, unfold.h, variation.h.
 #pragma once
 
-#include "curvature/unfold.h"
+#include "curvature/rough.h"
 #include "curvature/variation.h"
 
 namespace fairing {
@@ -40,26 +40,10 @@ class GaussNewtonSolver {
   Array<double>& surface() { return iterate_.current.points; }
 
  private:
-  enum class Stepping { undecided, plain, damped };
-
-  // How far steps go: until widths of pads can be judged, to a start for the next level, or to the
-  // step tolerance.
-  enum class Effort { judging, start, accurate };
-  Effort effort_of_level() const { return is_finest() ? Effort::accurate : Effort::start; }
-
-  StepEnd end_of(Effort effort);
-  // A start at these points with what is held now; surface and report begin anew with it.
-  StepStart start_again(const StepStart& start, Array<double> points, double plate_energy,
-                        CurvatureLevelReport& report);
-  void minimize(const StepStart& start, Effort effort, CurvatureLevelReport& report);
-  // minimize() on the level where the widths of pads are chosen.
-  void choose_widths(const StepStart& start, CurvatureLevelReport& report);
-  // On the finest level: pads beside folds are gone, and the surface follows.
-  void leave_folds(const StepStart& start, CurvatureLevelReport& report);
+  StepEnd end();
   // From here on held control vertices stay where they are. The surface follows by a few plain
   // steps, if these settle.
   void fix_held(CurvatureLevelReport& report);
-  void finish(const StepStart& start, const Array<double>& plate, CurvatureLevelReport& report);
   void solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
   bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
@@ -85,9 +69,10 @@ class GaussNewtonSolver {
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
   TotalCurvatureSteps steps_;
   Unfolding unfolding_;
+  RoughSteps rough_;
   VariationSteps variation_;
-  Stepping stepping_ = Stepping::undecided;  // what went well on the latest level
-  Array<double> plate_below_;                // the thin plate's surface on the level before
+  bool is_plain_ = true;       // whether plain steps led to the latest level's surface
+  Array<double> plate_below_;  // the thin plate's surface on the level before
 
   // Of the finest level's latest solution.
   bool is_sound_ = false;

@@ -2,6 +2,7 @@
 #include "curvature/steps.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "curvature/left_to_move.h"
@@ -46,6 +47,15 @@ void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
 
 namespace {
 
+// So many plain steps in a row may climb; the next one has to come below the lowest place so far.
+constexpr int longest_climb = 3;
+
+// The share of the energy that two damped steps have to gain together.
+constexpr double worthwhile_gain = 0.005;
+// The damping of what has been filled (measured: without any it may fold again, with 1 it hardly
+// follows).
+constexpr float filled_damping = 0.05f;
+
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
 // near the end, where the minimum of the discrete energy lies beside the solution of the equation.
 constexpr double allowed_rise = 0.1;
@@ -63,9 +73,6 @@ constexpr std::size_t accelerated_steps = 3;  // that are remembered
 // A movement, in sizes of the mesh, after which nothing is left of the surface: the energy of what
 // has burst says nothing, not even where it is zero.
 constexpr double farthest = 1e3;
-
-// Plain steps after damped ones: such as have not reached plain_decrement by then never will.
-constexpr int polishing_patience = 3;
 
 // A step, and what it changes of the loads on pads.
 struct HeldStep {
@@ -136,9 +143,11 @@ class TotalCurvatureMethod final : public StepMethod {
     const bool fresh = damping_ || it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
+    if (damping_) it_.system.renew(it_.level);
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
-    step.decrement = std::sqrt(gain / it_.current.energy);
+    step.decrement =
+        gain < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(gain / it_.current.energy);
     if (step.decrement < accelerated_decrement) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
@@ -150,7 +159,9 @@ class TotalCurvatureMethod final : public StepMethod {
     if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
                                   count.rejected, count.accepted, step.decrement))
       anderson_.forget();
-    return energy - 2 * step.length * step.load_work;
+    const double potential = energy - 2 * step.length * step.load_work;
+    gain_ = it_.current.energy - potential;
+    return potential;
   }
 
   // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
@@ -171,9 +182,9 @@ class TotalCurvatureMethod final : public StepMethod {
     report.converged &= step.constraint_gap <= it_.system.wanted_gap(it_.level);
     const bool burst = !(step.movement <= farthest);
     report.converged &= !burst;
-    const bool hopeless =
-        burst || (patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement);
-    return report.converged || hopeless;
+    const bool too_late =
+        patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement;
+    return report.converged || burst || too_late || leads_nowhere(step);
   }
 
   bool reject() override {
@@ -198,6 +209,20 @@ class TotalCurvatureMethod final : public StepMethod {
     it_.step = std::move(step.along);
   }
 
+  // Whether plain steps have climbed too long, or damped ones gain next to nothing. The potential is
+  // the energy less the work of the loads, which are others in each step: its changes are summed.
+  bool leads_nowhere(const StepReport& step) {
+    if (step.decrement < unchecked_decrement) return false;
+    gained_ += gain_;
+    const double last = std::exchange(last_gain_, gain_);
+    if (damping_)
+      return ++damped_ > 1 && step.decrement < accelerated_decrement &&
+             last + gain_ < end_.gain * it_.current.energy;
+    climbed_ = gained_ > most_gained_ ? 0 : climbed_ + 1;
+    most_gained_ = std::max(most_gained_, gained_);
+    return climbed_ >= longest_climb;
+  }
+
   bool is_checked(const StepReport& step) const {
     return damping_ && !(step.decrement < unchecked_decrement);
   }
@@ -210,6 +235,9 @@ class TotalCurvatureMethod final : public StepMethod {
   Array<float> predicted_;
   Multipliers<1> held_;  // that goes with the step
   LeftToMove remainder_;
+  // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
+  double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
+  int climbed_ = 0, damped_ = 0;  // steps
 };
 
 }  // namespace
@@ -221,49 +249,45 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
 }
 
 void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int patience,
-                              CurvatureLevelReport& report, int most) {
+                              CurvatureLevelReport& report) {
   TotalCurvatureMethod method(iterate_, damping, end, patience);
-  run_steps(method, most, report);
+  run_steps(method, options_.max_steps, report);
   report.energy = iterate_.op().fairness();
 }
 
 void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
                                     CurvatureLevelReport& report) {
-  run(nullptr, end, patience, report, options_.max_steps);
+  run(nullptr, end, patience, report);
 }
 
-void TotalCurvatureSteps::run_damped(LocalDamping& damping, CurvatureLevelReport& report) {
-  run(&damping, {damped_decrement, 0}, 0, report, options_.max_steps);
+void TotalCurvatureSteps::run_damped(const StepStart& start, const Array<float>& filled,
+                                     CurvatureLevelReport& report) {
+  iterate_.current.points = start.points;
+  iterate_.current.held = start.held;
+  iterate_.is_linearized = false;
+  report = start.report;
+  report.damped = true;
+  LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
+  if (!filled.empty()) damping.hold(filled, filled_damping);
+  run(&damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
 template <class Steps>
-void TotalCurvatureSteps::try_on(Steps&& steps, double most, CurvatureLevelReport& report) {
+void TotalCurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
+                                 CurvatureLevelReport& report) {
   LinearizedSurface before = iterate_.current;
   CurvatureLevelReport after = report;
   after.converged = false;
   steps(after);
-  if (is_near(after, plain_decrement) && after.energy <= most)
+  if (is_near(after, decrement) && after.energy <= equal_energy * energy)
     report = std::move(after);
   else
     iterate_.current = std::move(before);
 }
 
-void TotalCurvatureSteps::polish(int patience, double most, CurvatureLevelReport& report) {
+void TotalCurvatureSteps::polish(int patience, double energy, CurvatureLevelReport& report) {
   try_on([&](CurvatureLevelReport& polished) { run_plain(accurate_end(), patience, polished); },
-         most, report);
-}
-
-void TotalCurvatureSteps::finish_damped(LocalDamping& damping, CurvatureLevelReport& report) {
-  if (!std::exchange(report.converged, false)) return;
-  report.converged = report.left <= options_.step_tolerance;
-  if (report.converged) return;
-  const std::size_t taken = report.steps.size();
-  const double most = equal_energy * report.energy;
-  polish(polishing_patience, most, report);
-  const int rest = options_.max_steps - int(taken);
-  if (report.steps.size() > taken || rest <= 0) return;
-  try_on([&](CurvatureLevelReport& on) { run(&damping, accurate_end(), short_patience, on, rest); },
-         most, report);
+         plain_decrement, energy, report);
 }
 
 }  // namespace fairing

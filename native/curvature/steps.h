@@ -6,7 +6,6 @@
 #include "curvature/local_damping.h"
 #include "curvature/options.h"
 #include "curvature/system.h"
-#include "hold/pad_widths.h"
 
 namespace fairing {
 
@@ -50,10 +49,12 @@ class StepMethod {
 void run_steps(StepMethod& method, int most, CurvatureLevelReport& report);
 
 // Which steps are the last ones: those of a decrement, or else, where `decrement` is zero, those
-// after which less than `movement` is left to move.
+// after which less than `movement` is left to move; and two damped ones that together gain less than
+// the share `gain` of the energy.
 struct StepEnd {
   double decrement = 0;
   double movement = 0;
+  double gain = 0;
 
   // `left`: to move after a step of that decrement (left_to_move.h).
   bool is_reached(double step_decrement, double left) const {
@@ -61,8 +62,8 @@ struct StepEnd {
   }
 };
 
-// Where damped steps end, and the decrement that counts as converged at the least: its square,
-// which is what a full step gains of the energy, is below a thousandth.
+// Where damped steps end, and the decrement that counts as near at the least: its square, which is
+// what a full step gains of the energy, is below a thousandth.
 constexpr double damped_decrement = 3e-2;
 
 // Plain steps have to come to this decrement in time; on coarse levels they end there.
@@ -73,19 +74,31 @@ constexpr double plain_decrement = 1e-3;
 constexpr double equal_energy = 1.01;
 // One with this many times the energy of another has little to do with it.
 constexpr double unlike_energy = 1.5;
+// An energy that is rounding: a sphere has 8 pi, a plane none.
+constexpr double flat_energy = 1e-16;
 
-// How many plain steps may be taken to plain_decrement where steps before have come near the
-// solution.
-constexpr int short_patience = 6;
+// Plain steps have come to plain_decrement after so many, or never will; and where steps before have
+// come near the solution.
+constexpr int long_patience = 14, short_patience = 6;
+// Plain steps after damped ones: such as have not reached plain_decrement by then never will.
+constexpr int polishing_patience = 3;
 
 // Whether the steps have come near a solution: the last one was taken, and its decrement is at most
 // this. Nearer steps may still be needed for what was promised.
 bool is_near(const CurvatureLevelReport& report, double decrement);
 
-// Two ways to step. Plain steps are full ones, not checked against the energy: they pass through
-// humps of the discrete energy where checked ones are trapped (judged by decrements, as in
-// Deuflhard's natural monotonicity). Damped steps hold where a surface is crumpled, and plain ones
-// run wild. Both are accelerated near the end (hold/anderson.h).
+// Where the steps on a level began: their points, what held them, and the report before the first
+// step.
+struct StepStart {
+  Array<double> points;
+  Multipliers<1> held;
+  CurvatureLevelReport report;
+};
+
+// Two ways to step. Plain steps are full ones: they may climb over humps of the discrete energy,
+// where checked ones are trapped, a few in a row (the watchdog technique of Chamberlain et al. 1982).
+// Damped steps hold where a surface is crumpled, and plain ones run wild. Both are accelerated near
+// the end (hold/anderson.h).
 class TotalCurvatureSteps {
  public:
   // All must outlive it.
@@ -96,25 +109,22 @@ class TotalCurvatureSteps {
   // energy, `left` and `converged` set, the latter for the end that was asked for. Throws
   // ErrorCode::cancelled.
   void run_plain(const StepEnd& end, int patience, CurvatureLevelReport& report);
-  // To damped_decrement; the damping may already hold some points.
-  void run_damped(LocalDamping& damping, CurvatureLevelReport& report);
+  // From `start` to damped_decrement, or as far as steps gain something worth it. `report` begins
+  // anew. Points that are `filled` (above zero; empty: none) are damped throughout.
+  void run_damped(const StepStart& start, const Array<float>& filled, CurvatureLevelReport& report);
 
-  // Plain steps to the step tolerance. Unless they come near it, with an energy of at most `most`,
-  // surface and report are as before.
-  void polish(int patience, double most, CurvatureLevelReport& report);
-  // From where damped steps have ended on to the step tolerance: by plain steps, or else, as far as
-  // there are steps left, by more damped ones. Where neither come near it, nothing has happened.
-  void finish_damped(LocalDamping& damping, CurvatureLevelReport& report);
+  // Plain steps to the step tolerance. Unless they come near it, with hardly more energy than
+  // `energy`, surface and report are as before.
+  void polish(int patience, double energy, CurvatureLevelReport& report);
 
   // Where the surface is as near to the solution as was promised.
   StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
 
  private:
-  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report,
-           int most);
-  // Takes back what `steps` have done unless they come near a solution with that energy at most.
+  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report);
+  // Takes back what `steps` have done unless they come to that decrement, with hardly more energy.
   template <class Steps>
-  void try_on(Steps&& steps, double most, CurvatureLevelReport& report);
+  void try_on(Steps&& steps, double decrement, double energy, CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;
   const GaussNewtonOptions& options_;

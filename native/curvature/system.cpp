@@ -145,8 +145,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   work_.iterations += report.iterations;
   work_.pad_corrections += report.pad_corrections;
   symmetrizer_.displacements(grid(level), h);
-  const double square = sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
-  return std::max(0.0, square);
+  return sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
 }
 
 StepWork GaussNewtonSystem::work(int level) const {

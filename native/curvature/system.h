@@ -107,9 +107,12 @@ class GaussNewtonSystem {
   // `held` takes corrections, from that of the step before; empty loads start as those that fit
   // best. `fresh`: coarse levels have been linearized, or damped, since the last solve. The linear
   // solve's part of `report` is set. Returns h . K h = force . h, by which a full step would lower a
-  // quadratic energy.
+  // quadratic energy; below zero where the solve, or the loads, have found nothing of use.
   double solve(int level, const LinearizedSurface& about, bool fresh, Array<double>& h,
                Multipliers<1>& held, StepReport& report);
+
+  // What is kept from step to step is made anew: damping is another in each.
+  void renew(int level) { hierarchy_.refresh(std::size_t(level - base_), true); }
 
   // All that `level` has taken so far.
   StepWork work(int level) const;
@@ -137,7 +140,7 @@ class GaussNewtonSystem {
   Hierarchy hierarchy_;
   Symmetrizer symmetrizer_;
   std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
-  std::vector<double> given_shares_;
+  std::vector<std::uint8_t> given_places_;
   StepWork work_;
   HoldAlongNormals* hold_ = nullptr;
   std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
@@ -150,7 +153,7 @@ class GaussNewtonSystem::OffPads {
   }
   ~OffPads() {
     system_.pads_ = std::move(pads_);
-    system_.shared_.pad_rows = &system_.pads_->rows();
+    if (system_.pads_) system_.shared_.pad_rows = &system_.pads_->rows();
   }
   OffPads(const OffPads&) = delete;
 

@@ -21,10 +21,4 @@ namespace fairing {
 // finite x. Bit-identical for any number of threads.
 double total_curvature(const GridLevel& grid, Workers& workers, const double* x);
 
-// As the Gauss-Newton steps have it, area times density (point_curvature.h), over the star of each
-// control vertex: its faces, the edges at it, and itself. A point that coincides with a neighbour
-// counts for nothing.
-std::vector<double> total_curvature_of_stars(const GridLevel& grid, Workers& workers,
-                                             const double* x);
-
 }  // namespace fairing

@@ -16,10 +16,9 @@ namespace {
 // more each time.
 constexpr int most_rounds = 3;
 constexpr int rings = 2;
-// Damping of what is filled (measured: without any it may fold again, with 1 it hardly follows).
-constexpr float filled_damping = 0.05f;
-// The energy that fewer folds may cost. Mostly it falls: the folds had trapped the steps.
-constexpr double most_energy = 1.15;
+// So many times the energy fewer folds may cost, and no fewer have to gain. Mostly it falls: the
+// folds had trapped the steps.
+constexpr double price_of_folds = 1.15;
 // A point that gains this share of all energy has burst: it and those around are not refilled.
 constexpr double burst = 0.01;
 constexpr int rings_of_burst = 4;
@@ -157,7 +156,6 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
   Folds folds = find();
   report.folds_before = report.folds = folds.count();
   if (report.folds == 0) return;
-  const double bound = std::min(most_energy * report.energy, report.plate_energy);
   LinearizedSurface best = it_.current;
   Array<float> folded(points, 0.0f), burst_before(points, 0.0f), marks;
   for (int round = 0; round < most_rounds && report.folds > 0; ++round) {
@@ -173,9 +171,10 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
     folds = find();
     again.folds_before = report.folds_before;
     again.folds = folds.count();
-    if (again.folds < report.folds && again.energy <= bound &&
-        again.converged >= report.converged &&
-        is_near(again, damped_decrement) >= is_near(report, damped_decrement)) {
+    const double most = again.folds < report.folds
+                            ? std::min(price_of_folds * report.energy, report.plate_energy)
+                            : report.energy / price_of_folds;
+    if (again.energy <= most) {
       report = again;
       best = it_.current;
     } else if (!mark_bursts(best.linearization, burst * report.energy, burst_before)) {
@@ -187,25 +186,19 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
 
 void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
                             CurvatureLevelReport& report) {
-  it_.current.points = start.points;
-  it_.current.held = start.held;
-  refill(marks);
-  report = start.report;
-  report.damped = true;
-  LocalDamping damping(it_.grid(), it_.system.shared().unknowns, it_.workers());
-  damping.hold(marks, filled_damping);
-  steps_.run_damped(damping, report);
-  steps_.finish_damped(damping, report);
+  StepStart filled = start;
+  refill(marks, filled.points);
+  steps_.run_damped(filled, marks, report);
 }
 
 // As the control mesh has the marked points between those around.
-void Unfolding::refill(const Array<float>& marks) {
+void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
   const Unknowns& unknowns = it_.system.shared().unknowns;
-  Array<double> linear(it_.current.points.size());
+  Array<double> linear(x.size());
   refine_linearly(it_.grid(), hold_.targets(), it_.workers(), linear.data());
   fill_harmonically(it_.grid(), hold_.any() ? hold_.without_held() : unknowns, marks, linear.data(),
-                    it_.current.points.data());
-  it_.system.symmetrizer().points(it_.grid(), it_.current.points);
+                    x.data());
+  it_.system.symmetrizer().points(it_.grid(), x);
 }
 
 // Marks what is around the points that have gained more energy than `most`; false: none has.

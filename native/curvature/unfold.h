@@ -16,14 +16,6 @@ namespace fairing {
 void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                        const double* shape, double* x);
 
-// Where the steps on a level began: their points, what held them, and the report before the first
-// step.
-struct StepStart {
-  Array<double> points;
-  Multipliers<1> held;
-  CurvatureLevelReport report;
-};
-
 class Unfolding {
  public:
   // `folded_faces`: control faces whose folds are excused (folded_control_faces). All must outlive
@@ -35,13 +27,13 @@ class Unfolding {
   // Folds of the surface as it is.
   Folds find() const;
 
-  // Replaces iterate.current, at which the steps from `start` ended, by a surface with fewer folds
-  // if one is found that has about the same energy and has come as near; sets folds_before and
-  // folds of `report`, or replaces it.
+  // Replaces iterate.current, at which the damped steps from `start` ended, by a surface with fewer
+  // folds if one is found that has hardly more energy, or by one with much less energy; sets
+  // folds_before and folds of `report`, or replaces it.
   void run(const StepStart& start, CurvatureLevelReport& report);
 
  private:
-  void refill(const Array<float>& marks);
+  void refill(const Array<float>& marks, Array<double>& x);
   void dilate_marks(int rings, Array<float>& marks);
   void solve_again(const StepStart& start, const Array<float>& marks, CurvatureLevelReport& report);
   bool mark_bursts(const Linearization& before, double most, Array<float>& marks);

@@ -94,7 +94,8 @@ class VariationStep final : public StepMethod {
     it_.system.set_damping(it_.level, damping_.mu());
     step.variation = true;
     step.energy = it_.current.energy;
-    predicted_gain_ = it_.system.solve(it_.level, it_.current, fresh, it_.step, not_held_, step);
+    predicted_gain_ =
+        std::max(0.0, it_.system.solve(it_.level, it_.current, fresh, it_.step, not_held_, step));
     step.decrement = std::sqrt(predicted_gain_ / scale_);
     it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }

@@ -38,10 +38,10 @@ struct NormalReport {
   double largest_angle = 0;
 };
 
-// The pads under the input vertices: of how many the width is less than asked for, how many are
-// gone altogether, and each one's width, 0 where there is none. Empty without pads.
+// The pads under the input vertices: how many are gone, and each one's width, 0 where there is none.
+// Empty without pads.
 struct PadReport {
-  std::size_t narrower = 0, gone = 0;
+  std::size_t gone = 0;
   std::vector<double> widths;
 };
 

@@ -20,7 +20,6 @@ PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
   PadReport out;
   for (std::size_t v = 0; v < vertices; ++v) {
     out.widths.push_back(pads.under(v) ? unit * pads.reach(v) : 0.0);
-    out.narrower += pads.under(v) && !pads.is_whole(v);
     out.gone += pads.began_under(v) && !pads.under(v);
   }
   return out;

@@ -16,8 +16,6 @@ namespace {
 constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
 constexpr int mass_steps = 12;  // each halves the error
 
-constexpr double least_share = 0.125;  // of the reach asked for: narrower pads are points
-
 // Of an edge: what reaches less far meets no point of any level.
 constexpr double least_reach = 1.0 / (1 << 16);
 
@@ -28,7 +26,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
     : mesh_(&mesh), workers_(&workers), unknowns_(unknowns), rows_(unknowns) {
   for (const FlatFace& flat : charts.flat()) area_.push_back(flat.area);
   const auto vertices = std::size_t(mesh.vertex_count());
-  share_.assign(vertices, 0.0);
+  under_.assign(vertices, 0);
   for (const auto& [ahead, back] : pad_reaches(mesh))
     inverse_.push_back(
         {1 / std::max(size * ahead, least_reach), 1 / std::max(size * back, least_reach)});
@@ -36,7 +34,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
     if (!held || !mesh.vertex_fit(Index(v)) || mesh.vertex_part(Index(v)) != RegionPart::inside)
       continue;
-    share_[v] = 1;
+    under_[v] = 1;
     rows_.vertex[v] = 1;
     rows_.any_vertex = true;
     ++count_;
@@ -67,19 +65,10 @@ double Pads::reach(std::size_t v) const {
   return farthest;
 }
 
-void Pads::narrow(std::size_t v, int halvings) {
-  if (!under(v)) return;
-  grid_ = nullptr;
-  share_[v] = std::ldexp(share_[v], -halvings);
-  for (const Spoke& spoke : mesh_->ring(Index(v)))
-    inverse_reach(spoke) = std::min(std::ldexp(inverse_reach(spoke), halvings), 1 / least_reach);
-  if (share_[v] < least_share) leave(v);
-}
-
 void Pads::leave(std::size_t v) {
   if (!under(v)) return;
   grid_ = nullptr;
-  share_[v] = 0;
+  under_[v] = 0;
   std::fill(value_.begin() + row_begin_[v], value_.begin() + row_begin_[v + 1], 0.0);
   rows_.vertex[v] = unknowns_.vertex[v];
   rows_.any_vertex = --count_ > 0 || unknowns_.any_vertex;
@@ -194,7 +183,7 @@ void Pads::set_level(const GridLevel& grid, Array<double> weights) {
 void Pads::fill_matrix() {
   const std::vector<Element> faces = elements_of_faces(weights()),
                              edges = elements_of_edges(weights());
-  workers_->for_parts(share_.size(), 256, [&](std::size_t begin, std::size_t end) {
+  workers_->for_parts(under_.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       diagonal_[v] = total_[v] = 0;
       if (!under(v)) continue;
@@ -238,7 +227,7 @@ void Pads::add_any(const LoadsOf<N>& loads, double* r) const {
   const auto add = [](double* to, double factor, const Eigen::Matrix<double, N, 1>& load) {
     for (int a = 0; a < N; ++a) to[a] += factor * load[a];
   };
-  for_each_index(*workers_, share_.size(), [&](std::size_t v) {
+  for_each_index(*workers_, under_.size(), [&](std::size_t v) {
     if (under(v)) add(r + N * v, vertex_weight(v, weight), loads[v]);
   });
   workers_->for_parts(n > 1 ? mesh_->edges.size() : 0, element_grain(n) * std::size_t(n),
@@ -290,8 +279,8 @@ void Pads::add_loads(const NormalLoads& loads, double* r) const { add_any<1>(loa
 NormalLoads Pads::gather(const Array<double>& r) const {
   const std::vector<Element> faces = elements_of_faces(r.data()),
                              edges = elements_of_edges(r.data());
-  NormalLoads out(share_.size(), Eigen::Matrix<double, 1, 1>::Zero());
-  for_each_index(*workers_, share_.size(), [&](std::size_t v) {
+  NormalLoads out(under_.size(), Eigen::Matrix<double, 1, 1>::Zero());
+  for_each_index(*workers_, under_.size(), [&](std::size_t v) {
     if (!under(v)) return;
     double sum = r[v];
     for (const Spoke& spoke : mesh_->ring(Index(v))) {

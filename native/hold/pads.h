@@ -45,17 +45,14 @@ class Pads {
 
   // False where no control vertex stands on a pad.
   bool any() const { return count_ > 0; }
-  bool under(std::size_t v) const { return share_[v] > 0; }
-  // The same before any pad was narrowed.
+  bool under(std::size_t v) const { return under_[v] != 0; }
+  // The same before any pad was left.
   bool began_under(std::size_t v) const { return row_begin_[v + 1] > row_begin_[v]; }
-  bool is_whole(std::size_t v) const { return share_[v] == 1; }
-  // Of each control vertex: what narrowing has left of its pad's reach; 0 where it stands on none.
-  const std::vector<double>& shares() const { return share_; }
+  // Of each control vertex: whether it stands on a pad.
+  const std::vector<std::uint8_t>& places() const { return under_; }
   // How far a pad reaches along the edges around, at the most; 0 without a pad.
   double reach(std::size_t v) const;
-  // Halves a reach so many times; below an eighth the pad is gone, and the vertex held by a point
-  // force, as leave() has it at once. Call set_level() before what follows them.
-  void narrow(std::size_t v, int halvings);
+  // From here on the vertex is held by a point force. Call set_level() before what follows.
   void leave(std::size_t v);
   // The unknowns and the control vertices on pads: the rows of K that (*) speaks of.
   const Unknowns& rows() const { return rows_; }
@@ -103,9 +100,6 @@ class Pads {
     return under(std::size_t(mesh_->edges[e].vertex[h])) ? std::max(0.0, 1 - t * inverse_[e][h])
                                                          : 0.0;
   }
-  double& inverse_reach(const Spoke& spoke) {
-    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
-  }
   double inverse_reach(const Spoke& spoke) const {
     return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
   }
@@ -127,8 +121,8 @@ class Pads {
   const ControlMesh* mesh_;
   Workers* workers_;
   const GridLevel* grid_ = nullptr;
-  std::vector<double> area_;                    // of each control face, in the control metric
-  std::vector<double> share_;                   // of each control vertex' pad; 0: none
+  std::vector<double> area_;  // of each control face, in the control metric
+  std::vector<std::uint8_t> under_;
   std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
   std::size_t count_ = 0;
   Unknowns unknowns_, rows_;

@@ -190,25 +190,20 @@ TEST(Pads, AGapThatStaysOpenIsTold) {
   EXPECT_NE(report.warnings[0].message.find("tolerance is kept"), std::string::npos);
 }
 
-TEST(Pads, NarrowToNothing) {
+TEST(Pads, GoAlone) {
   const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
   Workers workers(1);
   const GridLevel grid(mesh, 3);
-  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers), wide = pads;
-  pads.narrow(3, 1);
-  pads.narrow(4, 2);
-  pads.narrow(4, 2);
-  EXPECT_EQ(pads.shares()[2], 1);
-  EXPECT_EQ(pads.shares()[3], 0.5);
-  EXPECT_EQ(pads.shares()[4], 0);
+  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers), whole = pads;
+  pads.leave(4);
+  EXPECT_TRUE(pads.under(3));
   EXPECT_FALSE(pads.under(4));
   EXPECT_TRUE(pads.began_under(4));
   EXPECT_EQ(pads.rows().vertex[3], 1);
   EXPECT_EQ(pads.rows().vertex[4], 0);
-  wide.set_level(grid);
+  whole.set_level(grid);
   pads.set_level(grid);
-  EXPECT_EQ(pads.total(2), wide.total(2));
-  EXPECT_LT(pads.total(3), 0.5 * wide.total(3));
+  EXPECT_EQ(pads.total(3), whole.total(3));
   EXPECT_EQ(pads.total(4), 0);
   for (const Index v : {3, 4}) {
     Loads one(std::size_t(mesh.vertex_count()), Vec3::Zero());
@@ -218,12 +213,11 @@ TEST(Pads, NarrowToNothing) {
     for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
     EXPECT_NEAR(total, pads.total(std::size_t(v)), 1e-14);
   }
-  for (std::size_t v = 0; v < pads.shares().size(); ++v) pads.narrow(v, 4);
+  for (std::size_t v = 0; v < pads.places().size(); ++v) pads.leave(v);
   EXPECT_FALSE(pads.any());
   EXPECT_FALSE(pads.rows().any_vertex);
 }
 
-// A long box with a narrow bevel along each edge: the shortest edge at every vertex is the bevel's.
 TEST(Pads, ReachALengthAlongAllEdges) {
   const ControlMesh mesh = make_control_mesh(grid(5, 4).view(), {});
   ControlMesh stretched = mesh;
@@ -271,28 +265,6 @@ TEST(Pads, ThrownStarsAreFound) {
     std::sort(corners.begin(), corners.end());
     EXPECT_EQ(thrown_stars(grid, workers, mesh.positions, x.data()), corners);
   }
-}
-
-TEST(Pads, StarsShareTheEnergy) {
-  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
-  Workers workers(2);
-  const GridLevel grid(mesh, 3);
-  std::vector<double> x(3 * grid.size());
-  refine_linearly(grid, mesh.positions, workers, x.data());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    Eigen::Map<Vec3> p(x.data() + 3 * i);
-    p.normalize();
-  }
-  const std::vector<double> stars = total_curvature_of_stars(grid, workers, x.data());
-  double total = 0;
-  for (const double star : stars) {
-    EXPECT_NEAR(star, stars[0], 1e-9 * stars[0]);
-    total += star;
-  }
-  // Each face is in three stars, each edge in two, each vertex in one.
-  const double whole = total_curvature(grid, workers, x.data());
-  EXPECT_GT(total, 2 * whole);
-  EXPECT_LT(total, 3 * whole);
 }
 
 TEST(Pads, StandOffCurvesOnly) {

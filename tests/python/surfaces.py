@@ -122,7 +122,21 @@ def boundary_vertices(faces) -> np.ndarray:
 
 
 def comes_near(level: dict) -> bool:
-    """Whether a level's steps ended where a full step gains below a thousandth of the energy, converged
-    or not; `level`: an entry of report["curvature"]."""
+    """Whether a level's steps ended where a full step gains below a thousandth of the energy, or where
+    two damped ones have gained below a two-hundredth, converged or not; `level`: an entry of
+    report["curvature"], on point forces."""
     last = level["steps"][-1]
-    return not level["kept_start"] and last["length"] > 0 and last["decrement"] <= 3e-2
+    if level["kept_start"] or last["length"] == 0:
+        return False
+    return last["decrement"] <= 3e-2 or (level["damped"] and gains_nothing(level))
+
+
+def gains_nothing(level: dict) -> bool:
+    """Whether the last two steps of a level have gained below a two-hundredth of its energy, and came
+    to a decrement below 0.1."""
+    steps = level["steps"]
+    return (
+        len(steps) > 1
+        and steps[-1]["decrement"] < 0.1
+        and steps[-2]["energy"] - level["energy"] < 0.005 * level["energy"]
+    )

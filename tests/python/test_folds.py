@@ -49,7 +49,7 @@ def fair(mesh, levels=2, **options):
     return tight.fair(*mesh, levels, energy="total_curvature", **options)
 
 
-@pytest.mark.parametrize("seed, levels", [(3, 2), (9, 2), (11, 2), (4, 3)])
+@pytest.mark.parametrize("seed, levels", [(3, 2), (11, 2), (4, 3)])
 def test_a_rough_ball_is_unfolded(seed, levels):
     mesh = meshes.rough_ball(seed)
     result = fair(mesh, levels)

@@ -145,16 +145,20 @@ def test_only_the_inside_of_a_region_moves():
     assert result.report["constraint_gap"] <= 1e-4
 
 
-@pytest.mark.parametrize("seed, share", [(1, 1.0), (2, 0.26)])
-def test_steps_on_a_crumpled_ball_do_not_burst(seed, share):
-    """One gets nowhere, and says so; the other ends at a quarter of the plate's energy."""
+@pytest.mark.parametrize("seed", [1, 2])
+def test_steps_on_a_crumpled_ball_do_not_burst(seed):
+    """They end hardly more bent than on point forces."""
     vertices, faces = meshes.rough_ball(seed, roughness=1.2)
     edges = vertices[faces] - vertices[np.roll(faces, 1, axis=1)]
     tolerance = 0.4 * np.linalg.norm(edges, axis=2).mean()
     options = {"interpolation": "approximate", "tolerance": tolerance}
-    report = df.fair(vertices, faces, 2, "total_curvature", **options).report
+    on_points, report = (
+        df.fair(vertices, faces, 2, "total_curvature", pad_size=size, **options).report
+        for size in (0.0, 1.0)
+    )
     level = report["curvature"][-1]
-    assert level["energy"] <= share * level["plate_energy"]
+    assert level["energy"] <= 1.1 * on_points["curvature"][-1]["energy"]
+    assert level["energy"] <= level["plate_energy"]
     told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
     assert told == (not level["converged"])
 

@@ -209,7 +209,6 @@ class Whole:
             "constraint_rounds": most("constraint_rounds"),
             "constraint_gap": most("constraint_gap"),
             "pads": {
-                "narrower": sum(pad["narrower"] for pad in pads),
                 "gone": sum(pad["gone"] for pad in pads),
                 "widths": self.widths.tolist() if self.has_pads else [],
             },

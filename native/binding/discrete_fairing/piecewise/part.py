@@ -195,7 +195,7 @@ def report_of(
     ]
     widths = np.asarray(report["pads"]["widths"], float)
     out["pad_widths"] = widths[row] if len(widths) else widths
-    out["pads"] = {name: report["pads"][name] for name in ("narrower", "gone")}
+    out["pads"] = {"gone": report["pads"]["gone"]}
     out["warnings"] = [
         in_whole
         for warning in report["warnings"]

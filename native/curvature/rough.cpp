@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature/rough.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "grid/runs.h"
+
+namespace fairing {
+namespace {
+
+// A load acts along the normals of its pad. Where these turn away from the vertex's own by more than
+// 60 degrees, less than half of it holds the vertex, and pads fight each other.
+constexpr double least_facing = 0.5;
+// On pads the least total curvature is another's least: it may be so many times that on points.
+constexpr double most_over_points = 1.2;
+
+using Normal = Eigen::Map<const Vec3>;
+
+// Of each control vertex: the least cosine between its normal and those at the points of its star,
+// those on curves apart, which have none.
+std::vector<double> facing_of_stars(const GridLevel& grid, const Array<double>& normals) {
+  const ControlMesh& mesh = grid.mesh();
+  std::vector<double> least(std::size_t(mesh.vertex_count()), 1.0);
+  const auto normal = [&](std::size_t p) { return Normal(normals.data() + 3 * p); };
+  const auto look = [&](Index v, const Run& run) {
+    double& cosine = least[std::size_t(v)];
+    for (std::size_t p = run.first; p < run.first + run.count; ++p)
+      if (!normal(p).isZero(0)) cosine = std::min(cosine, normal(std::size_t(v)).dot(normal(p)));
+  };
+  for_each_run(grid, [&](const Run& run) {
+    if (run.kind == RunKind::edge)
+      for (const Index v : mesh.edges[std::size_t(run.element)].vertex) look(v, run);
+    else if (run.kind == RunKind::face_row)
+      for (int c = 0; c < mesh.faces[std::size_t(run.element)].size; ++c)
+        look(mesh.faces[std::size_t(run.element)].vertex[std::size_t(c)], run);
+  });
+  return least;
+}
+
+}  // namespace
+
+void RoughSteps::run(const StepStart& start, CurvatureLevelReport& report) {
+  // A crumpled surface is hard for blocks too, and what they leave of a solve upsets the loads.
+  it_.system.allow_blocks(false);
+  run_on_points(start, report);
+  if (it_.level < it_.system.finest()) return;
+  if (it_.system.pads()) go_onto_pads(start, report);
+  polish(report);
+}
+
+void RoughSteps::polish(CurvatureLevelReport& report) {
+  report.converged = report.left <= steps_.accurate_end().movement;
+  if (report.converged || !is_near(report, damped_decrement)) return;
+  LinearizedSurface before = it_.current;
+  CurvatureLevelReport polished = report;
+  steps_.polish(polishing_patience, report.energy, polished);
+  polished.folds = unfolding_.find().count();
+  if (polished.folds <= report.folds)
+    report = std::move(polished);
+  else
+    it_.current = std::move(before);
+}
+
+void RoughSteps::run_on_points(const StepStart& start, CurvatureLevelReport& report) {
+  const GaussNewtonSystem::OffPads off_pads(it_.system);
+  steps_.run_damped(start, {}, report);
+  if (it_.level == it_.system.finest()) unfolding_.run(start, report);
+}
+
+// The surface on pads stands if it is hardly more bent than that on points, no more folded, and as
+// near to a solution; else all vertices stay on points.
+void RoughSteps::go_onto_pads(const StepStart& start, CurvatureLevelReport& report) {
+  leave_pads(least_facing);
+  if (!it_.system.pads()->any()) return;
+  LinearizedSurface on_points = it_.current;
+  const CurvatureLevelReport of_points = report;
+  StepStart from{it_.current.points, it_.current.held, start.report};
+  from.held.loads.clear();
+  steps_.run_damped(from, {}, report);
+  report.folds_before = of_points.folds_before;
+  report.folds = unfolding_.find().count();
+  const bool is_as_near = report.steps.back().length > 0 &&
+                          is_near(report, damped_decrement) >= is_near(of_points, damped_decrement);
+  if (report.energy <= most_over_points * of_points.energy && report.folds <= of_points.folds &&
+      is_as_near)
+    return;
+  leave_pads(std::numeric_limits<double>::infinity());
+  it_.current = std::move(on_points);
+  report = of_points;
+}
+
+void RoughSteps::leave_pads(double least_facing) {
+  const std::vector<double> facing = facing_of_stars(it_.grid(), it_.current.linearization.normal);
+  for (std::size_t v = 0; v < facing.size(); ++v)
+    if (facing[v] < least_facing) it_.system.pads()->leave(v);
+}
+
+}  // namespace fairing

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of meshes so rough that plain steps on pads run wild: first on point forces, where steps go
+// down an energy, then on to the pads that the surface can stand on.
+#pragma once
+
+#include "curvature/unfold.h"
+
+namespace fairing {
+
+class RoughSteps {
+ public:
+  // All must outlive it.
+  RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, TotalCurvatureSteps& steps)
+      : it_(iterate), unfolding_(unfolding), steps_(steps) {}
+
+  // From `start` to the least total curvature on point forces, and on the finest level on to pads.
+  // `report` begins anew with it. Throws ErrorCode::cancelled.
+  void run(const StepStart& start, CurvatureLevelReport& report);
+
+ private:
+  void run_on_points(const StepStart& start, CurvatureLevelReport& report);
+  void go_onto_pads(const StepStart& start, CurvatureLevelReport& report);
+  void leave_pads(double least_facing);
+  // Plain steps to the end, where these make no folds.
+  void polish(CurvatureLevelReport& report);
+
+  SurfaceIterate& it_;
+  Unfolding& unfolding_;
+  TotalCurvatureSteps& steps_;
+};
+
+}  // namespace fairing
