@@ -19,6 +19,9 @@ struct ThinPlateOptions {
   int smoother_degree = 0;           // 0: chosen from how the coarse levels converge
   double pad_size = 0;               // of the pads under control vertices (pads.h); 0: point forces
   std::vector<FixedNormal> normals;  // held on all levels but the coarsest
+  // The exponent of the metric in which levels are solved that have a surface of the level below: that
+  // of their start, in place of the control metric. 0: in the control metric as well.
+  double surface_exponent = 0;
   bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
 };
 
