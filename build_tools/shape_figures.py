@@ -271,7 +271,7 @@ SHAPE: dict[str, Callable[[], str]] = {
         "limits",
         [
             ("limit", "thin plate"),
-            ("limit, spacing 0.35", "thin plate, spacing 0.35"),
+            ("limit, spacing 0.45", "thin plate, spacing 0.45"),
             ("limit, total curvature", "total curvature"),
         ],
     ),

@@ -3,8 +3,6 @@
 // the place of those by control vertex, edge and face (stencil/stencils.h). The metric of the control
 // faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
 // that the plate is nearly its total curvature (docs/explanation/method.md).
-//
-// Some 350 bytes a point.
 #pragma once
 
 #include "sparse/matrix.h"
@@ -46,6 +44,13 @@ class SurfaceDifferences {
   void write_row(Index p, RowBuilder& row) const;
   // The products that all rows are summed from.
   std::size_t products() const;
+
+  // Bytes a point, of triangles' grids or of quads': what is kept, and what a matrix takes more than in
+  // the control metric, where equal rows share their numbers.
+  static constexpr std::int64_t bytes(bool quads) {
+    constexpr std::int64_t place = 29, moments = 72, unshared = 80, member = 12 + 4 + 8;
+    return place + moments + unshared + member * (quads ? 9 : 7);
+  }
 
  private:
   void write_rows(double exponent, Workers& workers, const double* x);
