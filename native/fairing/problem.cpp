@@ -38,7 +38,9 @@ RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::in
   add(held);
   add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
   if (options.interpolation == Interpolation::limit)
-    add(std::int64_t(LimitPositions::bytes(input)) + bytes_on_surface(problem.mesh, options.levels));
+    add(std::int64_t(LimitPositions::bytes(input)));
+  if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate)
+    add(bytes_on_surface(problem.mesh, options.levels));
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
 }
