@@ -22,7 +22,8 @@ std::int64_t bytes_on_surface(const ControlMesh& mesh, int levels) {
   for (const Face& face : mesh.faces) quads += face.quad();
   const auto faces = std::int64_t(mesh.faces.size());
   for (int l = 1; l <= levels; ++l)
-    points += grid_size(mesh.vertex_count(), std::int64_t(mesh.edges.size()), faces - quads, quads, l);
+    points +=
+        grid_size(mesh.vertex_count(), std::int64_t(mesh.edges.size()), faces - quads, quads, l);
   return points * SurfaceDifferences::bytes(2 * quads > faces);
 }
 

@@ -14,8 +14,7 @@ constexpr double no_length = 1e-6, no_angle = 1e-3;
 
 double power(const Vec3& way, double exponent) {
   const double square = way.squaredNorm();
-  return exponent == centripetal ? std::sqrt(std::sqrt(square))
-                                 : std::pow(square, 0.5 * exponent);
+  return exponent == centripetal ? std::sqrt(std::sqrt(square)) : std::pow(square, 0.5 * exponent);
 }
 
 }  // namespace

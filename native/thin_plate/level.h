@@ -76,7 +76,8 @@ class ThinPlateLevel final : public LevelOperator {
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 3; }
   void apply(const double* x, double* y) override {
-    if (surface_) return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
+    if (surface_)
+      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.double_slots, x, y);
   }
@@ -92,7 +93,8 @@ class ThinPlateLevel final : public LevelOperator {
           x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
             std::copy_n(product, 3 * count, y + 3 * first);
           });
-    if (surface_) return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
+    if (surface_)
+      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.float_slots, x, y);
   }

@@ -22,7 +22,7 @@ struct ThinPlateOptions {
   // The exponent of the metric in which levels are solved that have a surface of the level below: that
   // of their start, in place of the control metric. 0: in the control metric as well.
   double surface_exponent = 0;
-  bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
+  bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
 };
 
 // The level on which hats first have points enough: on finer ones loads hardly change, and how they

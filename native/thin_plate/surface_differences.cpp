@@ -130,8 +130,7 @@ void SurfaceDifferences::apply(const std::vector<std::uint8_t>& vertices,
     T sum[3] = {};
     if (p < vertices.size() ? vertices[p] : unknown_[p]) {
       for (const RingPlaces::Place& place : places_.of(Index(p))) {
-        const float* const row =
-            row_.data() + 3 * (rings_.about(place.centre).member + place.slot);
+        const float* const row = row_.data() + 3 * (rings_.about(place.centre).member + place.slot);
         const T* const m = moment + 9 * std::size_t(place.centre);
         for (std::size_t c = 0; c < 3; ++c)
           for (std::size_t a = 0; a < 3; ++a) sum[a] += T(row[c]) * m[3 * c + a];
@@ -140,8 +139,7 @@ void SurfaceDifferences::apply(const std::vector<std::uint8_t>& vertices,
       const MembraneWeights tension = membrane(Index(p));
       for (std::size_t s = 0; s < tension.size(); ++s)
         for (std::size_t a = 0; a < 3; ++a)
-          sum[a] += T(tension[s]) *
-                    (x[3 * p + a] - x[3 * std::size_t(members[s + 1]) + a]);
+          sum[a] += T(tension[s]) * (x[3 * p + a] - x[3 * std::size_t(members[s + 1]) + a]);
       if (p < weights.size())
         for (std::size_t a = 0; a < 3; ++a) sum[a] += T(weights[p]) * x[3 * p + a];
     }
