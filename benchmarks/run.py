@@ -38,6 +38,7 @@ import scaling
 import shared
 import side_by_side
 import sizes
+import step_distances
 import subdivision
 import uneven
 
@@ -49,6 +50,7 @@ BENCHMARKS = {
     "million": million.run,
     "piecewise": piecewise.run,
     "sizes": sizes.run,
+    "step_distances": step_distances.run,
     "cancel": cancel.run,
     "charts": charts.run,
     "paper": paper.run,

@@ -2,13 +2,10 @@
 """How far STEP files are from the surfaces that they stand for: Open CASCADE reads each file and
 evaluates its faces; the distance is that to the triangles of the refined surface.
 
-    python benchmarks/step_distances.py [names …]
-
 Nothing of it is our own evaluation. The triangles are flat: where they bend, their own sag, some
 1e-6 of the size at level 6, is part of the distance.
 """
 
-import sys
 import tempfile
 from pathlib import Path
 
@@ -92,7 +89,8 @@ def _from_triangle(p: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return np.where(inside, height, nearest)
 
 
-def row(name: str, mesh, options) -> list[object]:
+def measured(mesh, options) -> dict[str, float]:
+    """Of one surface's file; lengths as shares of the size."""
     patches = df.fit_patches(*mesh, **options)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "surface.step"
@@ -100,16 +98,24 @@ def row(name: str, mesh, options) -> list[object]:
         points = file_points(step_files.read(file).shape, POINTS)
     result = patches.result
     found = distances(points, result.vertices, result.triangles.astype(np.int64)) / patches.size
-    parts = (*np.quantile(found, (0.5, 0.99)), found.max(), patches.largest_residual / patches.size)
-    return [name, patches.levels, len(patches), len(points), *(f"{part:.1e}" for part in parts)]
+    return {
+        "level": patches.levels,
+        "patches": len(patches),
+        "points": len(points),
+        "median": float(np.median(found)),
+        "99 %": float(np.quantile(found, 0.99)),
+        "largest": float(found.max()),
+        "own": float(patches.largest_residual / patches.size),
+    }
 
 
-def main() -> None:
-    wanted = sys.argv[1:]
-    rows = [row(*case) for case in surfaces() if not wanted or case[0] in wanted]
+def run() -> dict[str, dict[str, float]]:
+    """All surfaces."""
+    found = {name: measured(mesh, options) for name, mesh, options in surfaces()}
     heading = ["file", "level", "patches", "points", "median", "99 %", "largest", "our own figure"]
+    rows = [
+        [name, *row[:3], *(f"{part:.1e}" for part in row[3:])]
+        for name, row in ((name, list(case.values())) for name, case in found.items())
+    ]
     table.show("STEP files from their surfaces, over the size", heading, rows)
-
-
-if __name__ == "__main__":
-    main()
+    return found

@@ -256,6 +256,20 @@ def near_on_pads_table() -> str:
     return table(heads, rows)
 
 
+def step_distances_table() -> str:
+    """STEP files as another program evaluates them, from their surfaces."""
+    rows = [
+        [
+            name,
+            *(f"{case[k]:,}".replace(",", " ") for k in ("level", "patches", "points")),
+            *(f"{case[k]:.1e}" for k in ("median", "99 %", "largest", "own")),
+        ]
+        for name, case in result("step_distances").items()
+    ]
+    heads = ["file", "level", "patches", "points", "median", "99 %", "largest"]
+    return table([*heads, "the patches' own largest"], rows)
+
+
 def inscribed(name: str, pad_size: str) -> str:
     """Total curvature of the thin plate's surface over 8π, level 4."""
     return f"{result('pads')['inscribed'][f'{name}, 4'][pad_size]:.2f}"
@@ -271,7 +285,7 @@ SHAPE: dict[str, Callable[[], str]] = {
         "limits",
         [
             ("limit", "thin plate"),
-            ("limit, spacing 0.35", "thin plate, spacing 0.35"),
+            ("limit, spacing 0.45", "thin plate, spacing 0.45"),
             ("limit, total curvature", "total curvature"),
         ],
     ),
@@ -281,6 +295,7 @@ SHAPE: dict[str, Callable[[], str]] = {
     "limits.curvature": lambda: all_four("limits", "limit, total curvature"),
     "limits.plate.seconds": lambda: seconds("limits", "limit"),
     "limits.curvature.seconds": lambda: seconds("limits", "limit, total curvature"),
+    "step_distances.table": step_distances_table,
     "jobs.table": jobs_table,
     "jobs.panels": lambda: best_of_jobs("panel"),
     "jobs.seconds": lambda: seconds("jobs", "minimum variation"),

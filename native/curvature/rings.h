@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "curvature/curvature_lanes.h"
-#include "grid/runs.h"
+#include "grid/ring_shape.h"
 #include "parallel/memory.h"
 
 namespace fairing {
@@ -55,15 +55,6 @@ inline void ring_at(const RunRings& rings, std::size_t i, RingInSpace& ring) {
     if (rings.lift[0]) ring.add_lift(rings.lift[s][i]);
   }
 }
-
-// What the rings of a run have in common.
-struct RingShape {
-  std::vector<std::uint8_t> far;  // of the neighbours: whether they lie across a quad
-  int first = 0;                  // where the ring begins: an open one on the boundary
-  bool closed = true;
-
-  void set(const GridLevel& grid, const Run& run);
-};
 
 // Each ring of a run alone: calls visit(i, ring, closed) for its points i. x: 3 numbers a point;
 // `lift`: one, or null. Both must outlive the walk. One thread's.

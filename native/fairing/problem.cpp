@@ -11,9 +11,21 @@
 #include "fairing/warnings.h"
 #include "hold/hold_in_space.h"
 #include "mesh/validate/check.h"
+#include "thin_plate/surface_differences.h"
 
 namespace fairing {
 namespace {
+
+// Of the plate's differences on the levels that have a surface below.
+std::int64_t bytes_on_surface(const ControlMesh& mesh, int levels) {
+  std::int64_t quads = 0, points = 0;
+  for (const Face& face : mesh.faces) quads += face.quad();
+  const auto faces = std::int64_t(mesh.faces.size());
+  for (int l = 1; l <= levels; ++l)
+    points +=
+        grid_size(mesh.vertex_count(), std::int64_t(mesh.edges.size()), faces - quads, quads, l);
+  return points * SurfaceDifferences::bytes(2 * quads > faces);
+}
 
 // Of a run, as far as it can be counted, `held` and what mending took included.
 RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::int64_t held) {
@@ -28,6 +40,8 @@ RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::in
   add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
   if (options.interpolation == Interpolation::limit)
     add(std::int64_t(LimitPositions::bytes(input)));
+  if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate)
+    add(bytes_on_surface(problem.mesh, options.levels));
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
 }

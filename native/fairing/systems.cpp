@@ -46,6 +46,9 @@ ThinPlateSolver& FairingSystems::plate() {
     own.smoother_degree = options.smoother_degree;
     own.pad_size = options.width_of_pads();
     own.normals = problem_.normals.fixed;
+    // Steps to other energies begin better from the control metric's plate (docs/notes/comparison.md).
+    if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate)
+      own.surface_exponent = problem_.exponent;
     own.starts_steps = options.energy != Energy::thin_plate;
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
                                                problem_.unknowns, problem_.start_weights, own,

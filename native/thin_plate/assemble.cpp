@@ -17,8 +17,8 @@ double product(const Column& a, const Column& b) { return a[0] * b[0] + a[1] * b
 class PlateAssembly {
  public:
   PlateAssembly(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                const VertexWeights& weights, Workers& workers)
-      : plate_(grid, stencils, unknowns, workers),
+                const VertexWeights& weights, Workers& workers, const SurfaceDifferences* surface)
+      : plate_(grid, stencils, unknowns, workers, surface),
         weights_(weights),
         number_(number_unknowns(grid, unknowns)) {
     for (std::size_t p = 0; p < number_.size(); ++p)
@@ -137,8 +137,8 @@ class PlateAssembly {
 
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers) {
-  return PlateAssembly(grid, stencils, unknowns, weights, workers).assemble();
+                                    Workers& workers, const SurfaceDifferences* surface) {
+  return PlateAssembly(grid, stencils, unknowns, weights, workers, surface).assemble();
 }
 
 }  // namespace fairing

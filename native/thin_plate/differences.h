@@ -8,6 +8,7 @@
 #include "sparse/ring_table.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
+#include "thin_plate/surface_differences.h"
 
 namespace fairing {
 
@@ -15,11 +16,13 @@ class PlateDifferences {
  public:
   using Column = EnergyRows::Column;
 
-  // `grid` and `stencils` must outlive it. Throws where the run has been cancelled.
+  // `grid` and `stencils` must outlive it, and `surface`, whose differences take the place of the
+  // stencils' if it is given. Throws where the run has been cancelled.
   PlateDifferences(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                   Workers& workers)
+                   Workers& workers, const SurfaceDifferences* surface = nullptr)
       : grid_(grid),
         stencils_(stencils),
+        surface_(surface),
         rings_(grid, unknowns, workers),
         places_(rings_),
         weight_(point_weights(grid)) {}
@@ -39,6 +42,7 @@ class PlateDifferences {
   // What a unit at a member of the ring about `centre` does to the three differences there; `of`:
   // its rows().
   Column column(Index centre, const EnergyRows& of, std::size_t slot) const {
+    if (surface_) return surface_->column(centre, slot);
     const double scale =
         grid_.n() * std::sqrt(weight_.empty() ? 1.0 : weight_[std::size_t(centre)]);
     Column out = {};
@@ -53,6 +57,7 @@ class PlateDifferences {
  private:
   const GridLevel& grid_;
   const Stencils& stencils_;
+  const SurfaceDifferences* surface_;
   const RingTable rings_;
   const RingPlaces places_;
   const Array<double> weight_;  // of the points; empty: all are one

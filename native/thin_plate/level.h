@@ -35,13 +35,23 @@ struct ThinPlateShared {
 };
 
 // K plus the weights of control vertices. In double always by passes; in single precision by a
-// matrix where one suits the level.
+// matrix where one suits the level. In the control metric, or in that of a surface.
 class ThinPlateLevel final : public LevelOperator {
  public:
   ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid) : shared_(shared), grid_(grid) {
     matrix_ = PlateMatrix::make(grid, shared.stencils, shared.unknowns, shared.workers);
     update();
   }
+
+  // From here on in the metric of the surface x, 3 numbers a point.
+  void measure(const double* x, double exponent) {
+    matrix_.reset();
+    surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, exponent,
+                                                    shared_.unknowns, shared_.workers, x);
+    matrix_ = PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers);
+    update();
+  }
+  bool is_measured() const { return surface_ != nullptr; }
 
   // Call after the weights have changed.
   void update() {
@@ -50,15 +60,31 @@ class ThinPlateLevel final : public LevelOperator {
       inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
       return;
     }
-    inverse_diagonal_ = thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns,
-                                            shared_.weights, shared_.workers, shared_.double_slots);
+    inverse_diagonal_ =
+        surface_ ? surface_->diagonal(shared_.weights, shared_.workers)
+                 : thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
+                                       shared_.workers, shared_.double_slots);
     for (float& d : inverse_diagonal_) d = 1 / d;
+  }
+
+  // E(x), as thin_plate_energy().
+  double bending(const double* x) {
+    return surface_ ? surface_->energy(shared_.workers, x)
+                    : thin_plate_energy(grid_, shared_.stencils, shared_.workers, x);
   }
 
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 3; }
   void apply(const double* x, double* y) override {
+    if (surface_)
+      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, shared_.weights, shared_.workers,
+                     shared_.double_slots, x, y);
+  }
+  // K x without weights, where these control vertices count as unknowns.
+  void apply_with(const Unknowns& unknowns, const double* x, double* y) {
+    if (surface_) return surface_->apply(unknowns.vertex, {}, shared_.workers, x, y);
+    apply_thin_plate(grid_, shared_.double_rows, unknowns, {}, shared_.workers,
                      shared_.double_slots, x, y);
   }
   void apply(const float* x, float* y) override {
@@ -67,6 +93,8 @@ class ThinPlateLevel final : public LevelOperator {
           x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
             std::copy_n(product, 3 * count, y + 3 * first);
           });
+    if (surface_)
+      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, shared_.weights, shared_.workers,
                      shared_.float_slots, x, y);
   }
@@ -92,12 +120,14 @@ class ThinPlateLevel final : public LevelOperator {
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
     return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
-                               shared_.workers);
+                               shared_.workers, surface_.get());
   }
   SymmetricRows rows() const override {
     if (matrix_) return matrix_->rows();
-    const std::unique_ptr<PlateMatrix> matrix = PlateMatrix::make(
-        grid_, shared_.stencils, shared_.unknowns, shared_.workers, /*passing=*/true);
+    const std::unique_ptr<PlateMatrix> matrix =
+        surface_ ? PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers, true)
+                 : PlateMatrix::make(grid_, shared_.stencils, shared_.unknowns, shared_.workers,
+                                     /*passing=*/true);
     if (!matrix) return {};
     matrix->set_weights(shared_.weights);
     return matrix->rows();
@@ -106,7 +136,8 @@ class ThinPlateLevel final : public LevelOperator {
  private:
   ThinPlateShared& shared_;
   const GridLevel& grid_;
-  std::unique_ptr<PlateMatrix> matrix_;  // null: the passes serve
+  std::unique_ptr<SurfaceDifferences> surface_;  // null: the control metric
+  std::unique_ptr<PlateMatrix> matrix_;          // null: the passes serve
   Array<float> inverse_diagonal_;
 };
 

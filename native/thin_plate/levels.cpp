@@ -100,8 +100,14 @@ void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const d
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
 }
 
+void ThinPlateLevels::measure(int level, const double* x, double exponent) {
+  operators_[index(level)]->measure(x, exponent);
+  hierarchy_.refresh(index(level), true);
+}
+
 double ThinPlateLevels::bending(int level, const double* x) {
-  return thin_plate_energy(grid(level), shared_.stencils, workers(), x);
+  return level < base_ ? thin_plate_energy(grid(level), shared_.stencils, workers(), x)
+                       : operators_[index(level)]->bending(x);
 }
 
 double ThinPlateLevels::energy(int level, const double* x) {

@@ -39,6 +39,10 @@ class ThinPlateLevels {
   const AssembledTransfer* transfer_matrix(int level) const {
     return level > base_ ? transfer_matrices_[std::size_t(level - base_ - 1)].get() : nullptr;
   }
+  // r <- K x without weights, where these control vertices count as unknowns.
+  void apply_with(int level, const Unknowns& unknowns, const double* x, double* r) {
+    operators_[index(level)]->apply_with(unknowns, x, r);
+  }
   LevelOperator& op(int level) { return *operators_[index(level)]; }
   ThinPlateShared& shared() { return shared_; }
   const ThinPlateShared& shared() const { return shared_; }
@@ -58,6 +62,11 @@ class ThinPlateLevels {
                    const std::function<void(const PcgResult&)>& each) {
     return hierarchy_.solve(index(level), limits, system, each);
   }
+
+  // From here on the level is in the metric of the surface x. Once a level: later surfaces are in the
+  // same, so that they are linear in what they are to come up to.
+  bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
+  void measure(int level, const double* x, double exponent);
 
   // The plate's own energy, and with tension's: what is minimized.
   double bending(int level, const double* x);

@@ -121,6 +121,20 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Sten
   return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
 }
 
+std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid,
+                                               const SurfaceDifferences& surface,
+                                               const Unknowns& unknowns, Workers& workers,
+                                               bool passing) {
+  if (!has_rows(passing ? 2 : grid.n(), grid.size()) ||
+      !worth_products(surface.products(), grid.size()))
+    return nullptr;
+  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
+  const auto writer = [&] {
+    return [&surface](Index p, RowBuilder& row) { surface.write_row(p, row); };
+  };
+  return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
+}
+
 void PlateMatrix::set_weights(const VertexWeights& weights) {
   weight_.clear();
   for (std::size_t v = 0; v < weights.size(); ++v)

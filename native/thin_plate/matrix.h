@@ -10,15 +10,17 @@
 #include "sparse/matrix.h"
 #include "sparse/ring_table.h"
 #include "thin_plate/operator.h"
+#include "thin_plate/surface_differences.h"
 
 namespace fairing {
 
-// K with the control vertices' weights in double: for the direct solve on the coarsest level, for
+// K with the control vertices' weights in double, with the differences of a surface if they are
+// given: for the direct solve on the coarsest level, for
 // the paper's Gauss-Seidel, and to check and to race the passes. Throws where the run has been
 // cancelled.
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers);
+                                    Workers& workers, const SurfaceDifferences* surface = nullptr);
 
 // K in single precision, for levels whose faces have few points: there passes over faces and edges
 // cost more than an index a number. For the smoother, which wants many cheap applications.
@@ -28,6 +30,11 @@ class PlateMatrix {
   // use where the passes are better: with many points a face. Throws where the run has been
   // cancelled.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
+                                           const Unknowns& unknowns, Workers& workers,
+                                           bool passing = false);
+
+  // The same with the differences of a surface.
+  static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const SurfaceDifferences& surface,
                                            const Unknowns& unknowns, Workers& workers,
                                            bool passing = false);
 

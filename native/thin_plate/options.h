@@ -19,7 +19,10 @@ struct ThinPlateOptions {
   int smoother_degree = 0;           // 0: chosen from how the coarse levels converge
   double pad_size = 0;               // of the pads under control vertices (pads.h); 0: point forces
   std::vector<FixedNormal> normals;  // held on all levels but the coarsest
-  bool starts_steps = false;         // Gauss-Newton steps follow, which take most of the run
+  // The exponent of the metric in which levels are solved that have a surface of the level below: that
+  // of their start, in place of the control metric. 0: in the control metric as well.
+  double surface_exponent = 0;
+  bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
 };
 
 // The level on which hats first have points enough: on finer ones loads hardly change, and how they

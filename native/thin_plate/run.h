@@ -25,6 +25,8 @@ struct ThinPlateSolver::Run {
 
   // What x holds is of the level below: it is kept, and x gets room.
   void keep_below(int level);
+  // The level's metric, if it is to have that of a surface: of its start. Uses x.
+  void take_metric(int level);
   // State and x <- the start of a level. `foretells`: whether forces say how loads change.
   void start(int level, bool foretells);
 

@@ -129,9 +129,7 @@ struct ThinPlateSolver::Rounds {
     if (!pads && !places()) {
       levels().residual(level, targets, x, r);
     } else {
-      apply_thin_plate(levels().grid(level), shared().double_rows,
-                       pads ? pads->rows() : shared().unknowns, {}, levels().workers(),
-                       levels().shared().double_slots, x, r);
+      levels().apply_with(level, pads ? pads->rows() : shared().unknowns, x, r);
       for_each_index(levels().workers(), run.size(level), [&](std::size_t i) { r[i] = -r[i]; });
       if (pads) pads->add_loads(run.state.loads, r);
       if (places()) take_pulls(r);

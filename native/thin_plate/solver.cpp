@@ -43,6 +43,13 @@ void ThinPlateSolver::Run::keep_below(int level) {
   r.resize(size(top()));
 }
 
+void ThinPlateSolver::Run::take_metric(int level) {
+  const double exponent = solver.options_.surface_exponent;
+  if (!(exponent > 0) || level == base() || levels().is_measured(level)) return;
+  levels().start(level, data, below, x);
+  levels().measure(level, x.data(), exponent);
+}
+
 void ThinPlateSolver::Run::start(int level, bool foretells) {
   solver.supports_.start(level, foretells, state, forces_below);
   levels().start(level, data, below, x);
@@ -114,6 +121,7 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
     monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, run.top() - l));
     levels_.carry_weights(l);
     run.keep_below(l);
+    run.take_metric(l);
     PcgLimits limits = run.limits(l, tolerance(l), energy_below, x.data());
     const Loads loads = state.loads, forces_below = run.forces_below;
     run.start(l, !constraint);

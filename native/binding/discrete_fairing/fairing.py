@@ -93,11 +93,11 @@ def fair(
     interpolation : "exact", "approximate" or "limit"
         Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
         against `weights`. Vertices on curves always stay. Limit: the surface passes exactly through
-        the vertices' limit positions, where Catmull-Clark subdivision would take them, and charts
-        are made of these: for cages drawn to look right under subdivision. The first n rows of
-        `vertices` are then the limit positions. Creases, borders and corners have their own rules
-        [DeRose, Kass, Truong 1998]; vertices at corners and on straight borders, and those not
-        inside a region, stay.
+        the vertices' limit positions, where Catmull-Clark subdivision would take them, and
+        charts are made of the surface through these, level by level: for cages drawn to look right
+        under subdivision. The first n rows of `vertices` are then the limit positions. Creases,
+        borders and corners have their own rules [DeRose, Kass, Truong 1998]; vertices at corners
+        and on straight borders, and those not inside a region, stay.
     limit : float from 0 to 1
         Limit: how far the vertices go, from the cage, 0, to their limit positions, 1.
     edge_sharpness : (edges, sharpness), (k, 2) int and (k,) float or one number, subdivision steps

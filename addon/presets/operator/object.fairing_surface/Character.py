@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Characters, animals, soft things: through the points where Subdivision Surface passes, fairer in
-# between; sharp only where an edge is creased. A lower spacing than else keeps slivers from folding.
+# between; sharp only where an edge is creased. A lower spacing than else keeps walls straighter.
 import bpy
 
 op = bpy.context.active_operator
@@ -25,7 +25,7 @@ op.use_crease_angle = False
 op.crease_angle = 0.698132
 op.use_corner_angle = False
 op.corner_angle = 1.047198
-op.metric_exponent = 0.35
+op.metric_exponent = 0.45
 op.repair = "MEND"
 op.weld = 0.0
 op.use_shape_keys = True

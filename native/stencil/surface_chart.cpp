@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/surface_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stencil/angle.h"
+
+namespace fairing {
+namespace {
+
+// Shares of a ring's largest neighbour, to the metric's power, and of a full turn.
+constexpr double no_length = 1e-6, no_angle = 1e-3;
+
+double power(const Vec3& way, double exponent) {
+  const double square = way.squaredNorm();
+  return exponent == centripetal ? std::sqrt(std::sqrt(square)) : std::pow(square, 0.5 * exponent);
+}
+
+}  // namespace
+
+bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
+  const std::size_t size = ring.offset.size(), steps = ring.closed ? size : size - 1;
+  chart.ring.resize(size);
+  chart.area = 0;
+  chart.closed = ring.closed;
+  const auto at = [&](std::size_t k) { return (ring.first + k) % size; };
+  // radii and turns, for now in place of coordinates
+  double longest = 0, shortest = HUGE_VAL, total = 0;
+  for (std::size_t j = 0; j < size; ++j) {
+    const double radius = power(ring.offset[j], exponent);
+    longest = std::max(longest, radius);
+    shortest = std::min(shortest, radius);
+    chart.ring[j] = Vec2(radius, 0);
+  }
+  if (!(shortest > no_length * longest) || !std::isfinite(longest)) return false;
+  for (std::size_t k = 0; k < steps; ++k) {
+    const std::size_t i = at(k), j = at(k + 1);
+    const double a = chart.ring[i].x(), b = chart.ring[j].x(),
+                 c = power(ring.offset[j] - ring.offset[i], exponent);
+    const double cosine = std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0),
+                 sine = std::sqrt(1 - cosine * cosine);
+    chart.ring[i].y() = angle_of(sine, cosine, 1);
+    total += chart.ring[i].y();
+    chart.area += 0.5 * a * b * sine / (ring.far[i] || ring.far[j] ? 4 : 3);
+  }
+  if (!(total > no_angle * full_turn) || !(chart.area > 0)) return false;
+  // as ChartMaker::vertex()
+  const double scale = ring.closed || total > 0.95 * full_turn
+                           ? (ring.closed ? 1.0 : 0.95) * full_turn / total
+                           : 1.0;
+  double angle = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    Vec2& p = chart.ring[at(k)];
+    const double turn = k < steps ? p.y() : 0;
+    p = p.x() * Vec2(std::cos(scale * angle), std::sin(scale * angle));
+    angle += turn;
+  }
+  return true;
+}
+
+}  // namespace fairing

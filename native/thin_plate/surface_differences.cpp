@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "thin_plate/surface_differences.h"
+
+#include <cmath>
+
+#include "grid/ring_shape.h"
+#include "parallel/reductions.h"
+#include "stencil/surface_chart.h"
+
+namespace fairing {
+namespace {
+
+// Points that are worth a thread.
+constexpr std::size_t point_grain = 1024;
+
+Unknowns everything(const ControlMesh& mesh) {
+  return {std::vector<std::uint8_t>(std::size_t(mesh.vertex_count()), 1),
+          std::vector<std::uint8_t>(mesh.edges.size(), 1), true};
+}
+
+template <class Body>
+void for_each_point(Workers& workers, std::size_t points, Body&& body) {
+  workers.for_parts(points, point_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) body(p);
+  });
+}
+
+}  // namespace
+
+SurfaceDifferences::SurfaceDifferences(const GridLevel& grid, const Stencils& stencils,
+                                       double exponent, const Unknowns& unknowns, Workers& workers,
+                                       const double* x)
+    : grid_(grid),
+      stencils_(stencils),
+      unknown_(unknown_points(grid, unknowns)),
+      rings_(grid, everything(grid.mesh()), workers),
+      places_(rings_) {
+  const RingTable::Ring& last = rings_.about(Index(rings_.points() - 1));
+  row_.resize(3 * (last.member + last.size));
+  write_rows(exponent, workers, x);
+}
+
+void SurfaceDifferences::write_rows(double exponent, Workers& workers, const double* x) {
+  struct Local {
+    RunGather<double, 3> gather;
+    RingShape shape{};
+    std::vector<Vec3> offset{};
+    Chart chart{};
+  };
+  const double n = double(grid_.n());
+  const Array<double> weight = point_weights(grid_);
+  for_each_run(
+      grid_, workers, [&] { return Local{{grid_, x}}; },
+      [&](const Run& run, Local& local) {
+        const EnergyRows usual(grid_.mesh(), stencils_, element_of(grid_.mesh(), run));
+        const std::size_t ring = rings_.about(Index(run.first)).size - 1;
+        const double* const* at = local.gather(run);
+        local.shape.set(grid_, run);
+        local.offset.resize(ring);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          const std::size_t p = run.first + i;
+          float* const to = row_.data() + 3 * rings_.about(Index(p)).member;
+          std::fill(to, to + 3 * (ring + 1), 0.0f);
+          if (usual.size() == 0) continue;
+          for (std::size_t s = 0; s < ring; ++s)
+            for (int a = 0; a < 3; ++a)
+              local.offset[s][a] =
+                  n * (at[s + 1][3 * i + std::size_t(a)] - at[0][3 * i + std::size_t(a)]);
+          const SpaceRing in_space{local.offset, local.shape.far, std::size_t(local.shape.first),
+                                   local.shape.closed};
+          const double scale = n * std::sqrt(weight.empty() ? 1.0 : weight[p]);
+          const auto put = [&](auto&& row) {
+            for (std::size_t c = 0; c < 3; ++c) {
+              double own = 0;  // of the numbers as they are kept: constants have no differences
+              for (std::size_t s = 0; s < ring; ++s)
+                own -= double(to[3 * (s + 1) + c] = float(scale * row(c, s)));
+              to[c] = float(own);
+            }
+          };
+          if (!chart_in_space(in_space, exponent, local.chart)) {
+            put([&](std::size_t c, std::size_t s) { return usual[s][c]; });
+            continue;
+          }
+          const FitRows rows = fit(local.chart);
+          const double root = std::sqrt(local.chart.area);
+          put([&](std::size_t c, std::size_t s) {
+            return root * rows(Eigen::Index(c + 2), Eigen::Index(s));
+          });
+        }
+      });
+}
+
+template <>
+Array<double>& SurfaceDifferences::moments<double>() {
+  return moment_;
+}
+template <>
+Array<float>& SurfaceDifferences::moments<float>() {
+  return float_moment_;
+}
+
+template <class T>
+void SurfaceDifferences::take_moments(Workers& workers, const T* x) {
+  Array<T>& moment = moments<T>();
+  moment.resize(9 * rings_.points());
+  for_each_point(workers, rings_.points(), [&](std::size_t p) {
+    const RingTable::Ring& ring = rings_.about(Index(p));
+    const RingTable::Member* const members = rings_.members(ring);
+    const float* row = row_.data() + 3 * ring.member;
+    // differences from the point itself: what rows leave of it is rounding
+    const T* const own = x + 3 * p;
+    T sum[9] = {};
+    for (std::size_t s = 1; s < ring.size; ++s) {
+      const T* const other = x + 3 * std::size_t(members[s]);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const T d = other[a] - own[a];
+        for (std::size_t c = 0; c < 3; ++c) sum[3 * c + a] += T(row[3 * s + c]) * d;
+      }
+    }
+    std::copy_n(sum, 9, moment.data() + 9 * p);
+  });
+}
+
+template <class T>
+void SurfaceDifferences::apply(const std::vector<std::uint8_t>& vertices,
+                               const VertexWeights& weights, Workers& workers, const T* x, T* y) {
+  take_moments(workers, x);
+  const T* const moment = moments<T>().data();
+  for_each_point(workers, rings_.points(), [&](std::size_t p) {
+    T sum[3] = {};
+    if (p < vertices.size() ? vertices[p] : unknown_[p]) {
+      for (const RingPlaces::Place& place : places_.of(Index(p))) {
+        const float* const row = row_.data() + 3 * (rings_.about(place.centre).member + place.slot);
+        const T* const m = moment + 9 * std::size_t(place.centre);
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t a = 0; a < 3; ++a) sum[a] += T(row[c]) * m[3 * c + a];
+      }
+      const RingTable::Member* const members = rings_.members(rings_.about(Index(p)));
+      const MembraneWeights tension = membrane(Index(p));
+      for (std::size_t s = 0; s < tension.size(); ++s)
+        for (std::size_t a = 0; a < 3; ++a)
+          sum[a] += T(tension[s]) * (x[3 * p + a] - x[3 * std::size_t(members[s + 1]) + a]);
+      if (p < weights.size())
+        for (std::size_t a = 0; a < 3; ++a) sum[a] += T(weights[p]) * x[3 * p + a];
+    }
+    std::copy_n(sum, 3, y + 3 * p);
+  });
+}
+template void SurfaceDifferences::apply<float>(const std::vector<std::uint8_t>&,
+                                               const VertexWeights&, Workers&, const float*,
+                                               float*);
+template void SurfaceDifferences::apply<double>(const std::vector<std::uint8_t>&,
+                                                const VertexWeights&, Workers&, const double*,
+                                                double*);
+
+Array<float> SurfaceDifferences::diagonal(const VertexWeights& weights, Workers& workers) const {
+  Array<float> out(rings_.points());
+  for_each_point(workers, rings_.points(), [&](std::size_t p) {
+    double sum = p < weights.size() ? weights[p] : 0.0;
+    for (const RingPlaces::Place& place : places_.of(Index(p)))
+      for (const double number : column(place.centre, place.slot)) sum += number * number;
+    sum += membrane(Index(p)).total();
+    out[p] = is_unknown(Index(p)) && sum > 0 ? float(sum) : 1.0f;
+  });
+  return out;
+}
+
+double SurfaceDifferences::energy(Workers& workers, const double* x) {
+  take_moments(workers, x);
+  return sum(workers, moment_.size(), [&](std::size_t i) { return moment_[i] * moment_[i]; });
+}
+
+void SurfaceDifferences::write_row(Index p, RowBuilder& row) const {
+  if (!is_unknown(p)) return;
+  for (const RingPlaces::Place& place : places_.of(p)) {
+    const RingTable::Ring& ring = rings_.about(place.centre);
+    const RingTable::Member* const members = rings_.members(ring);
+    const Column own = column(place.centre, place.slot);
+    for (std::size_t s = 0; s < ring.size; ++s) {
+      if (!is_unknown(members[s])) continue;
+      const Column other = column(place.centre, s);
+      row.add(members[s], own[0] * other[0] + own[1] * other[1] + own[2] * other[2]);
+    }
+  }
+  const MembraneWeights tension = membrane(p);
+  if (tension.size() == 0) return;
+  const RingTable::Member* const members = rings_.members(rings_.about(p));
+  row.add(p, tension.total());
+  for (std::size_t s = 0; s < tension.size(); ++s)
+    if (is_unknown(members[s + 1])) row.add(members[s + 1], -tension[s]);
+}
+
+std::size_t SurfaceDifferences::products() const {
+  std::size_t sum = 0;
+  for (std::size_t p = 0; p < rings_.points(); ++p) {
+    const std::size_t size = rings_.about(Index(p)).size;
+    sum += size * size;
+  }
+  return sum;
+}
+
+}  // namespace fairing

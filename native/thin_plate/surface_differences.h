@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The divided differences of one level in the metric of a surface, a set of rows a point: what takes
+// the place of those by control vertex, edge and face (stencil/stencils.h). The metric of the control
+// faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
+// that the plate is nearly its total curvature (docs/explanation/method.md).
+#pragma once
+
+#include "sparse/matrix.h"
+#include "sparse/ring_table.h"
+#include "stencil/stencils.h"
+#include "stencil/weights.h"
+
+namespace fairing {
+
+class SurfaceDifferences {
+ public:
+  using Column = EnergyRows::Column;
+
+  // About the surface x, 3 numbers a point; `exponent` as in flatten(). Where x has no shape, the
+  // control metric's rows stay. The references must outlive it. Throws where the run has been
+  // cancelled.
+  SurfaceDifferences(const GridLevel& grid, const Stencils& stencils, double exponent,
+                     const Unknowns& unknowns, Workers& workers, const double* x);
+
+  // As PlateDifferences::column().
+  Column column(Index centre, std::size_t slot) const {
+    const float* row = row_.data() + 3 * (rings_.about(centre).member + slot);
+    return {row[0], row[1], row[2]};
+  }
+
+  // y <- (K + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which control
+  // vertices count as such, in place of the level's own.
+  template <class T>
+  void apply(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
+             Workers& workers, const T* x, T* y);
+
+  // The diagonal of K + W: 1 where the point is no unknown.
+  Array<float> diagonal(const VertexWeights& weights, Workers& workers) const;
+
+  // As thin_plate_energy().
+  double energy(Workers& workers, const double* x);
+
+  // Adds row p of K.
+  void write_row(Index p, RowBuilder& row) const;
+  // The products that all rows are summed from.
+  std::size_t products() const;
+
+  // Bytes a point, of triangles' grids or of quads': what is kept, and what a matrix takes more than in
+  // the control metric, where equal rows share their numbers.
+  static constexpr std::int64_t bytes(bool quads) {
+    constexpr std::int64_t place = 29, moments = 72, unshared = 80, member = 12 + 4 + 8;
+    return place + moments + unshared + member * (quads ? 9 : 7);
+  }
+
+ private:
+  void write_rows(double exponent, Workers& workers, const double* x);
+  template <class T>
+  Array<T>& moments();
+  // moments <- rows x, 9 numbers a point.
+  template <class T>
+  void take_moments(Workers& workers, const T* x);
+  MembraneWeights membrane(Index p) const {
+    return {grid_.mesh(), stencils_, rings_.about(p).element};
+  }
+
+  bool is_unknown(Index p) const { return unknown_[std::size_t(p)] != 0; }
+
+  const GridLevel& grid_;
+  const Stencils& stencils_;
+  const std::vector<std::uint8_t> unknown_;  // one a point
+  const RingTable rings_;                    // in which all points are
+  const RingPlaces places_;
+  Array<float> row_;  // 3 a member of a ring
+  Array<double> moment_;
+  Array<float> float_moment_;
+};
+
+}  // namespace fairing
