@@ -2,7 +2,6 @@
 #include "curvature/rough.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "grid/runs.h"
@@ -72,7 +71,7 @@ void RoughSteps::run_on_points(const StepStart& start, CurvatureLevelReport& rep
 // The surface on pads stands if it is hardly more bent than that on points, no more folded, and as
 // near to a solution; else all vertices stay on points.
 void RoughSteps::go_onto_pads(const StepStart& start, CurvatureLevelReport& report) {
-  leave_pads(least_facing);
+  leave_turned_pads();
   if (!it_.system.pads()->any()) return;
   LinearizedSurface on_points = it_.current;
   const CurvatureLevelReport of_points = report;
@@ -86,15 +85,20 @@ void RoughSteps::go_onto_pads(const StepStart& start, CurvatureLevelReport& repo
   if (report.energy <= most_over_points * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
-  leave_pads(std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < it_.system.pads()->places().size(); ++v) leave_pad(v);
   it_.current = std::move(on_points);
   report = of_points;
 }
 
-void RoughSteps::leave_pads(double least_facing) {
+void RoughSteps::leave_turned_pads() {
   const std::vector<double> facing = facing_of_stars(it_.grid(), it_.current.linearization.normal);
   for (std::size_t v = 0; v < facing.size(); ++v)
-    if (facing[v] < least_facing) it_.system.pads()->leave(v);
+    if (facing[v] < least_facing) leave_pad(v);
+}
+
+void RoughSteps::leave_pad(std::size_t v) {
+  it_.system.pads()->leave(v);
+  if (!it_.current.held.loads.empty()) it_.current.held.loads[v].setZero();
 }
 
 }  // namespace fairing

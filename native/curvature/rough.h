@@ -17,10 +17,13 @@ class RoughSteps {
   // `report` begins anew with it. Throws ErrorCode::cancelled.
   void run(const StepStart& start, CurvatureLevelReport& report);
 
+  // Takes away the pads within which the surface turns too far for them.
+  void leave_turned_pads();
+
  private:
   void run_on_points(const StepStart& start, CurvatureLevelReport& report);
   void go_onto_pads(const StepStart& start, CurvatureLevelReport& report);
-  void leave_pads(double least_facing);
+  void leave_pad(std::size_t v);
   // Plain steps to the end, where these make no folds.
   void polish(CurvatureLevelReport& report);
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "curvature/start.h"
@@ -73,23 +72,38 @@ void GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Arra
                                               CurvatureLevelReport& report) {
   if (is_plain_) steps_.run_plain(end(), long_patience, report);
   is_plain_ &= is_settled(report);
-  if (is_plain_ && is_finest()) report.folds_before = report.folds = unfolding_.find().count();
+  if (is_plain_ && is_finest()) leave_folds(report);
   if (!is_plain_ || report.folds > 0) {
-    LinearizedSurface plain = iterate_.current;
-    const CurvatureLevelReport of_plain = report;
-    const std::optional<Pads> pads =
-        system_.pads() ? std::optional<Pads>(*system_.pads()) : std::nullopt;
+    const Found plain = found(report);
     rough_.run(start, report);
-    is_plain_ &= report.folds >= of_plain.folds || report.converged < of_plain.converged;
-    if (is_plain_) {
-      iterate_.current = std::move(plain);
-      report = of_plain;
-      if (pads) *system_.pads() = *pads;
-    }
+    is_plain_ &= report.folds >= plain.report.folds || report.converged < plain.report.converged;
+    if (is_plain_) go_back_to(plain, report);
   }
   if (is_finest() && hold_.any()) fix_held(report);
   keep_start_if_worse(start, plate, report);
-  if (is_finest() && varies()) variation_.run(steps_.accurate_end(), report);
+  if (is_finest() && varies() && !report.kept_start) variation_.run(steps_.accurate_end(), report);
+}
+
+// Where the surface of plain steps folds, pads cannot hold it: without them it may not.
+void GaussNewtonSolver::leave_folds(CurvatureLevelReport& report) {
+  report.folds_before = report.folds = unfolding_.find().count();
+  if (report.folds == 0 || !system_.pads()) return;
+  const Found folded = found(report);
+  rough_.leave_turned_pads();
+  steps_.run_plain(end(), short_patience, report);
+  report.folds = unfolding_.find().count();
+  if (!is_settled(report) || report.folds >= folded.report.folds) go_back_to(folded, report);
+}
+
+GaussNewtonSolver::Found GaussNewtonSolver::found(const CurvatureLevelReport& report) {
+  return {iterate_.current, report,
+          system_.pads() ? std::optional<Pads>(*system_.pads()) : std::nullopt};
+}
+
+void GaussNewtonSolver::go_back_to(const Found& found, CurvatureLevelReport& report) {
+  iterate_.current = found.surface;
+  report = found.report;
+  if (found.pads) *system_.pads() = *found.pads;
 }
 
 StepEnd GaussNewtonSolver::end() {

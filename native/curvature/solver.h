@@ -4,6 +4,8 @@
 // with the parts: start.h, steps.h, unfold.h, variation.h.
 #pragma once
 
+#include <optional>
+
 #include "curvature/rough.h"
 #include "curvature/variation.h"
 
@@ -40,7 +42,18 @@ class GaussNewtonSolver {
   Array<double>& surface() { return iterate_.current.points; }
 
  private:
+  // A surface that the steps can go back to, and what its vertices stand on.
+  struct Found {
+    LinearizedSurface surface;
+    CurvatureLevelReport report;
+    std::optional<Pads> pads;
+  };
+  Found found(const CurvatureLevelReport& report);
+  void go_back_to(const Found& found, CurvatureLevelReport& report);
+
   StepEnd end();
+  // On the finest level: counts folds; where there are any, pads beside them go, if that helps.
+  void leave_folds(CurvatureLevelReport& report);
   // From here on held control vertices stay where they are. The surface follows by a few plain
   // steps, if these settle.
   void fix_held(CurvatureLevelReport& report);

@@ -14,13 +14,14 @@ CRUMPLED = {"levels": 2, "pad_size": 1.0, "energy": "TOTAL_CURVATURE"}
 
 
 def add_crumpled():
-    """A ball whose vertices are off it at random: steps to total curvature narrow pads there."""
+    """A ball half of whose vertices are off it at random: steps to total curvature leave out pads there."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     ball = bpy.context.object
     points = positions(ball.data)
     random = np.random.default_rng(4)
-    points = points * (1 + random.uniform(-1, 1, len(points))[:, None])
-    points += 0.5 * random.uniform(-1, 1, points.shape)
+    rough = (points[:, :1] > 0.0) * 1.0
+    points = points * (1 + rough * random.uniform(-1, 1, len(points))[:, None])
+    points += 0.5 * rough * random.uniform(-1, 1, points.shape)
     ball.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
     return ball
 
