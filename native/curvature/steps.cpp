@@ -146,8 +146,10 @@ class TotalCurvatureMethod final : public StepMethod {
     if (damping_) it_.system.renew(it_.level);
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
+    const double share = gain / it_.current.energy;
+    const bool is_of_use = share > -plain_decrement * plain_decrement;  // else it is no rounding
     step.decrement =
-        gain < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(gain / it_.current.energy);
+        is_of_use ? std::sqrt(std::max(share, 0.0)) : std::numeric_limits<double>::infinity();
     if (step.decrement < accelerated_decrement) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
