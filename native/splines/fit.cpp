@@ -124,6 +124,9 @@ class Fitting {
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, topology_, place, curves_);
+    const FaceSurface surface(lattice_, topology_, place.face);
+    data.surface = &surface;
+    data.corner = place.corner;
     data.tolerance = patch_share * tolerance();
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
     data.may_fold = turns_[std::size_t(place.face)] > hopeless;

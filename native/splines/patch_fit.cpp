@@ -29,6 +29,8 @@ constexpr double fold_misses = 1e6;  // of patches that fold, at least
 // Samples move to their feet and the patch is fitted again, as long as that helps.
 constexpr int least_rounds = 2, most_rounds = 8;
 constexpr double improving = 0.7;
+// Of a span, each way, in the middles of which a patch is measured.
+constexpr int parts_a_span = 4;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -153,6 +155,21 @@ double move_to_feet(const SplinePatch& patch, PatchData& data) {
   return far;
 }
 
+// At the middles of each span's parts: where no sample is near, a patch may swing.
+void measure_between(const PatchData& data, FittedPatch& out) {
+  const SplinePatch& patch = out.patch;
+  const int nu = parts_a_span * patch.spans_u, nv = parts_a_span * patch.spans_v;
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) {
+      const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
+      const SurfacePoint p = patch.at(u, v);
+      const Height height = data.surface->height(p.at, data.corner, u, v);
+      out.residual = std::max(out.residual, height.off);
+      if (!height.normal.isZero())
+        out.turned = std::max(out.turned, angle_between(p.normal(), height.normal));
+    }
+}
+
 FittedPatch measured(const PatchData& data, SplinePatch patch) {
   FittedPatch out;
   for (PatchSample sample : data.samples) {
@@ -170,6 +187,7 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
       out.turned = std::max(out.turned, angle);
     }
   out.patch = std::move(patch);
+  measure_between(data, out);
   return out;
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The refined surface between the lattice's points, which patches are measured against.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "splines/topology.h"
+
+namespace fairing {
+
+// Where a point near the surface is: how far off along the surface's normal, which is zero in the
+// tip of a kink.
+struct Height {
+  double off;
+  Vec3 normal;
+};
+
+// Over one control face. Within a cell the surface lies halfway from the flat cell to the planes
+// that touch it at the cell's corners: exact where it is quadratic.
+class FaceSurface {
+ public:
+  FaceSurface(const Lattice& lattice, const Topology& topology, Index f);
+
+  // Of a patch's point at (u, v), near which its foot is. The patch is all of the face, or its third
+  // at a corner (PatchPlace). Beyond the face's sides the surface is continued.
+  Height height(const Vec3& point, int corner, double u, double v) const;
+
+ private:
+  // Its corners, as many as the face has, and what each counts at the foot.
+  struct Foot {
+    std::array<std::size_t, 4> corner{};
+    std::array<double, 4> share{};
+    double i, j;
+  };
+
+  std::size_t index(int i, int j) const {
+    return closed_row(quad_, std::size_t(n_), std::size_t(j)) + std::size_t(i);
+  }
+  Foot foot_in_quad(const Vec3& point, double i, double j) const;
+  Foot foot_in_triangle(const Vec3& point, double i, double j) const;
+  bool slope(GridPoint p, int di, int dj, Vec3& out) const;
+  Vec3 normal_at(GridPoint p) const;
+
+  int n_;
+  bool quad_;
+  std::vector<Vec3> at_, normal_;  // closed; no normals in tips
+};
+
+}  // namespace fairing
