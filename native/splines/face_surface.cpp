@@ -102,7 +102,7 @@ FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, dou
   return out;
 }
 
-Height FaceSurface::height(const Vec3& point, int corner, double u, double v) const {
+double FaceSurface::height(const Vec3& point, int corner, double u, double v) const {
   double i = n_ * u, j = n_ * v;
   if (corner >= 0) {  // the bilinear map of a third, from its corner
     const double k = n_ * u * (3 - v) / 6, r = n_ * v * (3 - u) / 6, rest = n_ - k - r;
@@ -117,23 +117,21 @@ Height FaceSurface::height(const Vec3& point, int corner, double u, double v) co
     j = std::clamp(foot.j, 0.0, double(n_));
     if (moved < 1) break;
   }
-  Height out{0, Vec3::Zero()};
-  Vec3 flat = Vec3::Zero();
+  Vec3 flat = Vec3::Zero(), normal = Vec3::Zero();
   double above = 0;
   bool tip = false;
   for (std::size_t k = 0; k < 4; ++k) {
     if (foot.share[k] == 0) continue;
     const Vec3 arm = foot.share[k] * (point - at_[foot.corner[k]]);
-    const Vec3& normal = normal_[foot.corner[k]];
+    const Vec3& own = normal_[foot.corner[k]];
     flat += arm;
-    above += arm.dot(normal);
-    out.normal += foot.share[k] * normal;
-    tip = tip || normal.isZero();
+    above += arm.dot(own);
+    normal += foot.share[k] * own;
+    tip = tip || own.isZero();
   }
-  if (tip) return {flat.norm(), Vec3::Zero()};
-  out.normal.normalize();
-  out.off = std::abs(flat.dot(out.normal) + above) / 2;
-  return out;
+  if (tip) return flat.norm();
+  const double off = flat.dot(normal.normalized());
+  return std::min(std::abs(off), std::abs(off + above) / 2);
 }
 
 }  // namespace fairing

@@ -9,22 +9,16 @@
 
 namespace fairing {
 
-// Where a point near the surface is: how far off along the surface's normal, which is zero in the
-// tip of a kink.
-struct Height {
-  double off;
-  Vec3 normal;
-};
-
 // Over one control face. Within a cell the surface lies halfway from the flat cell to the planes
-// that touch it at the cell's corners: exact where it is quadratic.
+// that touch it at the cell's corners: exact where it is quadratic. Beside a kink or a pole of
+// curvature the flat cell is as good an answer, so the nearer of the two counts.
 class FaceSurface {
  public:
   FaceSurface(const Lattice& lattice, const Topology& topology, Index f);
 
-  // Of a patch's point at (u, v), near which its foot is. The patch is all of the face, or its third
-  // at a corner (PatchPlace). Beyond the face's sides the surface is continued.
-  Height height(const Vec3& point, int corner, double u, double v) const;
+  // How far a patch's point at (u, v) is off, along the normal. The patch is all of the face, or its
+  // third at a corner (PatchPlace). Beyond the face's sides the surface is continued.
+  double height(const Vec3& point, int corner, double u, double v) const;
 
  private:
   // Its corners, as many as the face has, and what each counts at the foot.
