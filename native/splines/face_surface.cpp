@@ -131,7 +131,7 @@ double FaceSurface::height(const Vec3& point, int corner, double u, double v) co
   }
   if (tip) return flat.norm();
   const double off = flat.dot(normal.normalized());
-  return std::min(std::abs(off), std::abs(off + above) / 2);
+  return off * above <= 0 ? 0 : std::min(std::abs(off), std::abs(above));
 }
 
 }  // namespace fairing

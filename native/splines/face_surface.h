@@ -9,9 +9,8 @@
 
 namespace fairing {
 
-// Over one control face. Within a cell the surface lies halfway from the flat cell to the planes
-// that touch it at the cell's corners: exact where it is quadratic. Beside a kink or a pole of
-// curvature the flat cell is as good an answer, so the nearer of the two counts.
+// Over one control face. What bends one way in a cell lies between the flat cell and the planes that
+// touch it at the cell's corners; what lies there is not off.
 class FaceSurface {
  public:
   FaceSurface(const Lattice& lattice, const Topology& topology, Index f);

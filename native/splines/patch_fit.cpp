@@ -54,8 +54,7 @@ SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
   return out;
 }
 
-std::array<NetTerm, 16> terms_at(const SplinePatch& patch, double u, double v) {
-  const CubicBasis bu = cubic_basis(patch.spans_u, u), bv = cubic_basis(patch.spans_v, v);
+std::array<NetTerm, 16> terms_of(const CubicBasis& bu, const CubicBasis& bv) {
   std::array<NetTerm, 16> out;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
@@ -101,13 +100,14 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   for (const PatchSample& sample : data.samples) {
     if (!sample.fitted) continue;
     Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
-    const std::array<NetTerm, 16> terms = terms_at(patch, sample.u, sample.v);
+    const CubicBasis bu = cubic_basis(patch.spans_u, sample.u),
+                     bv = cubic_basis(patch.spans_v, sample.v);
     if (way) {
-      const Vec3 n = patch.at(sample.u, sample.v).normal();
+      const Vec3 n = patch.at(bu, bv).normal();
       weight = squared(way->slide) * weight + (1 - squared(way->slide)) * n * n.transpose();
-      system.balance(terms, sample.area * n, sample.at);
+      system.balance(terms_of(bu, bv), sample.area * n, sample.at);
     }
-    system.add(terms, weight, sample.at);
+    system.add(bu, bv, weight, sample.at);
   }
   system.add_third_differences(rough);
   if (way && way->shear > 0) add_shear(way->shear, patch, system);
