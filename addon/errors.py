@@ -28,7 +28,7 @@ REMEDIES = {
     "OUT_OF_MEMORY": "Use fewer levels, or close other programs",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NO_THREAD": "Close other programs",
-    "UNRESOLVED": "Crease the edges where it turns, move or add vertices there, or raise Tension",
+    "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or raise Tension",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
     "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",

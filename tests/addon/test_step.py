@@ -130,7 +130,7 @@ def test_a_surface_that_folds_is_refused_and_its_faces_are_listed(tmp_path, capf
         export(path)
     assert path.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
     told = capfd.readouterr().out
-    assert "Leaf: Crease the edges where it turns, " in told  # what to do comes first
+    assert "Leaf: Move or add vertices there, crease the edges" in told  # what to do comes first
     assert "2 faces have a surface that folds" in told and "Faces 0 and 1." in told
     activate(folded)
     assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}

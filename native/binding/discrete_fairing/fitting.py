@@ -265,7 +265,7 @@ class _Run:
             raise fairing_error(
                 "UNRESOLVED",
                 f"{len(faces)} {noun} ({listed}) {verb} a surface that folds or turns too sharply "
-                "for patches. Crease the edges there, move or add control vertices, or give insist=True.",
+                "for patches. Move or add control vertices, crease the edges there, or give insist=True.",
                 faces,
                 "face",
             )
