@@ -165,7 +165,7 @@ def planted_in_hull(stations: int, lines: int, scatter: float, half: bool) -> di
     truth, faces = mesh = hull(stations, lines)
     options: dict[str, Any] = {"threads": 1} | ({"symmetry_plane": "y"} if half else {})
     ids, along = inside(mesh), normals(mesh)
-    clean = np.abs(df.strain(truth, faces, **options).lengths[ids])
+    clean = np.abs(df.strain(truth, faces, **options).excess[ids])
     found = []
     for seed in range(SEEDS):
         random = np.random.default_rng(seed)
