@@ -139,6 +139,7 @@ struct ThinPlateSolver::Rounds {
           forces, r);
     }
     if (couples) couples->add(run.state.moments, r);
+    for (std::size_t i = 0; i < run.forces.size(); ++i) r[i] += run.forces[i];
   }
 
   // Placed vertices do not give way: what their rows ask for is the force that holds them there.
