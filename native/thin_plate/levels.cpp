@@ -112,6 +112,7 @@ void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const d
   for (std::size_t v = 0; v < w.size(); ++v)
     if (shared_.unknowns.vertex[v])
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
+  add_pull(level, r);
 }
 
 void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span<Vec3> sums) {
@@ -136,6 +137,16 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
 void ThinPlateLevels::measure(int level, const double* x, double exponent) {
   operators_[index(level)]->measure(x, exponent);
   hierarchy_.refresh(index(level), true);
+}
+
+void ThinPlateLevels::set_goal(int level, const PlateData& data) {
+  if (!is_measured(level)) return;
+  Array<double> below;
+  for (int l = base_; l <= level; ++l) {
+    if (l > base_) std::swap(below, goal_);
+    goal_.resize(3 * grid(l).size());
+    start(l, data, below, goal_);
+  }
 }
 
 double ThinPlateLevels::bending(int level, const double* x) {

@@ -55,7 +55,7 @@ class ThinPlateLevels {
   // The present weights on the levels up to this one.
   void carry_weights(int level);
 
-  // r <- W c - (K + W) x on the level's unknowns, with c the targets.
+  // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.
   void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
   // Solves from x, of which system.r is the residual, to the limits given (Hierarchy::solve).
   LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
@@ -72,8 +72,15 @@ class ThinPlateLevels {
   // same, so that they are linear in what they are to come up to.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
   void measure(int level, const double* x, double exponent);
+  // Where a level that is so measured is drawn to (thin_plate/surface_differences.h): the control
+  // polyhedron, prolongated and never solved. Call before the level's residuals with other data.
+  void set_goal(int level, const PlateData& data);
+  // r += P goal, where the level is so measured.
+  void add_pull(int level, double* r) const {
+    if (is_measured(level)) operators_[index(level)]->add_pull(goal_.data(), r);
+  }
 
-  // The plate's own energy, and with tension's: what is minimized.
+  // The plate's own energy, and with tension's: what is minimized, but for the pull.
   double bending(int level, const double* x);
   double energy(int level, const double* x);
 
@@ -103,6 +110,7 @@ class ThinPlateLevels {
   Unknowns carried_;  // by transfers to control vertices: these too
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
   int weighted_up_to_;  // the finest level that knows the present weights
+  Array<double> goal_;
   Hierarchy hierarchy_;
 };
 

@@ -121,13 +121,14 @@ struct ThinPlateSolver::Rounds {
   bool places() const { return !pulls.empty(); }
   double wanted_gap() const { return top() ? gap_wanted : coarse_plate_gap; }
 
-  // r <- Omega phi f - K x on the unknowns; the forces left at the control vertices apart.
+  // r <- Omega phi f + P goal - (K + P) x on the unknowns; the forces left at the control vertices apart.
   void residual(const double* x, double* r) {
     if (!pads && !places()) {
       levels().residual(level, targets(), x, r);
     } else {
       levels().apply_with(level, pads ? pads->rows() : shared().unknowns, x, r);
       for_each_index(levels().workers(), run.size(level), [&](std::size_t i) { r[i] = -r[i]; });
+      levels().add_pull(level, r);
       if (pads) pads->add_loads(run.state.loads, r);
       if (places()) take_pulls(r);
       take_point_forces<3>(
