@@ -63,6 +63,11 @@ class ThinPlateLevels {
     return hierarchy_.solve(index(level), limits, system, each);
   }
 
+  // sums <- H^T r of a level for every control vertex off all curves and inside the region, with H
+  // the prolongation of control vertices through all levels. Zero elsewhere, and always where
+  // `options` had no pads. Between solves only.
+  void restrict_to_vertices(int level, const double* r, std::span<Vec3> sums);
+
   // From here on the level is in the metric of the surface x. Once a level: later surfaces are in the
   // same, so that they are linear in what they are to come up to.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
@@ -102,6 +107,8 @@ class ThinPlateLevels {
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;             // from base_ on
   std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from base_ + 1 on
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
+  Unknowns carried_;  // by transfers to control vertices: these too
+  std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
   int weighted_up_to_;  // the finest level that knows the present weights
   Array<double> goal_;
   Hierarchy hierarchy_;

@@ -218,10 +218,12 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
 }
 
 LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance, PlateState& state,
-                                         Array<double>& x, double rough_force) {
+                                         Array<double>& x, double rough_force,
+                                         std::span<const double> forces) {
   const int top = levels_.top();
   Run run{*this, data, state, x};
   run.rough_force = rough_force;
+  run.forces = forces;
   run.r.resize(x.size());
   levels_.set_goal(top, data);
   PcgLimits limits;
