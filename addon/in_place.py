@@ -6,6 +6,7 @@ Only what is near takes part: the selection and the faces around it.
 
 from collections.abc import Hashable
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 from types import SimpleNamespace
 from typing import Any, cast
@@ -26,6 +27,7 @@ from .preferences import preferences
 from .settings import Settings, snapshot
 from .transfer.carrier import Carrier
 from .transfer.cut_out import CutOut, cut_out, grown, inside
+from .units import length_text
 
 # levels that stand in for the surface of which only the control vertices are wanted
 _UNSEEN_LEVELS = 2
@@ -75,6 +77,7 @@ class InPlaceJob:
         that `wish` does not say.
         """
         self.name, self._source, self._wish = source.name, Reference(source), wish
+        self._length = partial(length_text, context.scene)
         self.result: Any = None
         self._arrays, chosen = self._read(context, source)
         self._shape = world_shape(source)
@@ -148,7 +151,7 @@ class InPlaceJob:
         begun = perf_counter()
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
-        with errors.explained(self.name, may_mend=False):
+        with errors.explained(self.name, errors.WITHOUT_MENDING):
             if self._wish.measured:
                 result, noise = self._smoothed(watchers)
                 moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
@@ -166,8 +169,8 @@ class InPlaceJob:
         splits = _split_faces(carrier, part) if levels else {}
         if any(not common for index, common in splits.items() if self._chosen[index]):
             raise JobError(
-                f"{self.name}: a face of many corners is too bent to be refined in place. "
-                "Triangulate it (Ctrl T)."
+                f"{self.name}: Triangulate faces of many corners (Ctrl T). "
+                "One is too bent to be refined in place."
             )
         chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
@@ -204,7 +207,7 @@ class InPlaceJob:
         """What the user may want to know of a finished job, a sentence each."""
         if not self._wish.measured:
             return []
-        return [f"{self.name}: noise of {self.result.noise:.3g} (rms, scene units) taken off."]
+        return [f"{self.name}: noise of {self._length(self.result.noise)} (rms) taken off."]
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
@@ -212,9 +215,9 @@ class InPlaceJob:
         """
         source = self._source.find()
         if source is None:
-            return f"{self.name} was deleted or undone during the run: nothing has changed."
+            return f"Fair once more: {self.name} was deleted or undone during the run, and nothing has changed."
         if source.mode != "EDIT":
-            return f"{self.name} left Edit Mode during the run: nothing has changed."
+            return f"Fair once more: {self.name} left Edit Mode during the run, and nothing has changed."
         with control_mesh(context, source) as mesh:
             now = read_mesh(mesh)
         if (
@@ -224,7 +227,7 @@ class InPlaceJob:
         ):
             return ""
         return (
-            f"{self.name} was edited during the run: nothing more has changed. Fair it once more."
+            f"Fair once more: {self.name} was edited during the run, and nothing more has changed."
         )
 
     def apply(self) -> None:
@@ -249,12 +252,12 @@ def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
 def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: Wish) -> None:
     if not wish.levels and not free.any():
         raise JobError(
-            f"{name}: no vertex lies inside of the selection, so none can move. "
-            "Select more faces, or raise Levels."
+            f"{name}: Select more faces, or raise Levels. "
+            "No vertex lies inside of the selection, so none can move."
         )
     if wish.moves and not wish.measured and floats(arrays, free):
         raise JobError(
-            f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
+            f"{name}: Leave out some faces of each part. One is selected whole, so nothing holds it."
         )
 
 

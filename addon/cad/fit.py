@@ -44,7 +44,7 @@ class PatchJob(Job):
         self._way_back = self.shape.way_back
         self.placement = np.array(world_matrix(shown), float) @ self._way_back
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
-            raise JobError(f"{self.name}: its scale is 0 along an axis. Give it a thickness.")
+            raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, wanted)

@@ -102,7 +102,7 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
         if poll_reason(context):
             return poll_reason(context)
         if context.mode != "EDIT_MESH":
-            return "Fairing in place works on the selected faces in Edit Mode: press Tab first"
+            return "Press Tab first, and select faces: those of the mesh in Edit Mode are faired"
         return ""
 
     def draw(self, _context: Context) -> None:
@@ -138,7 +138,7 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
         settings = context.scene.discrete_fairing
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
         if not objects:
-            raise JobError("No face is selected. Select the faces to fair.")
+            raise JobError("Select the faces to fair: no face is selected.")
         return [in_place.InPlaceJob(context, target, settings, wish) for target in objects]
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:

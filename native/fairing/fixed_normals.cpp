@@ -56,7 +56,7 @@ void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& norma
     throw FairingError(ErrorCode::bad_option,
                        listing(vertex_s, far, {"is", "are"}) +
                            " to have a normal more than 80 degrees away from that of the faces "
-                           "around. Turn it, or the faces; or free it.",
+                           "around. Turn these normals or these faces, or free the normals.",
                        far, ElementKind::vertex);
 }
 

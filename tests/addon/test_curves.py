@@ -104,7 +104,7 @@ def test_a_refusal_leaves_nothing_behind():
     made = scene(lambda: networks.bonnet()[:4])
     before = set(bpy.data.objects), set(bpy.data.meshes)
     answer, text = said()
-    assert answer == {"CANCELLED"} and "no two of them come nearer" in text
+    assert answer == {"CANCELLED"} and "No two of them come nearer" in text
     assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and len(made) == 4
 
 
@@ -117,7 +117,7 @@ def test_what_is_left_out_is_remembered_in_words():
     scene(lambda: [*networks.three_by_four(), networks.along("Loose", 0.4, -1.0, 0.1)])
     cage = surface(levels=1).discrete_fairing.source
     [remark] = curve_cage.remarks_of(cage)
-    assert "'Loose' ends loose at (0.1, 0.4" in remark
+    assert "'Loose' ends loose at (10 cm, 40 cm, " in remark
 
 
 def test_recompute_follows_the_curves():

@@ -125,7 +125,7 @@ def test_what_the_core_is_asked_for(core):
     assert core["tolerance"] is None and core["most"] == 2
     assert np.flatnonzero(~core["fixed"]).tolist() == [WRONG]
     source.data.vertices.foreach_set("select", np.zeros(63, bool))
-    with pytest.raises(RuntimeError, match="no vertex is selected"):
+    with pytest.raises(RuntimeError, match="No vertex is selected"):
         bpy.ops.object.fairing_ease(use_selection=True)
 
 

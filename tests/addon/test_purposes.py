@@ -7,7 +7,7 @@ import pytest
 from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, positions
 
-from addon.purposes import PURPOSES, preset_file
+from addon.purposes import PURPOSES, job_of, name_of_purpose, preset_file
 from addon.ui.main import VIEW3D_PT_fairing
 
 SURFACES = [purpose for purpose, *_ in PURPOSES if preset_file(purpose)]
@@ -124,6 +124,32 @@ def test_a_refusal_is_a_sentence_and_leaves_the_mode():
     add("Triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
     with pytest.raises(RuntimeError) as refused:
         bpy.ops.object.fairing_for(purpose="SCAN_PATCH")
-    assert str(refused.value).startswith("Error: Triangle: no vertex lies inside")
+    assert str(refused.value).startswith("Error: Triangle: Select more faces")
     assert "Traceback" not in str(refused.value)
     assert bpy.context.mode == "OBJECT"
+
+
+@pytest.mark.parametrize("purpose", SURFACES)
+def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose):
+    add("Box", *CUBE)
+    bpy.ops.object.fairing_for(purpose=purpose)
+    made = bpy.context.active_object.discrete_fairing
+    assert job_of(made) == purpose
+    made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
+    assert job_of(made) == purpose, "what the panel offers leaves it the job"
+    shown = draw(VIEW3D_PT_fairing)
+    slider = {"CHARACTER": "limit", "POINTS": None}.get(purpose, "tolerance")
+    above = shown[: shown.index("object.fairing_recompute")]
+    assert name_of_purpose(purpose) in above and "levels" in above
+    assert [name for name in ("tolerance", "limit") if name in above] == [slider] * bool(slider)
+    assert not {"Fairness", "Vertices"} & set(above)
+    assert {"Fairness", "Vertices"} <= set(shown[shown.index("More") :])
+
+
+def test_settings_of_ones_own_are_no_job():
+    settings = bpy.context.scene.discrete_fairing
+    assert job_of(settings) == ""
+    bpy.ops.object.fairing_preset_apply(filepath=str(preset_file("HULL")))
+    assert job_of(settings) == "HULL"
+    settings.energy = "THIN_PLATE"
+    assert job_of(settings) == ""

@@ -198,6 +198,57 @@ def xdotool(*words):
     subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
 
 
+def sidebar():
+    """The region of the sidebar."""
+    return next(region for region in view()["area"].regions if region.type == "UI")
+
+
+def button_at(region, x, y):
+    """The call in Python of the button under the mouse, once that is at a place on the screen; a
+    generator. Blender says of a button what it would copy.
+    """
+    manager = bpy.context.window_manager
+    xdotool("mousemove", x, y)
+    yield 0.15
+    manager.clipboard = ""
+    with bpy.context.temp_override(**{**view(), "region": region}):
+        if bpy.ops.ui.copy_python_command_button.poll():
+            with contextlib.suppress(RuntimeError):
+                bpy.ops.ui.copy_python_command_button()
+    return manager.clipboard
+
+
+def find_button(region, call):
+    """Where on the screen the button is whose call begins with `call`, as "bpy.ops.object.fairing_for(
+    purpose='HULL'"; a generator. It looks down three columns, as the narrowest buttons stand three
+    in a row.
+    """
+    top = view()["window"].height - (region.y + region.height)
+    for y in range(top + 8, top + region.height, 9):
+        for share in (1 / 6, 1 / 2, 0.8):
+            x = int(region.x + share * region.width)
+            found = yield from button_at(region, x, y)
+            if found.startswith(call):
+                return x, y
+    raise AssertionError(f"there is no button {call}")
+
+
+class Clicks:
+    """Presses buttons of the sidebar as a user does, and counts."""
+
+    def __init__(self):
+        self.count = 0
+
+    def press(self, call):
+        """One click on a button; a generator. What is looked for is not counted: users see it."""
+        place = yield from find_button(sidebar(), call)
+        xdotool("mousemove", *place)
+        yield 0.3
+        xdotool("click", 1)
+        self.count += 1
+        yield 0.5
+
+
 def redo_panel():
     """The region of Adjust Last Operation."""
     return next(region for region in view()["area"].regions if region.type == "HUD")

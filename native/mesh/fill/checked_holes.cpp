@@ -33,7 +33,7 @@ void require_vertices(const Hole& hole, std::size_t number, std::int64_t count) 
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
                            named(number) + " comes by vertex " + std::to_string(v) +
-                               " twice: cut it there into two holes.",
+                               " twice. Cut it there into two holes.",
                            {v}, ElementKind::vertex);
     }
   if (corners > most_corners)

@@ -181,7 +181,7 @@ class OneHole {
   [[noreturn]] void no_surface() const {
     throw FairingError(ErrorCode::bad_option,
                        "The islands of the hole at vertex " + std::to_string(ids_[0]) +
-                           " cannot be joined to its rim: fill it without them.",
+                           " cannot be joined to its rim. Fill it without them.",
                        {ids_[0]}, ElementKind::vertex);
   }
 

@@ -106,7 +106,7 @@ class Refinement {
     std::sort(longest.begin(), longest.end());
     if (patch_.points.size() + longest.size() > most_points)
       throw FairingError(ErrorCode::too_large,
-                         "The filling would have more than a hundred million vertices: lower the "
+                         "The filling would have more than a hundred million vertices. Lower the "
                          "density.");
     for (std::size_t i = 0; i < longest.size(); ++i) {
       stop_if_cancelled(i);
