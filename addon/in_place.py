@@ -4,7 +4,8 @@
 Only what is near takes part: the selection and the faces around it.
 """
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
@@ -73,11 +74,12 @@ class InPlaceJob:
     """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
 
     def __init__(self, context: Context, source: Object, settings: Settings, wish: Wish) -> None:
-        """Reads; JobError says why that cannot be. `settings`: what counts as a crease, and the rest
+        """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
         that `wish` does not say.
         """
         self.name, self._source, self._wish = source.name, Reference(source), wish
         self._length = partial(length_text, context.scene)
+        self._mode = source.mode
         self.result: Any = None
         self._arrays, chosen = self._read(context, source)
         self._shape = world_shape(source)
@@ -142,8 +144,9 @@ class InPlaceJob:
     def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
-            chosen = np.zeros(len(arrays.face_sizes), bool)
-            chosen[selected_faces(mesh, source.name)] = True
+            chosen = np.full(len(arrays.face_sizes), source.mode != "EDIT")
+            if source.mode == "EDIT":
+                chosen[selected_faces(mesh, source.name)] = True
         return arrays, chosen
 
     def compute(self, **watchers: Any) -> None:
@@ -216,8 +219,8 @@ class InPlaceJob:
         source = self._source.find()
         if source is None:
             return f"Fair once more: {self.name} was deleted or undone during the run, and nothing has changed."
-        if source.mode != "EDIT":
-            return f"Fair once more: {self.name} left Edit Mode during the run, and nothing has changed."
+        if source.mode != self._mode:
+            return f"Fair once more: {self.name} changed its mode during the run, and nothing else."
         with control_mesh(context, source) as mesh:
             now = read_mesh(mesh)
         if (
@@ -292,16 +295,39 @@ def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
 
 
 def apply(source: Object, faired: Faired) -> None:
-    """Moves, and with levels refines, the selected faces in Edit Mode."""
-    edited = bmesh.from_edit_mesh(source.data)
-    if faired.levels:
-        _refine(edited, faired)
-    else:
-        edited.verts.ensure_lookup_table()
-        for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
-            edited.verts[index].co = point
-    edited.normal_update()
-    bmesh.update_edit_mesh(source.data)
+    """Moves, and with levels refines, the faces that were read."""
+    mesh = source.data
+    if source.mode != "EDIT" and not faired.levels:  # without a copy: scans are large
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.ravel())
+        points[faired.part.vertices] = faired.points[: len(faired.part.vertices)]
+        mesh.vertices.foreach_set("co", points.ravel())
+        mesh.update()
+        return
+    with _edited(source) as edited:
+        if faired.levels:
+            _refine(edited, faired)
+        else:
+            edited.verts.ensure_lookup_table()
+            for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
+                edited.verts[index].co = point
+        edited.normal_update()
+
+
+@contextmanager
+def _edited(source: Object) -> Iterator[bmesh.types.BMesh]:
+    """Its mesh to be changed inside of the `with`, in Edit Mode and Object Mode."""
+    if source.mode == "EDIT":
+        yield bmesh.from_edit_mesh(source.data)
+        bmesh.update_edit_mesh(source.data)
+        return
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(source.data)
+        yield edited
+        edited.to_mesh(source.data)
+    finally:
+        edited.free()
 
 
 def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:

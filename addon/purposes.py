@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
 
-Which energy, borders and tolerance a purpose has is decided by benchmarks (benchmarks/jobs.py,
-benchmarks/limits.py), and told in docs/explanation/comparison.md.
+Which energy, borders and tolerance a purpose has is decided by benchmarks (jobs, drawn, limits,
+machine_parts and measured_points in benchmarks/), and told in docs/explanation/comparison.md.
 """
 
 import ast
@@ -26,13 +26,13 @@ PURPOSES = (
     (
         "PANEL",
         "Panel",
-        "Bonnets, doors, wings: the calmest reflections through every vertex; corners stay (Flow Lines)",
+        "Bonnets, doors, wings: where Subdivision Surface passes, with calmer reflections; corners stay (Bending)",
         1,
     ),
     (
         "MECHANICAL",
         "Mechanical",
-        "Machine parts: round between sharp edges, which are folds of 30° and more (Curvature)",
+        "Machine parts: round between sharp edges, which are folds of 30° and more (Bending)",
         2,
     ),
     (

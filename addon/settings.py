@@ -267,7 +267,7 @@ class FairingSettings:
         default=True,
     )
     memory_limit: IntProperty(
-        name="Memory Limit",
+        name="Memory Limit (MB)",
         description="Refuses results that would need more megabytes than this, or if 0 than the preferences allow",
         default=0,
         min=0,

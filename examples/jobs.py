@@ -228,17 +228,18 @@ def press(name):
 
 
 def add_rivals(name, ours):
-    """What Blender has, each on a model of its own, in a row to the right of ours; returned. In
-    Object Mode.
-    """
-    found, width = [], 1.25 * max(ours.dimensions.x, ours.dimensions.y)
+    """What Blender has, each on a model of its own, in a row beside ours; returned. In Object Mode."""
+    found = []
+    size = ours.dimensions
+    across = 1 if size.z < size.y < size.x else 0  # beside what is long, if it hides nothing
+    width = 1.25 * size[across]
     for make in JOBS[name].rivals.values():
         before = set(bpy.data.objects)
         for other in bpy.context.selected_objects:
             other.select_set(False)
         surface = make(JOBS[name].model())
         for new in set(bpy.data.objects) - before:
-            new.location.x += width * (len(found) + 1)
+            new.location[across] += width * (len(found) + 1)
         found.append(surface)
     return found
 
@@ -268,6 +269,7 @@ def show(name):
             bpy.ops.object.mode_set(mode="OBJECT")
         ours = bpy.context.view_layer.objects.active
         in_stripes(ours, *add_rivals(name, ours))
+        ours.select_set(True)
         bpy.ops.view3d.view_all()
 
 

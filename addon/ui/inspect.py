@@ -17,6 +17,7 @@ from .notice import draw_notice
 
 class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
     bl_label = "Inspect"
+    bl_order = 1  # below what makes surfaces
 
     def draw(self, context: Context) -> None:
         layout = self.layout

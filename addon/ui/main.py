@@ -15,6 +15,7 @@ from ..mesh import boundary_marks, fixed_normals
 from ..mesh.mesh_changes import coarse_triangles
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
+from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
@@ -56,6 +57,13 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
     bl_label = "Fair Surface"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """Not where curves alone are selected, which have a panel of their own."""
+        active = context.active_object
+        of_curves = active is not None and active.type != "MESH" and has_curves(active)
+        return not of_curves or bool(source_objects(context))
 
     def draw_header_preset(self, _context: Context) -> None:
         VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)

@@ -15,6 +15,8 @@ from addon.inspection import overlay
 from addon.live import registry, switch
 from addon.mesh.object import session_key
 from addon.mesh.read_curves import chains, read_curves
+from addon.ui.curves import VIEW3D_PT_fairing_curves
+from addon.ui.main import VIEW3D_PT_fairing
 
 
 def square():
@@ -225,3 +227,11 @@ def test_a_curve_with_one_point_is_no_curve():
     cage = surface(levels=1).discrete_fairing.source
     [remark] = curve_cage.remarks_of(cage)
     assert remark.startswith("'Far' encloses nothing")
+
+
+def test_curves_have_their_own_panel_alone():
+    scene(networks.three_by_four)
+    assert not VIEW3D_PT_fairing.poll(bpy.context)
+    assert VIEW3D_PT_fairing_curves.poll(bpy.context)
+    add("Cube", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert VIEW3D_PT_fairing.poll(bpy.context) and not VIEW3D_PT_fairing_curves.poll(bpy.context)

@@ -44,9 +44,9 @@ def shown_strings(tree):
         and isinstance(node.body[0], ast.Expr)
     }
     for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
-            if not re.fullmatch(r"[a-z_0-9.]*|[A-Z_0-9.]*", node.value):
-                yield node.lineno, node.value
+        text = node.value if isinstance(node, ast.Constant) and id(node) not in docs else None
+        if isinstance(text, str) and not re.fullmatch(r"[a-z_0-9.]*|[A-Z_0-9.]*", text):
+            yield node.lineno, text
 
 
 def words_of_ours(text):

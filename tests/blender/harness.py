@@ -19,6 +19,7 @@ from time import perf_counter
 import bpy
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
+_BUTTON = 12  # pixels: less than a button is high
 DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
 
 
@@ -209,7 +210,7 @@ def button_at(region, x, y):
     """
     manager = bpy.context.window_manager
     xdotool("mousemove", x, y)
-    yield 0.15
+    yield 0.1
     manager.clipboard = ""
     with bpy.context.temp_override(**{**view(), "region": region}):
         if bpy.ops.ui.copy_python_command_button.poll():
@@ -218,18 +219,20 @@ def button_at(region, x, y):
     return manager.clipboard
 
 
-def find_button(region, call):
+def find_button(region, call, share, below):
     """Where on the screen the button is whose call begins with `call`, as "bpy.ops.object.fairing_for(
-    purpose='HULL'"; a generator. It looks down three columns, as the narrowest buttons stand three
-    in a row.
+    purpose='HULL'"; a generator. It is looked for up and down from `below`, in pixels from the top of
+    the region, at a `share` of its width.
     """
-    top = view()["window"].height - (region.y + region.height)
-    for y in range(top + 8, top + region.height, 9):
-        for share in (1 / 6, 1 / 2, 0.8):
-            x = int(region.x + share * region.width)
-            found = yield from button_at(region, x, y)
-            if found.startswith(call):
-                return x, y
+    top, x = (
+        view()["window"].height - (region.y + region.height),
+        int(region.x + share * region.width),
+    )
+    steps = sorted(range(_BUTTON, region.height, _BUTTON), key=lambda y: abs(y - below))
+    for y in steps:
+        found = yield from button_at(region, x, top + y)
+        if found.startswith(call):
+            return x, top + y
     raise AssertionError(f"there is no button {call}")
 
 
@@ -239,9 +242,9 @@ class Clicks:
     def __init__(self):
         self.count = 0
 
-    def press(self, call):
-        """One click on a button; a generator. What is looked for is not counted: users see it."""
-        place = yield from find_button(sidebar(), call)
+    def press(self, call, share, below):
+        """One click on a button; a generator. Looking for it is not counted: users see it."""
+        place = yield from find_button(sidebar(), call, share, below)
         xdotool("mousemove", *place)
         yield 0.3
         xdotool("click", 1)

@@ -9,8 +9,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER), str(FOLDER.parent / "examples")]
+sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
 import bpy
 import harness
@@ -18,6 +18,19 @@ import jobs
 import numpy as np
 
 MOST_CLICKS = 3
+# where buttons are in the sidebar, roughly: a share of its width, pixels from its top
+PLACES = {
+    "hull": (0.15, 115),
+    "panel": (0.45, 115),
+    "mechanical": (0.75, 115),
+    "character": (0.15, 192),
+    "scan": (0.45, 192),
+    "points": (0.75, 192),
+    "curves": (0.45, 40),
+    "cad": (0.15, 115),
+}
+ZEBRA = (0.32, 380)
+STEP = (0.25, 230)
 
 
 def name_of_call(name):
@@ -47,11 +60,11 @@ def one_click(name):
     """
     model = yield from selected(name)
     clicks = harness.Clicks()
-    yield from clicks.press(name_of_call(name))
+    yield from clicks.press(name_of_call(name), *PLACES[name])
     yield from jobs.waited()
     assert clicks.count == 1, "one from the selection to the result"
     harness.photograph(f"job_{name}")
-    yield from clicks.press("bpy.ops.object.fairing_inspect(mode='ZEBRA'")
+    yield from clicks.press("bpy.ops.object.fairing_inspect(mode='ZEBRA'", *ZEBRA)
     assert clicks.count <= MOST_CLICKS
     result = bpy.context.view_layer.objects.active
     assert result.discrete_fairing_inspection.mode == "ZEBRA"
@@ -69,7 +82,10 @@ def beside(name, result):
         others = jobs.add_rivals(name, result)
         jobs.in_stripes(*others)
         bpy.ops.object.select_all(action="DESELECT")
-        bpy.ops.view3d.view_all()
+        for shown in (result, *others):
+            shown.select_set(True)
+        bpy.ops.view3d.view_selected()
+        bpy.ops.object.select_all(action="DESELECT")
     yield 1.5
     harness.photograph(f"job_{name}_beside")
 
@@ -131,9 +147,9 @@ def test_cad():
     """From the selected hull to a STEP file: the job, Export STEP, and Export in the file browser."""
     yield from selected("cad")
     clicks = harness.Clicks()
-    yield from clicks.press(name_of_call("cad"))
+    yield from clicks.press(name_of_call("cad"), *PLACES["cad"])
     yield from jobs.waited()
-    yield from clicks.press("bpy.ops.export_scene.fairing_step(")
+    yield from clicks.press("bpy.ops.export_scene.fairing_step(", *STEP)
     yield 2.0
     path = Path(tempfile.mkdtemp()) / "hull.step"
     assert written_by_browser(path), "the file browser is open"
@@ -162,7 +178,7 @@ def written_by_browser(path):
 def test_undo_takes_a_job_back():
     yield from selected("panel")
     before = sorted(o.name for o in bpy.data.objects)
-    yield from harness.Clicks().press(name_of_call("panel"))
+    yield from harness.Clicks().press(name_of_call("panel"), *PLACES["panel"])
     yield from jobs.waited()
     assert sorted(o.name for o in bpy.data.objects) != before
     with bpy.context.temp_override(**harness.view()):
