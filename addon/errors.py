@@ -28,8 +28,9 @@ REMEDIES = {
     "OUT_OF_MEMORY": "Use fewer levels, or close other programs",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NO_THREAD": "Close other programs",
-    "UNRESOLVED": "Move or add vertices there, or raise Tension",
-    "PATCH_TOLERANCE": "Add vertices there, or allow a larger tolerance",
+    "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or raise Tension",
+    "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
+    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 # Where there is no setting Defects; and where holes are filled.
@@ -68,6 +69,10 @@ _WHAT = {
     "PATCH_TOLERANCE": (
         "face has a patch that misses the tolerance",
         "faces have patches that miss the tolerance",
+    ),
+    "SURFACE_TOLERANCE": (
+        "face has a surface that still moves by more than the tolerance from level to level",
+        "faces have a surface that still moves by more than the tolerance from level to level",
     ),
 }
 _WHOLE = {

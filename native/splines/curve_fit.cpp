@@ -23,9 +23,9 @@ constexpr double end_share = 0.35;
 constexpr int least_graded = 4;
 // A tangent has at least this cosine with the line of the points nearby, within the surface.
 constexpr double least_along = 0.7;
-// Where edges meet at a narrower angle, radians, none may come to their vertex with less than this
+// Where edges meet at less than 45°, none may come to their vertex with less than this
 // share of its mean speed: patches between them would fold. Elsewhere poles of curvature ask for it.
-constexpr double narrow = 0.87, slowest = 0.3;
+constexpr double narrow = 0.79, slowest = 0.3;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 

@@ -24,34 +24,21 @@ Step least_squares(const Vec3& rest, const Vec3& u, const Vec3& v) {
 
 }  // namespace
 
-FaceSurface::FaceSurface(const Lattice& lattice, const Topology& topology, Index f)
-    : n_(lattice.n()), quad_(lattice.quad(f)) {
-  const auto for_each = [&](auto&& visit) {
-    for (int j = 0; j <= n_; ++j)
-      for (int i = 0; i <= (quad_ ? n_ : n_ - j); ++i) visit(GridPoint{i, j});
-  };
-  at_.reserve(closed_size(quad_, std::size_t(n_)));
-  normal_.reserve(at_.capacity());
-  for_each([&](GridPoint p) { at_.push_back(lattice.position(f, p)); });
-  for_each([&](GridPoint p) {
-    normal_.push_back(in_tip(lattice, topology, f, p) ? Vec3(Vec3::Zero()) : normal_at(p));
-  });
-}
-
 // The derivative along a direction, of second order also at the sides; false where too few points
 // lie that way.
 bool FaceSurface::slope(GridPoint p, int di, int dj, Vec3& out) const {
+  const int n = lattice_.n();
   const auto inside = [&](int k) {
     const int i = p.i + k * di, j = p.j + k * dj;
-    return i >= 0 && j >= 0 && (quad_ ? i <= n_ && j <= n_ : i + j <= n_);
+    return i >= 0 && j >= 0 && (lattice_.quad(face_) ? i <= n && j <= n : i + j <= n);
   };
-  const auto at = [&](int k) -> const Vec3& { return at_[index(p.i + k * di, p.j + k * dj)]; };
+  const auto from = [&](int k) { return at(p.i + k * di, p.j + k * dj); };
   if (inside(1) && inside(-1))
-    out = (at(1) - at(-1)) / 2;
+    out = (from(1) - from(-1)) / 2;
   else if (inside(2))
-    out = (4 * at(1) - at(2) - 3 * at(0)) / 2;
+    out = (4 * from(1) - from(2) - 3 * from(0)) / 2;
   else if (inside(-2))
-    out = (3 * at(0) - 4 * at(-1) + at(-2)) / 2;
+    out = (3 * from(0) - 4 * from(-1) + from(-2)) / 2;
   else
     return false;
   return true;
@@ -59,6 +46,7 @@ bool FaceSurface::slope(GridPoint p, int di, int dj, Vec3& out) const {
 
 // Next to a triangle's corners points lie along two of three directions only.
 Vec3 FaceSurface::normal_at(GridPoint p) const {
+  if (in_tip(lattice_, topology_, face_, p)) return Vec3::Zero();
   Vec3 u, v, w;
   const bool along_u = slope(p, 1, 0, u), along_v = slope(p, 0, 1, v);
   if (along_u && along_v) return u.cross(v).normalized();
@@ -67,12 +55,12 @@ Vec3 FaceSurface::normal_at(GridPoint p) const {
 }
 
 FaceSurface::Foot FaceSurface::foot_in_quad(const Vec3& point, double i, double j) const {
-  const int a = std::clamp(int(std::floor(i)), 0, n_ - 1),
-            b = std::clamp(int(std::floor(j)), 0, n_ - 1);
+  const int last = lattice_.n() - 1, a = std::clamp(int(std::floor(i)), 0, last),
+            b = std::clamp(int(std::floor(j)), 0, last);
   Foot out;
-  out.corner = {index(a, b), index(a + 1, b), index(a, b + 1), index(a + 1, b + 1)};
-  const Vec3 &p = at_[out.corner[0]], u = at_[out.corner[1]] - p, v = at_[out.corner[2]] - p,
-             twist = at_[out.corner[3]] - p - u - v;
+  out.corner = {{{a, b}, {a + 1, b}, {a, b + 1}, {a + 1, b + 1}}};
+  const Vec3 p = at(a, b), u = at(a + 1, b) - p, v = at(a, b + 1) - p,
+             twist = at(a + 1, b + 1) - p - u - v;
   double s = i - a, t = j - b;
   for (int round = 0; round < 2; ++round) {  // a cell is almost a parallelogram
     const Step step =
@@ -87,14 +75,14 @@ FaceSurface::Foot FaceSurface::foot_in_quad(const Vec3& point, double i, double 
 }
 
 FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, double j) const {
-  const int a = std::clamp(int(std::floor(i)), 0, n_ - 1),
-            b = std::clamp(int(std::floor(j)), 0, n_ - 1 - a);
-  const bool upper = i - a + j - b > 1 && a + b + 2 <= n_;
+  const int last = lattice_.n() - 1, a = std::clamp(int(std::floor(i)), 0, last),
+            b = std::clamp(int(std::floor(j)), 0, last - a);
+  const bool upper = i - a + j - b > 1 && a + b < last;
   const int way = upper ? -1 : 1, c = a + upper, d = b + upper;
   Foot out;
-  out.corner = {index(c, d), index(c + way, d), index(c, d + way), index(c, d)};
-  const Vec3& p = at_[out.corner[0]];
-  const auto [s, t] = least_squares(point - p, at_[out.corner[1]] - p, at_[out.corner[2]] - p);
+  out.corner = {{{c, d}, {c + way, d}, {c, d + way}, {c, d}}};
+  const Vec3 p = at(c, d);
+  const auto [s, t] = least_squares(point - p, at(c + way, d) - p, at(c, d + way) - p);
   out.share = {1 - s - t, s, t, 0};
   out.i = c + way * s;
   out.j = d + way * t;
@@ -102,18 +90,19 @@ FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, dou
 }
 
 double FaceSurface::height(const Vec3& point, int corner, double u, double v) const {
-  double i = n_ * u, j = n_ * v;
+  const double n = lattice_.n();
+  double i = n * u, j = n * v;
   if (corner >= 0) {  // the bilinear map of a third, from its corner
-    const double k = n_ * u * (3 - v) / 6, r = n_ * v * (3 - u) / 6, rest = n_ - k - r;
+    const double k = n * u * (3 - v) / 6, r = n * v * (3 - u) / 6, rest = n - k - r;
     i = corner == 0 ? k : corner == 1 ? rest : r;
     j = corner == 0 ? r : corner == 1 ? k : rest;
   }
   Foot foot{};
   for (int step = 0; step < most_steps; ++step) {
-    foot = quad_ ? foot_in_quad(point, i, j) : foot_in_triangle(point, i, j);
+    foot = lattice_.quad(face_) ? foot_in_quad(point, i, j) : foot_in_triangle(point, i, j);
     const double moved = std::max(std::abs(foot.i - i), std::abs(foot.j - j));
-    i = std::clamp(foot.i, 0.0, double(n_));
-    j = std::clamp(foot.j, 0.0, double(n_));
+    i = std::clamp(foot.i, 0.0, n);
+    j = std::clamp(foot.j, 0.0, n);
     if (moved < 1) break;
   }
   Vec3 flat = Vec3::Zero(), normal = Vec3::Zero();
@@ -121,8 +110,8 @@ double FaceSurface::height(const Vec3& point, int corner, double u, double v) co
   bool tip = false;
   for (std::size_t k = 0; k < 4; ++k) {
     if (foot.share[k] == 0) continue;
-    const Vec3 arm = foot.share[k] * (point - at_[foot.corner[k]]);
-    const Vec3& own = normal_[foot.corner[k]];
+    const Vec3 arm = foot.share[k] * (point - lattice_.position(face_, foot.corner[k]));
+    const Vec3 own = normal_at(foot.corner[k]);
     flat += arm;
     above += arm.dot(own);
     normal += foot.share[k] * own;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "splines/topology.h"
 
@@ -13,7 +12,8 @@ namespace fairing {
 // touch it at the cell's corners; what lies there is not off.
 class FaceSurface {
  public:
-  FaceSurface(const Lattice& lattice, const Topology& topology, Index f);
+  FaceSurface(const Lattice& lattice, const Topology& topology, Index f)
+      : lattice_(lattice), topology_(topology), face_(f) {}
 
   // How far a patch's point at (u, v) is off, along the normal. The patch is all of the face, or its
   // third at a corner (PatchPlace). Beyond the face's sides the surface is continued.
@@ -22,22 +22,20 @@ class FaceSurface {
  private:
   // Its corners, as many as the face has, and what each counts at the foot.
   struct Foot {
-    std::array<std::size_t, 4> corner{};
+    std::array<GridPoint, 4> corner{};
     std::array<double, 4> share{};
     double i, j;
   };
 
-  std::size_t index(int i, int j) const {
-    return closed_row(quad_, std::size_t(n_), std::size_t(j)) + std::size_t(i);
-  }
+  Vec3 at(int i, int j) const { return lattice_.position(face_, {i, j}); }
   Foot foot_in_quad(const Vec3& point, double i, double j) const;
   Foot foot_in_triangle(const Vec3& point, double i, double j) const;
   bool slope(GridPoint p, int di, int dj, Vec3& out) const;
-  Vec3 normal_at(GridPoint p) const;
+  Vec3 normal_at(GridPoint p) const;  // zero in tips
 
-  int n_;
-  bool quad_;
-  std::vector<Vec3> at_, normal_;  // closed; no normals in tips
+  const Lattice& lattice_;
+  const Topology& topology_;
+  Index face_;
 };
 
 }  // namespace fairing

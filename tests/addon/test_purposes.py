@@ -140,7 +140,7 @@ def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose)
     made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
     assert job_of(made) == purpose, "what the panel offers leaves it the job"
     shown = draw(VIEW3D_PT_fairing)
-    slider = {"CHARACTER": "limit", "POINTS": None}.get(purpose, "tolerance")
+    slider = {"CHARACTER": "limit", "PANEL": "limit", "POINTS": None}.get(purpose, "tolerance")
     above = shown[: shown.index("object.fairing_recompute")]
     assert name_of_purpose(purpose) in above and "levels" in above
     assert [name for name in ("tolerance", "limit") if name in above] == [slider] * bool(slider)
