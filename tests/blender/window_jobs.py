@@ -101,7 +101,7 @@ def test_hull():
 def test_panel():
     source, surface = yield from one_click("panel")
     assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.energy == "MINIMUM_VARIATION"
+    assert surface.discrete_fairing.interpolation == "LIMIT"
 
 
 def test_mechanical():
