@@ -75,8 +75,8 @@ FaceSurface::Foot FaceSurface::foot_in_quad(const Vec3& point, double i, double 
              twist = at_[out.corner[3]] - p - u - v;
   double s = i - a, t = j - b;
   for (int round = 0; round < 2; ++round) {  // a cell is almost a parallelogram
-    const Step step = least_squares(point - p - s * u - t * v - s * t * twist, u + t * twist,
-                                    v + s * twist);
+    const Step step =
+        least_squares(point - p - s * u - t * v - s * t * twist, u + t * twist, v + s * twist);
     s += step.s;
     t += step.t;
   }
@@ -94,8 +94,7 @@ FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, dou
   Foot out;
   out.corner = {index(c, d), index(c + way, d), index(c, d + way), index(c, d)};
   const Vec3& p = at_[out.corner[0]];
-  const auto [s, t] =
-      least_squares(point - p, at_[out.corner[1]] - p, at_[out.corner[2]] - p);
+  const auto [s, t] = least_squares(point - p, at_[out.corner[1]] - p, at_[out.corner[2]] - p);
   out.share = {1 - s - t, s, t, 0};
   out.i = c + way * s;
   out.j = d + way * t;

@@ -50,7 +50,7 @@ class NetSystem {
   static constexpr Eigen::Index reach = 3;
   const SplinePatch& known_;
   int rows_, columns_;
-  Eigen::Index width_;    // of a block
+  Eigen::Index width_;  // of a block
   // The lower half, block beside block; samples add to rows of it.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> band_;
   Eigen::VectorXd right_, balance_;

@@ -29,7 +29,7 @@ struct PatchData {
   std::vector<PatchSample> samples;
   const FaceSurface* surface = nullptr;  // between the samples
   int corner = -1;                       // of which the patch is a third
-  double size;  // of the model: what an angle weighs against a distance
+  double size;                           // of the model: what an angle weighs against a distance
   // What is asked for, and ends the search.
   double tolerance, normal_tolerance;
   bool may_fold = false;  // no time is spent against it
