@@ -89,7 +89,7 @@ FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, dou
   return out;
 }
 
-double FaceSurface::height(const Vec3& point, int corner, double u, double v) const {
+double FaceSurface::height(const Vec3& point, int corner, double u, double v, double least) const {
   const double n = lattice_.n();
   double i = n * u, j = n * v;
   if (corner >= 0) {  // the bilinear map of a third, from its corner
@@ -105,19 +105,19 @@ double FaceSurface::height(const Vec3& point, int corner, double u, double v) co
     j = std::clamp(foot.j, 0.0, n);
     if (moved < 1) break;
   }
-  Vec3 flat = Vec3::Zero(), normal = Vec3::Zero();
+  Vec3 flat = point;
+  for (std::size_t k = 0; k < 4; ++k)
+    flat -= foot.share[k] * lattice_.position(face_, foot.corner[k]);
+  if (flat.norm() <= least) return 0;
+  Vec3 normal = Vec3::Zero();
   double above = 0;
-  bool tip = false;
   for (std::size_t k = 0; k < 4; ++k) {
     if (foot.share[k] == 0) continue;
-    const Vec3 arm = foot.share[k] * (point - lattice_.position(face_, foot.corner[k]));
     const Vec3 own = normal_at(foot.corner[k]);
-    flat += arm;
-    above += arm.dot(own);
+    if (own.isZero()) return flat.norm();
+    above += foot.share[k] * (point - lattice_.position(face_, foot.corner[k])).dot(own);
     normal += foot.share[k] * own;
-    tip = tip || own.isZero();
   }
-  if (tip) return flat.norm();
   const double off = flat.dot(normal.normalized());
   return off * above <= 0 ? 0 : std::min(std::abs(off), std::abs(above));
 }

@@ -15,9 +15,10 @@ class FaceSurface {
   FaceSurface(const Lattice& lattice, const Topology& topology, Index f)
       : lattice_(lattice), topology_(topology), face_(f) {}
 
-  // How far a patch's point at (u, v) is off, along the normal. The patch is all of the face, or its
-  // third at a corner (PatchPlace). Beyond the face's sides the surface is continued.
-  double height(const Vec3& point, int corner, double u, double v) const;
+  // How far a patch's point at (u, v) is off, along the normal; 0 where that is no more than `least`.
+  // The patch is all of the face, or its third at a corner (PatchPlace). Beyond the face's sides the
+  // surface is continued.
+  double height(const Vec3& point, int corner, double u, double v, double least) const;
 
  private:
   // Its corners, as many as the face has, and what each counts at the foot.

@@ -162,8 +162,8 @@ void measure_between(const PatchData& data, FittedPatch& out) {
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j) {
       const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
-      out.residual =
-          std::max(out.residual, data.surface->height(patch.at(u, v).at, data.corner, u, v));
+      out.residual = std::max(
+          out.residual, data.surface->height(patch.at(u, v).at, data.corner, u, v, out.residual));
     }
 }
 

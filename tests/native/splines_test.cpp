@@ -124,9 +124,10 @@ TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
       for (int i = 0; i < (quads ? n : n - j); ++i) {
         const double u = (i + 0.4) / n, v = (j + 0.4) / n;
         const Vec3 on = on_sphere(u, v);
-        EXPECT_EQ(face.height(on, -1, u, v), 0);
+        EXPECT_EQ(face.height(on, -1, u, v, 0), 0);
         for (const double lifted : {0.01, -0.01})
-          EXPECT_NEAR(face.height((1 + lifted) * on, -1, u, v), 0.01, 1e-3);
+          EXPECT_NEAR(face.height((1 + lifted) * on, -1, u, v, 0), 0.01, 1e-3);
+        EXPECT_EQ(face.height(1.01 * on, -1, u, v, 0.02), 0);
       }
   }
 }
