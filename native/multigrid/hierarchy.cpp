@@ -23,7 +23,7 @@ constexpr double settled_margin = 1.03;
 
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options)
     : workers_(workers), options_(options), cycle_(workers) {
-  if (options.smoother_degree > 0) cycle_.degree = options.smoother_degree;
+  cycle_.degree = options.smoother_degree > 0 ? options.smoother_degree : options.first_degree;
 }
 
 void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns) {
@@ -70,6 +70,7 @@ void Hierarchy::refactor() {
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                             const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
+  is_bounded_ = limits.may_end_early;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
     solve_direct(solver, limits, system, out);

@@ -19,9 +19,10 @@ namespace fairing {
 constexpr std::size_t tiny_level = 1200;
 
 struct HierarchyOptions {
-  int smoother_degree = 0;     // 0: chosen from how the solves go
-  bool always_factor = false;  // the coarsest level is ill-conditioned, however large
-  bool may_block = false;      // whether the smoother may work on blocks (block_jacobi.h)
+  int smoother_degree = 0;                  // 0: chosen from how the solves go
+  int first_degree = VCycle::usual_degree;  // then
+  bool always_factor = false;               // the coarsest level is ill-conditioned, however large
+  bool may_block = false;  // whether the smoother may work on blocks (block_jacobi.h)
   // The operators change from solve to solve: each is judged alone. A level whose factor is cheap
   // is factored sooner than it takes blocks.
   bool operators_change = false;
@@ -60,10 +61,6 @@ class Hierarchy {
 
   // Whether the smoother may work on blocks from here on; if not, those that are there go.
   void allow_blocks(bool allowed);
-
-  // Whether solves may end before they are done: then levels whose factor is not cheap are not
-  // factored, and the smoother's degree stays low.
-  void bound_effort(bool bounded) { is_bounded_ = bounded; }
 
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
   // largest eigenvalues have.
@@ -123,7 +120,7 @@ class Hierarchy {
   HierarchyOptions options_;
   bool adapts_ = true;
   bool blocks_allowed_ = true;
-  bool is_bounded_ = false;
+  bool is_bounded_ = false;  // the present solve may end early
   std::vector<std::size_t> unknowns_;
   std::vector<Convergence> convergence_;  // with the diagonal
   VCycle cycle_;
