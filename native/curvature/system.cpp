@@ -19,17 +19,12 @@ constexpr double inner_accuracy = 1e-2, inner_accuracy_on_pads = 0.1;
 // what they leave goes to the next step, which does not count as having arrived (left_to_move.h).
 constexpr int most_of_variation = 24;
 
-// Of the smoother, where solves go well: a solve leaves much of the error, which V-cycles of this
-// degree lessen as much as those of the plate's.
-constexpr int degree_of_steps = 4;
-
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
 constexpr double usual_steps = 4;  // nobody knows how many there will be; most runs take so many
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
-  out.first_degree = degree_of_steps;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
   out.may_block = out.operators_change = true;

@@ -23,7 +23,7 @@ constexpr double settled_margin = 1.03;
 
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options)
     : workers_(workers), options_(options), cycle_(workers) {
-  cycle_.degree = options.smoother_degree > 0 ? options.smoother_degree : options.first_degree;
+  if (options.smoother_degree > 0) cycle_.degree = options.smoother_degree;
 }
 
 void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns) {
