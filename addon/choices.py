@@ -4,30 +4,32 @@
 # of the operator, the panel and the command line alike
 DEFAULT_ENERGY = "THIN_PLATE"
 ENERGY_MEANING = (
-    "What is to be as small as possible: bending, curvature, or its change along the surface"
+    "What makes the surface fair: least bending, least curvature, or reflections that flow evenly"
 )
 
 # numbered, because files keep the number
 ENERGIES = (
     (
         "THIN_PLATE",
-        "Thin Plate",
-        "Bends like a thin sheet of spring steel, a little flat between the vertices",
+        "Bending",
+        "Bends as little as a thin sheet of spring steel, and is a little flat between the vertices",
         0,
     ),
     (
         "TOTAL_CURVATURE",
-        "Total Curvature",
-        "The roundest surface: from vertices on a sphere it makes the sphere",
+        "Curvature",
+        "The roundest surface, with the least curvature in all: vertices on a sphere give the sphere",
         1,
     ),
     (
         "MINIMUM_VARIATION",
-        "Minimum Variation",
-        "Curvature changes as little as possible: the calmest reflections",
+        "Flow Lines",
+        "The calmest reflections: curvature changes as little as possible along the surface",
         2,
     ),
 )
+
+ENERGY_NAMES = {key: name for key, name, *_ in ENERGIES}
 
 # what the panel has room for. What they cost is said once, by the prediction
 ENERGY_MEANINGS = {
@@ -37,11 +39,6 @@ ENERGY_MEANINGS = {
 }
 
 # for buttons side by side
-SHORT_ENERGIES = {
-    "THIN_PLATE": "Thin Plate",
-    "TOTAL_CURVATURE": "Curvature",
-    "MINIMUM_VARIATION": "Variation",
-}
 SHORT_INTERPOLATIONS = {
     "AUTO": "Auto",
     "EXACT": "Through",
@@ -152,5 +149,5 @@ JOINTS = (
 
 
 def energy_name(identifier: str) -> str:
-    """`Thin Plate` for THIN_PLATE."""
-    return next(name for key, name, *_ in ENERGIES if key == identifier)
+    """`Bending` for THIN_PLATE."""
+    return ENERGY_NAMES[identifier]

@@ -15,12 +15,13 @@ from bpy.props import (
     StringProperty,
 )
 
-from .blender import Context, Mesh, Object, attach, detach
+from .blender import Context, Mesh, Object, attach, current_context, detach
 from .curves.cubics import Curve
 from .curves.settle import Covered, Wish, covered
 from .errors import JobError
 from .mesh.object import session_key
 from .mesh.read_curves import read_curves
+from .units import length_text
 
 HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothing between them
 
@@ -125,7 +126,7 @@ def new_cage(
     """A new object, linked beside the curves, and what it was made from; JobError says why there is
     none.
     """
-    found = covered(_read(sources), _wish(settings))
+    found = covered(_read(sources), _wish(settings), text=_text)
     cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
     context.collection.objects.link(cage)
     group = cage.discrete_fairing_curves
@@ -141,13 +142,19 @@ def follow(cage: Object) -> Covered:
     """Brings its mesh up to date with its curves; JobError says why that cannot be."""
     sources = curves_of(cage)
     if not sources:
-        raise JobError(f"The curves of '{cage.name}' were deleted. Undo, or choose another source.")
+        raise JobError(f"Undo, or choose another source. The curves of '{cage.name}' were deleted.")
     if cage.mode == "EDIT":
-        raise JobError(f"'{cage.name}' is being edited. Leave Edit Mode (Tab): it follows curves.")
+        raise JobError(
+            f"Leave Edit Mode (Tab): '{cage.name}' is being edited, but follows its curves."
+        )
     group = cage.discrete_fairing_curves
-    found = covered(_read(sources), _wish(group), _counts(group))
+    found = covered(_read(sources), _wish(group), _counts(group), _text)
     _fill(cage, found)
     return found
+
+
+def _text(length: float) -> str:
+    return length_text(current_context().scene, length, digits=4)
 
 
 def _read(sources: Sequence[Object]) -> list[Curve]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Why there is no surface: the core's own sentence, and what to do about it in Blender."""
+"""Why there is no surface: what to do about it in Blender, and then the core's own sentence."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -8,8 +8,9 @@ from typing import Any
 from . import core
 
 _OR_MEND = ", or let Defects be Mend"
-_REMEDIES = {
-    "EMPTY_MESH": "Add a mesh with faces first",
+# Of every code that a user of Blender can meet; an order first, as refusals begin with it.
+REMEDIES = {
+    "EMPTY_MESH": "Add a mesh with faces",
     "NO_FACES": "Fill the edges with faces (F in Edit Mode)",
     "NON_FINITE": "Delete these vertices, or type a position for them in the sidebar (N, Item)",
     "REPEATED_VERTEX": "Run Mesh > Clean Up > Degenerate Dissolve",
@@ -17,18 +18,29 @@ _REMEDIES = {
     "NONMANIFOLD_EDGE": "Leave them: the sheets meet in a curve. Delete inner faces that you do not want",
     "NONMANIFOLD_VERTEX": "Leave them, or separate the parts (V)",
     "INCONSISTENT_ORIENTATION": f"Recalculate the normals (Shift N in Edit Mode){_OR_MEND}",
-    "NON_ORIENTABLE": "Use Thin Plate, or cut it open along a row of edges (V in Edit Mode)",
+    "NON_ORIENTABLE": "Set Fairness to Bending, or cut it open along a row of edges (V in Edit Mode)",
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
-    "UNDERDETERMINED": "Use Through instead of Near, or a smaller tolerance",
-    "TOO_EXTREME": "Move these vertices back to the others, or delete them",
+    "UNDERDETERMINED": "Set Vertices to Through, or a smaller tolerance",
+    "TOO_EXTREME": "Move far vertices back to the others or delete them, and even out very thin faces",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
-    "OUT_OF_MEMORY": "Use fewer levels",
+    "OUT_OF_MEMORY": "Use fewer levels, or close other programs",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
-    "UNRESOLVED": "Move or add vertices there, or raise Tension",
-    "PATCH_TOLERANCE": "Add vertices there, or allow a larger tolerance",
+    "NO_THREAD": "Close other programs",
+    "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or raise Tension",
+    "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
+    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
+}
+# Where there is no setting Defects; and where holes are filled.
+WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
+OF_HOLES = WITHOUT_MENDING | {
+    "BAD_OPTION": "Select the hole without its islands, or fill it by hand",
+    "NONMANIFOLD_EDGE": "Delete the faces at its rim that are too many",
+    "NONMANIFOLD_VERTEX": "Fill it by hand, or separate its rim there (V)",
+    "REPEATED_VERTEX": "Cut it there into two holes",
+    "TOO_LARGE": "Lower Density, or fill it in parts",
 }
 # code: what is wrong with one, with several
 _WHAT = {
@@ -58,9 +70,11 @@ _WHAT = {
         "face has a patch that misses the tolerance",
         "faces have patches that miss the tolerance",
     ),
+    "SURFACE_TOLERANCE": (
+        "face has a surface that still moves by more than the tolerance from level to level",
+        "faces have a surface that still moves by more than the tolerance from level to level",
+    ),
 }
-# whose sentence from the core is followed by one that says what to do
-_WITH_REMEDY = {*_WHAT, "NON_ORIENTABLE"} - {"COINCIDENT_VERTICES", "ISOLATED_VERTICES"}
 _WHOLE = {
     "EMPTY_MESH": "The mesh is empty",
     "NO_FACES": "The mesh has no faces",
@@ -101,23 +115,21 @@ def what(defect: dict[str, Any]) -> str:
 
 def remedy(code: str) -> str:
     """What to do about it, in one sentence; empty where nobody knows."""
-    return _sentence(_REMEDIES[code]) if code in _REMEDIES else ""
+    return _sentence(REMEDIES[code]) if code in REMEDIES else ""
 
 
-def error_text(object_name: str, error: Any, may_mend: bool = True) -> str:
-    """One paragraph for a FairingError: which object, what is wrong where, what to do. `may_mend`: whether there is the
-    setting Defects.
-    """
-    what, help_by = str(error), _REMEDIES.get(error.code, "")
-    if not may_mend:
-        help_by = help_by.removesuffix(_OR_MEND)
-    if help_by and error.code in _WITH_REMEDY:  # ours knows Blender, and one is enough
-        what = what.partition(". ")[0]
-    return " ".join(_sentence(part) for part in (f"{object_name}: {what}", help_by) if part)
+def error_text(object_name: str, error: Any, remedies: Mapping[str, str] = REMEDIES) -> str:
+    """One paragraph for a FairingError: which object, what to do, what is wrong where."""
+    cause, _, theirs = str(error).partition(". ")
+    # ours knows Blender: what the core says to do is for callers in Python
+    cure = remedies.get(error.code, theirs)
+    if cure and "_" not in cause.partition(" ")[0]:  # no name of Python's
+        cause = cause[:1].upper() + cause[1:]
+    return f"{object_name}: {' '.join(_sentence(part) for part in (cure, cause) if part)}"
 
 
 @contextmanager
-def explained(object_name: str, may_mend: bool = True) -> Iterator[None]:
+def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Iterator[None]:
     """Inside the `with` an error of the core becomes a JobError, in words for the user."""
     fairing_error = core.module().FairingError
     try:
@@ -125,12 +137,51 @@ def explained(object_name: str, may_mend: bool = True) -> Iterator[None]:
     except fairing_error as error:
         kind = JobCancelled if error.code == "CANCELLED" else JobError
         raise kind(
-            error_text(object_name, error, may_mend), error.code, error.kind, error.elements
+            error_text(object_name, error, remedies), error.code, error.kind, error.elements
         ) from error
 
 
+# What the core says of a surface that is usable but not exact, by a piece of its sentence: what to do, what is so.
+_UNFINISHED = (
+    (
+        "the tolerance is kept",
+        "Lower the tolerance for an exact answer",
+        "The tolerance is kept, but the surface could still be a little calmer",
+    ),
+    (
+        "turned over at a fixed normal",
+        "Turn the fixed normals towards the faces around them, or free them",
+        "At one of them the surface has turned over",
+    ),
+    (
+        "fixed normals have not settled",
+        "Fix fewer normals, or turn them towards the faces around",
+        "The surface does not have all of them exactly",
+    ),
+    (
+        "have not settled",
+        "Lower Hold Softly for an exact answer",
+        "The surface is good to use, but could still be a little calmer around its vertices",
+    ),
+    (
+        "made the surface worse",
+        "Use fewer levels, or set Fairness to Bending",
+        "No fairer surface was found than the one to begin with, which you have now",
+    ),
+)
+_UNFINISHED_ELSE = (
+    "Use fewer levels, or set Fairness to Bending, for an exact answer",
+    "The surface is good to use, but could still be a little calmer",
+)
+
+
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
-    return f"{object_name}: {warning['message']}"
+    """One of the core's warnings, in words for the user."""
+    message = warning["message"]
+    if warning["code"] != "NOT_CONVERGED":
+        return f"{object_name}: {message}"
+    told = next((told for piece, *told in _UNFINISHED if piece in message), _UNFINISHED_ELSE)
+    return f"{object_name}: {' '.join(map(_sentence, told))}"
 
 
 def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold: float) -> str:
@@ -138,9 +189,9 @@ def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold
     `face`, the thinnest, that is `ratio` times as long as high, and its sharpest `fold` in degrees.
     """
     return (
-        f"{object_name}: not converged. You have a surface, but {energy} could still make it a little calmer. "
-        f"Of the source's faces, {face} is the thinnest, {ratio:.3g} times as long as high, and the sharpest fold "
-        f"has {fold:.0f}°. The smaller both are, the sooner it converges; Thin Plate needs no steps."
+        f"{object_name}: Even out the thinnest faces of the source, or set Fairness to Bending, for an exact answer. "
+        f"The surface is good to use, but {energy} could still make it a little calmer. "
+        f"Face {face} is the thinnest, {ratio:.3g} times as long as high; the sharpest fold has {fold:.0f}°."
     )
 
 
@@ -154,14 +205,14 @@ FAULT_KINDS = frozenset(_FAULTS)
 
 def faults_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
     """What is wrong with a surface, from the number of points at which it is, and what helps."""
-    told = f"{object_name}: {faults_summary(counts)}. Select Places in the panel shows where"
-    return f"{told}. {faults_remedy(settings)}"
+    summary = faults_summary(counts)
+    return f"{object_name}: {faults_remedy(settings)} T{summary[1:]}: Select Places in the panel shows where."
 
 
 def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
     """The same for faces faired in their own mesh, which has no panel of theirs."""
     listed = _listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
-    return f"{object_name}: what was faired {listed}. {faults_remedy(settings)} Ctrl Z undoes it."
+    return f"{object_name}: {faults_remedy(settings)} Ctrl Z undoes it. What was faired {listed}."
 
 
 def faults_summary(counts: Mapping[str, int]) -> str:
@@ -172,8 +223,8 @@ def faults_summary(counts: Mapping[str, int]) -> str:
 def faults_remedy(settings: Any) -> str:
     """What to do about it, in one sentence; `settings`: those that the surface was made with."""
     if settings.energy == "MINIMUM_VARIATION":
-        return "Set Fairness to Thin Plate, or to Total Curvature with Tension."
-    help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Thin Plate"]
+        return "Set Fairness to Bending, or to Curvature with Tension."
+    help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Bending"]
     if settings.tension < 1.0:
         help_by.insert(0, "raise Tension")
     if settings.interpolation == "EXACT":
@@ -189,7 +240,7 @@ def _listed(parts: list[str], last: str = "and") -> str:
 
 
 def pads_text(pads: Mapping[str, Any]) -> str:
-    """Where pads gave way, in one sentence, from the report's `pads`; empty if none did."""
+    """Where vertices are not held softly, in one sentence, from the report's `pads`; empty if none did."""
     gone = pads.get("gone", 0)
     if not gone:
         return ""

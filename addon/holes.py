@@ -157,7 +157,7 @@ class HoleJob:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         try:
-            with errors.explained(self.name, may_mend=False):
+            with errors.explained(self.name, errors.OF_HOLES):
                 self.result = self._filled(watchers)
         except JobCancelled:
             raise
@@ -196,7 +196,7 @@ class HoleJob:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
         target = self._target.find()
         if target is None:
-            return f"{self.name} was deleted or undone during the run: nothing has changed."
+            return f"Fill once more: {self.name} was deleted or undone during the run, and nothing has changed."
         if target.mode == self._mode:
             with control_mesh(context, target) as mesh:
                 now = read_mesh(mesh)
@@ -206,7 +206,7 @@ class HoleJob:
                 and self._shape == world_shape(target)
             ):
                 return ""
-        return f"{self.name} was edited during the run: its holes are as they were. Fill them once more."
+        return f"Fill once more: {self.name} was edited during the run, and its holes are as they were."
 
     def apply(self) -> Filling:
         """Makes the faces."""
@@ -260,23 +260,23 @@ def _triangles_in(edges: int, density: float) -> int:
 
 def _none_text(wish: Wish, editing: bool, unclear: int, loops: int) -> str:
     if wish.edge is not None:
-        return "this hole is no longer there. Press Check Mesh again"
+        return "Press Check Mesh again: this hole is no longer there"
     if unclear:
         return _unclear_text(unclear)
     if not editing and not loops:
-        return "there is no hole: every edge has a face on both sides"
+        return "Delete faces first: there is no hole, every edge has a face on both sides"
     if not editing:
-        return f"there is no hole of at most {wish.most_edges} edges. Raise Largest Hole"
+        return f"Raise Largest Hole: there is no hole of at most {wish.most_edges} edges"
     if wish.replaces:
-        return "the selected faces leave no hole. Select faces with others around them"
-    return "no border edge of a hole is selected. Select one, or in Face Mode faces to be replaced"
+        return "Select faces with others around them: the selected ones leave no hole"
+    return "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
 
 
 def _unclear_text(count: int) -> str:
     begin = "1 border edge is" if count == 1 else f"{count:,} border edges are"
     return (
-        f"{begin} around no hole: more than two faces meet there at an edge, or faces beside look "
-        "different ways. Check Mesh shows where"
+        f"Run Check Mesh, which shows where: {begin} around no hole, as more than two faces meet there at "
+        "an edge, or faces beside look different ways"
     )
 
 
@@ -308,7 +308,7 @@ def doubts(done: list[Filling]) -> list[str]:
     said = [_unclear_text(unclear)] if unclear else []
     if plates:
         said.append(
-            f"{count_text(plates)} filled by the thin plate: the steps of the fairness chosen did not settle"
+            f"{count_text(plates)} filled with least bending: the fairness chosen found no surface there"
         )
     plain = sum(f.plain for f in done)
     if plain:

@@ -4,8 +4,10 @@
 Only what is near takes part: the selection and the faces around it.
 """
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 from types import SimpleNamespace
 from typing import Any, cast
@@ -26,6 +28,7 @@ from .preferences import preferences
 from .settings import Settings, snapshot
 from .transfer.carrier import Carrier
 from .transfer.cut_out import CutOut, cut_out, grown, inside
+from .units import length_text
 
 # levels that stand in for the surface of which only the control vertices are wanted
 _UNSEEN_LEVELS = 2
@@ -71,10 +74,12 @@ class InPlaceJob:
     """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
 
     def __init__(self, context: Context, source: Object, settings: Settings, wish: Wish) -> None:
-        """Reads; JobError says why that cannot be. `settings`: what counts as a crease, and the rest
+        """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
         that `wish` does not say.
         """
         self.name, self._source, self._wish = source.name, Reference(source), wish
+        self._length = partial(length_text, context.scene)
+        self._mode = source.mode
         self.result: Any = None
         self._arrays, chosen = self._read(context, source)
         self._shape = world_shape(source)
@@ -139,8 +144,9 @@ class InPlaceJob:
     def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
-            chosen = np.zeros(len(arrays.face_sizes), bool)
-            chosen[selected_faces(mesh, source.name)] = True
+            chosen = np.full(len(arrays.face_sizes), source.mode != "EDIT")
+            if source.mode == "EDIT":
+                chosen[selected_faces(mesh, source.name)] = True
         return arrays, chosen
 
     def compute(self, **watchers: Any) -> None:
@@ -148,7 +154,7 @@ class InPlaceJob:
         begun = perf_counter()
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
-        with errors.explained(self.name, may_mend=False):
+        with errors.explained(self.name, errors.WITHOUT_MENDING):
             if self._wish.measured:
                 result, noise = self._smoothed(watchers)
                 moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
@@ -166,8 +172,8 @@ class InPlaceJob:
         splits = _split_faces(carrier, part) if levels else {}
         if any(not common for index, common in splits.items() if self._chosen[index]):
             raise JobError(
-                f"{self.name}: a face of many corners is too bent to be refined in place. "
-                "Triangulate it (Ctrl T)."
+                f"{self.name}: Triangulate faces of many corners (Ctrl T). "
+                "One is too bent to be refined in place."
             )
         chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
@@ -204,7 +210,7 @@ class InPlaceJob:
         """What the user may want to know of a finished job, a sentence each."""
         if not self._wish.measured:
             return []
-        return [f"{self.name}: noise of {self.result.noise:.3g} (rms, scene units) taken off."]
+        return [f"{self.name}: noise of {self._length(self.result.noise)} (rms) taken off."]
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
@@ -212,9 +218,9 @@ class InPlaceJob:
         """
         source = self._source.find()
         if source is None:
-            return f"{self.name} was deleted or undone during the run: nothing has changed."
-        if source.mode != "EDIT":
-            return f"{self.name} left Edit Mode during the run: nothing has changed."
+            return f"Fair once more: {self.name} was deleted or undone during the run, and nothing has changed."
+        if source.mode != self._mode:
+            return f"Fair once more: {self.name} changed its mode during the run, and nothing else."
         with control_mesh(context, source) as mesh:
             now = read_mesh(mesh)
         if (
@@ -224,7 +230,7 @@ class InPlaceJob:
         ):
             return ""
         return (
-            f"{self.name} was edited during the run: nothing more has changed. Fair it once more."
+            f"Fair once more: {self.name} was edited during the run, and nothing more has changed."
         )
 
     def apply(self) -> None:
@@ -249,12 +255,12 @@ def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
 def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: Wish) -> None:
     if not wish.levels and not free.any():
         raise JobError(
-            f"{name}: no vertex lies inside of the selection, so none can move. "
-            "Select more faces, or raise Levels."
+            f"{name}: Select more faces, or raise Levels. "
+            "No vertex lies inside of the selection, so none can move."
         )
     if wish.moves and not wish.measured and floats(arrays, free):
         raise JobError(
-            f"{name}: a part is selected whole, so nothing holds it. Leave out some of its faces."
+            f"{name}: Leave out some faces of each part. One is selected whole, so nothing holds it."
         )
 
 
@@ -289,16 +295,39 @@ def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
 
 
 def apply(source: Object, faired: Faired) -> None:
-    """Moves, and with levels refines, the selected faces in Edit Mode."""
-    edited = bmesh.from_edit_mesh(source.data)
-    if faired.levels:
-        _refine(edited, faired)
-    else:
-        edited.verts.ensure_lookup_table()
-        for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
-            edited.verts[index].co = point
-    edited.normal_update()
-    bmesh.update_edit_mesh(source.data)
+    """Moves, and with levels refines, the faces that were read."""
+    mesh = source.data
+    if source.mode != "EDIT" and not faired.levels:  # without a copy: scans are large
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.ravel())
+        points[faired.part.vertices] = faired.points[: len(faired.part.vertices)]
+        mesh.vertices.foreach_set("co", points.ravel())
+        mesh.update()
+        return
+    with _edited(source) as edited:
+        if faired.levels:
+            _refine(edited, faired)
+        else:
+            edited.verts.ensure_lookup_table()
+            for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
+                edited.verts[index].co = point
+        edited.normal_update()
+
+
+@contextmanager
+def _edited(source: Object) -> Iterator[bmesh.types.BMesh]:
+    """Its mesh to be changed inside of the `with`, in Edit Mode and Object Mode."""
+    if source.mode == "EDIT":
+        yield bmesh.from_edit_mesh(source.data)
+        bmesh.update_edit_mesh(source.data)
+        return
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(source.data)
+        yield edited
+        edited.to_mesh(source.data)
+    finally:
+        edited.free()
 
 
 def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 LINKED = (
-    "This mesh is linked from another file: make it local first (Object > Relations > Make Local)"
+    "Make it local first (Object > Relations > Make Local): this mesh is linked from another file"
 )
 
 
@@ -40,5 +40,5 @@ def mesh_poll_reason(targets: Sequence[Any]) -> str:
 def edit_mode_reason(context: Any, chosen: str) -> str:
     """The same of the meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
     if context.mode != "EDIT_MESH":
-        return f"{chosen} are chosen in Edit Mode: press Tab first"
+        return f"Press Tab first: {chosen} are chosen in Edit Mode"
     return mesh_poll_reason(context.objects_in_mode_unique_data)

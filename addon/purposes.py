@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
 
-Which energy, borders and tolerance a purpose has is decided by benchmarks (benchmarks/jobs.py,
-benchmarks/limits.py), and told in docs/explanation/comparison.md.
+Which energy, borders and tolerance a purpose has is decided by benchmarks (jobs, drawn, limits,
+machine_parts and measured_points in benchmarks/), and told in docs/explanation/comparison.md.
 """
 
+import ast
+from functools import cache
+from math import isclose
 from pathlib import Path
+from typing import Any
 
 FOLDER = Path(__file__).resolve().parent / "presets"
 # where Blender looks for the presets of the operator, which are those of the panel
@@ -16,25 +20,25 @@ PURPOSES = (
     (
         "HULL",
         "Hull",
-        "Boats: through the offsets, or within a tolerance of them; marked edges are chines (Minimum Variation)",
+        "Boats: through the offsets, or within a tolerance of them; marked edges are chines (Flow Lines)",
         0,
     ),
     (
         "PANEL",
         "Panel",
-        "Bonnets, doors, wings: the calmest reflections through every vertex; corners stay (Minimum Variation)",
+        "Bonnets, doors, wings: where Subdivision Surface passes, with calmer reflections; corners stay (Bending)",
         1,
     ),
     (
         "MECHANICAL",
         "Mechanical",
-        "Machine parts: round between sharp edges, which are folds of 30° and more (Total Curvature)",
+        "Machine parts: round between sharp edges, which are folds of 30° and more (Bending)",
         2,
     ),
     (
         "CHARACTER",
         "Character",
-        "Characters, animals: where Subdivision Surface passes, and fairer in between (Thin Plate)",
+        "Characters, animals: where Subdivision Surface passes, and fairer in between (Bending)",
         3,
     ),
     (
@@ -46,19 +50,65 @@ PURPOSES = (
     (
         "POINTS",
         "Points (measured)",
-        "Points with an error: eased first, as the shape key Eased, then a surface through them (Thin Plate)",
+        "Points with an error: eased first, as the shape key Eased, then a surface through them (Bending)",
         5,
     ),
 )
 
 
+# words by which Blender's search finds the entries of the menu
+TRADES = {
+    "HULL": "boats, offsets",
+    "PANEL": "bonnets, doors, bodywork",
+    "MECHANICAL": "machine parts, products",
+    "CHARACTER": "animals, heads",
+    "SCAN_PATCH": "noise, measured faces",
+    "POINTS": "probes, scatter",
+}
 EASED_FIRST = {"POINTS"}
+# what the panel shows of a job, to be changed at will
+OFFERED = {"levels", "limit", "tolerance", "relative_tolerance", "tolerance_unit"}
+_DIGITS = 1e-6  # of Blender's numbers, which are in single precision
 
 
 def preset_file(purpose: str) -> Path | None:
     """The script with the settings of a purpose; None for the one that is no new surface."""
     path = FOLDER / PRESET_FOLDER / f"{stem(purpose)}.py"
     return path if path.is_file() else None
+
+
+@cache
+def preset_values(path: Path) -> dict[str, Any]:
+    """What a preset sets, {setting: value}; read, not run."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {
+        node.targets[0].attr: ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute)
+    }
+
+
+def job_of(settings: Any) -> str:
+    """The purpose that `settings` serve, all but what the panel offers; empty if none."""
+    for purpose, *_ in PURPOSES:
+        path = preset_file(purpose)
+        if path is not None and _serve(settings, preset_values(path)):
+            return purpose
+    return ""
+
+
+def _serve(settings: Any, wanted: dict[str, Any]) -> bool:
+    for name in wanted.keys() - OFFERED:
+        value, own = wanted[name], getattr(settings, name)
+        same = isclose(value, own, rel_tol=_DIGITS) if isinstance(value, float) else value == own
+        if not same:
+            return False
+    return True
+
+
+def name_of_purpose(purpose: str) -> str:
+    """`Points (measured)` for POINTS."""
+    return next(name for key, name, *_ in PURPOSES if key == purpose)
 
 
 def stem(purpose: str) -> str:

@@ -20,7 +20,7 @@ FIGURES = (
     "worst_fold_with_sharp",
     "deviation",
     "steps",
-    "decrement",
+    "left",
     "faces",
 )
 

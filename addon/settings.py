@@ -141,7 +141,7 @@ class FairingSettings:
     )
     tension: FloatProperty(
         name="Tension",
-        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell (not with Minimum Variation)",
+        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell (not with Flow Lines)",
         default=0.0,
         min=0.0,
         max=1.0,
@@ -267,7 +267,7 @@ class FairingSettings:
         default=True,
     )
     memory_limit: IntProperty(
-        name="Memory Limit",
+        name="Memory Limit (MB)",
         description="Refuses results that would need more megabytes than this, or if 0 than the preferences allow",
         default=0,
         min=0,

@@ -41,5 +41,5 @@ def count_text(triangles: int) -> str:
 def why_too_large(triangles: int) -> str:
     """A sentence if Blender itself could not hold that many faces; else empty."""
     if 3 * triangles > MOST_CORNERS:
-        return f"{count_text(triangles)} are more than a Blender mesh can hold: use fewer levels"
+        return f"Use fewer levels: {count_text(triangles)} are more than a Blender mesh can hold"
     return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lengths as the scene says them."""
+"""Lengths and curvatures as the scene says them."""
 
 import bpy
 
@@ -14,3 +14,13 @@ def length_text(scene: Scene, length: float, digits: int = 3) -> str:
     return bpy.utils.units.to_string(
         units.system, "LENGTH", length * units.scale_length, precision=digits
     )
+
+
+def curvature_text(scene: Scene, curvature: float, power: int = 1) -> str:
+    """`2.5 /m`: a `curvature`, one over a length in scene units; `power` 2: over its square, `/m²`."""
+    units = scene.unit_settings
+    if units.system == "NONE":
+        return f"{curvature:.3g}"
+    name, metres = ("m", 1.0) if units.system == "METRIC" else ("ft", 0.3048)
+    value = curvature * (metres / units.scale_length) ** power
+    return f"{value:.3g} /{name}{'²' if power == 2 else ''}"

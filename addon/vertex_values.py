@@ -51,8 +51,8 @@ def pulls(source: Object, mesh: Mesh, name: str) -> np.ndarray:
     wrong = np.flatnonzero(~(values >= 0))
     if len(wrong):
         raise JobError(
-            f"{source.name}: the attribute '{name}' is {values[wrong[0]]:g} at vertex {wrong[0]}. "
-            "Pulls are numbers from 0; change it there, or choose another Pull Group."
+            f"{source.name}: Change the attribute '{name}' at vertex {wrong[0]}, or choose another Pull Group. "
+            f"It is {values[wrong[0]]:g} there, and pulls are 0 or more."
         )
     return values
 
@@ -60,8 +60,8 @@ def pulls(source: Object, mesh: Mesh, name: str) -> np.ndarray:
 def _read(source: Object, mesh: Mesh, name: str, field: str) -> np.ndarray:
     if not exists(source, mesh, name):
         raise JobError(
-            f"{source.name}: there is no vertex group and no float attribute on points named '{name}'. "
-            f"Choose another one as {field}, or clear the field."
+            f"{source.name}: Choose another {field}, or clear the field. "
+            f"There is no vertex group and no float attribute on points named '{name}'."
         )
     if name in source.vertex_groups:
         return _group(mesh, source.vertex_groups[name].index)

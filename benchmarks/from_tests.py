@@ -37,6 +37,16 @@ def modelled() -> ModuleType:
     return _beside_own_meshes("modelling_meshes", EXAMPLES)
 
 
+def drawn_panels() -> ModuleType:
+    """examples/panel_meshes.py."""
+    return _beside_own_meshes("panel_meshes", EXAMPLES)
+
+
+def machine_parts() -> ModuleType:
+    """examples/machine_meshes.py."""
+    return _beside_own_meshes("machine_meshes", EXAMPLES)
+
+
 def _beside_own_meshes(name: str, folder: Path) -> ModuleType:
     """The module `name`, to which control_meshes is the one in its own folder."""
     ours = sys.modules.pop("control_meshes", None)

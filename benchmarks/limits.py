@@ -17,7 +17,7 @@ from subdivision import FIGURES, LEVELS, cages, figures
 SETTINGS = {
     "through the cage": {"interpolation": "exact"},
     "limit": {"interpolation": "limit"},
-    "limit, spacing 0.45": {"interpolation": "limit", "metric_exponent": 0.45},
+    "Character": {"interpolation": "limit", "metric_exponent": 0.45, "pad_size": 0.7},
     "limit, pads ½": {"interpolation": "limit", "pad_size": 0.5},
     "limit, total curvature": {"interpolation": "limit", "energy": "total_curvature"},
 }

@@ -7,7 +7,7 @@ raises Missing where its package is not installed and Refused where it cannot ta
 """
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module, metadata
@@ -141,12 +141,21 @@ def modified_butterfly(points: np.ndarray, polygons: list[list[int]], levels: in
     return points, triangles
 
 
-def catmull_clark(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
-    """Blender's Subdivision Surface with its own settings."""
+def catmull_clark(
+    points: np.ndarray,
+    polygons: list[list[int]],
+    levels: int,
+    creases: Sequence[tuple[int, int]] = (),
+) -> Surface:
+    """Blender's Subdivision Surface with its own settings; `creases`: edges that are sharp."""
     bpy = installed("bpy", "bpy")
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     mesh = bpy.data.meshes.new("Control")
     mesh.from_pydata(points.tolist(), [], [list(map(int, p)) for p in polygons])
+    if creases:
+        sharp = {frozenset(edge) for edge in creases}
+        values = [float(frozenset(edge.vertices) in sharp) for edge in mesh.edges]
+        mesh.attributes.new("crease_edge", "FLOAT", "EDGE").data.foreach_set("value", values)
     target = bpy.data.objects.new("Control", mesh)
     bpy.context.scene.collection.objects.link(target)
     modifier = target.modifiers.new("Subdivision", "SUBSURF")

@@ -16,6 +16,7 @@ import cholesky
 import clean_meshes
 import curvature_peaks
 import drag
+import drawn
 import energies
 import exactness
 import fill_lengths
@@ -24,6 +25,7 @@ import fills
 import jobs
 import limits
 import live
+import machine_parts
 import measured_points
 import memory
 import million
@@ -60,6 +62,8 @@ BENCHMARKS = {
     "subdivision": subdivision.run,
     "limits": limits.run,
     "jobs": jobs.run,
+    "drawn": drawn.run,
+    "machine_parts": machine_parts.run,
     "measured_points": measured_points.run,
     "peaks": curvature_peaks.run,
     "pads": pads.run,

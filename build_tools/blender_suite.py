@@ -20,6 +20,7 @@ from stamp import alone
 from tally import Tally, with_exit_code
 
 SCRIPTS = ROOT / "tests" / "blender"
+EXAMPLES = ROOT / "examples"
 SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # what timeout(1) ends with
@@ -122,8 +123,10 @@ def left_to_others(place: str) -> set[str]:
 
 def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     """Every script whose name contains `wanted`, but for some, in one Blender that has the extension."""
-    folder = blender.exchange / "tests"
-    shutil.copytree(SCRIPTS, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    folder = blender.exchange / SCRIPTS.name
+    for scripts in (SCRIPTS, EXAMPLES):  # whose models are tried
+        ignored = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(scripts, blender.exchange / scripts.name, ignore=ignored)
     (blender.exchange / "screenshots").mkdir()
     kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
     scripts = [

@@ -117,6 +117,45 @@ def jobs_table() -> str:
     return table(["job", "model", *tools], rows)
 
 
+DRAWN = {
+    "minimum variation": "minimum variation",
+    "minimum variation, near": "*Near*",
+    "thin plate": "thin plate",
+    "thin plate, limit": "thin plate, *Limit*",
+    "total curvature, limit": "total curvature, *Limit*",
+    "minimum variation, limit": "minimum variation, *Limit*",
+}
+
+
+def drawn_table(job: str) -> str:
+    """Roughness in that of Subdivision Surface, and how much more than the cage surfaces turn."""
+    rows = []
+    for model, found in result("drawn")[job].items():
+        theirs = found["Subdivision Surface"]
+        row = [model, f"{100 * theirs['swing']:.0f} %"]
+        for tool in DRAWN:
+            ratio = found[tool]["roughness"] / theirs["roughness"]
+            row.append(f"{ratio:.2g} · {100 * found[tool]['swing']:.0f} %")
+        rows.append(row)
+    return table(["model", "Subdivision Surface", *DRAWN.values()], rows)
+
+
+def machine_parts_table() -> str:
+    """Distances from parts that are known."""
+    tools = ("Subdivision Surface", "thin_plate", "total_curvature", "minimum_variation")
+    rows = [
+        [
+            part,
+            *(
+                " · ".join(f"{d:.2g}" if d > 1e-3 else "0" for d in found[tool].values())
+                for tool in tools
+            ),
+        ]
+        for part, found in result("machine_parts").items()
+    ]
+    return table(["part", *(tool.replace("_", " ") for tool in tools)], rows)
+
+
 def measured_points_table() -> str:
     """How far surfaces are off a dome whose points were measured."""
     tools = ("through", "Subdivision Surface", "near", "eased")
@@ -285,18 +324,21 @@ SHAPE: dict[str, Callable[[], str]] = {
         "limits",
         [
             ("limit", "thin plate"),
-            ("limit, spacing 0.45", "thin plate, spacing 0.45"),
+            ("Character", "*Character*"),
             ("limit, total curvature", "total curvature"),
         ],
     ),
     "subdivision.curvature": lambda: all_four("subdivision", "total curvature"),
     "limits.plate": lambda: all_four("limits", "limit"),
-    "limits.plate.least": lambda: str(min(smaller("limits", "limit"))),
+    "limits.character": lambda: all_four("limits", "Character"),
     "limits.curvature": lambda: all_four("limits", "limit, total curvature"),
     "limits.plate.seconds": lambda: seconds("limits", "limit"),
     "limits.curvature.seconds": lambda: seconds("limits", "limit, total curvature"),
     "step_distances.table": step_distances_table,
     "jobs.table": jobs_table,
+    "drawn.panels": lambda: drawn_table("panel"),
+    "drawn.hulls": lambda: drawn_table("hull"),
+    "machine_parts.table": machine_parts_table,
     "jobs.panels": lambda: best_of_jobs("panel"),
     "jobs.seconds": lambda: seconds("jobs", "minimum variation"),
     "points.table": measured_points_table,

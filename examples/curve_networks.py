@@ -3,6 +3,8 @@
 
 import numpy as np
 
+POINTS = 7  # of a row or a column
+
 
 def crossing():
     """Three curves over four."""
@@ -13,9 +15,9 @@ def crossing():
 def bonnet():
     """Five sections, of which the third is missing, and three curves along."""
     stations = ((1, -1.2), (2, -0.6), (4, 0.6), (5, 1.2))
-    sections = [_column(f"Section {k}", x, _crown) for k, x in stations]
+    sections = [_column(f"Section {k}", x, crown) for k, x in stations]
     return sections + [
-        _row(name, y, _crown) for name, y in (("Left", -0.8), ("Middle", 0.0), ("Right", 0.8))
+        _row(name, y, crown) for name, y in (("Left", -0.8), ("Middle", 0.0), ("Right", 0.8))
     ]
 
 
@@ -54,16 +56,16 @@ def star():
 
 
 def _row(name, y, height):
-    x = np.linspace(-1.2, 1.2, 9)
-    return name, np.stack([x, np.full(9, y), height(x, y)], axis=1), False
+    x = np.linspace(-1.2, 1.2, POINTS)
+    return name, np.stack([x, np.full(POINTS, y), height(x, y)], axis=1), False
 
 
 def _column(name, x, height):
-    y = np.linspace(-0.8, 0.8, 9)
-    return name, np.stack([np.full(9, x), y, height(x, y)], axis=1), False
+    y = np.linspace(-0.8, 0.8, POINTS)
+    return name, np.stack([np.full(POINTS, x), y, height(x, y)], axis=1), False
 
 
-def _crown(x, y):
+def crown(x, y):
     return 0.4 * (1 - 0.32 * x**2) * (1 - 0.35 * y**2)
 
 

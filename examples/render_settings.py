@@ -64,8 +64,8 @@ FIGURES = {
             *(
                 Variant(name, {"energy": key})
                 for key, name in (
-                    ("THIN_PLATE", "Thin Plate"),
-                    ("TOTAL_CURVATURE", "Total Curvature"),
+                    ("THIN_PLATE", "Bending"),
+                    ("TOTAL_CURVATURE", "Curvature"),
                 )
             ),
         ),

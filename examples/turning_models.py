@@ -15,8 +15,9 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 import control_meshes  # noqa: E402
+from jobs import modelled, subdivided  # noqa: E402
 from quiet import quiet  # noqa: E402
-from render_modelling import MODELS, modelled, subdivided  # noqa: E402
+from render_modelling import MODELS  # noqa: E402
 
 import addon  # noqa: E402
 

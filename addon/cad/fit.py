@@ -20,7 +20,11 @@ from . import colours, words
 from .nurbs import surface_of
 
 _USUAL_LEVELS = 5  # those of the lattice that patches are fitted to, for predictions
-_KINDS = (("UNRESOLVED", "unresolved"), ("PATCH_TOLERANCE", "unmet"))
+_KINDS = (
+    ("UNRESOLVED", "unresolved"),
+    ("PATCH_TOLERANCE", "unmet_by_fit"),
+    ("SURFACE_TOLERANCE", "unmet_by_surface"),
+)
 
 
 class PatchJob(Job):
@@ -44,7 +48,7 @@ class PatchJob(Job):
         self._way_back = self.shape.way_back
         self.placement = np.array(world_matrix(shown), float) @ self._way_back
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
-            raise JobError(f"{self.name}: its scale is 0 along an axis. Give it a thickness.")
+            raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, wanted)
@@ -115,13 +119,13 @@ class PatchJob(Job):
         return cast(list[int], getattr(self.patches, name).tolist())
 
     def warnings(self) -> list[str]:
-        """What is wrong with the patches, a sentence each."""
+        """What to do about the patches, and what is wrong with them, for each kind of fault."""
         return [
             words.together(
                 (
-                    f"{self.name}: {errors.what(defect)}",
+                    f"{self.name}: {errors.remedy(defect['code'])}",
+                    errors.what(defect),
                     f"{words.faces_text(defect['elements'])}.",
-                    errors.remedy(defect["code"]),
                 )
             )
             for defect in self.defects

@@ -43,8 +43,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--ease",
         action="store_true",
-        help="first move the control vertices so that their scatter goes and the shape stays, as much as "
-        "they say themselves [off]",
+        help="first move the vertices so that their scatter goes and the shape stays, as much as they say "
+        "themselves [off]",
     )
     group.add_argument(
         "--ease-tolerance",
@@ -55,8 +55,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--strain",
         metavar="FILE.csv",
-        help="write a table of the control vertices: how far the thin plate would spring away at each, were it "
-        "let go, and with --ease where it has been moved; for several inputs a pattern with {name}",
+        help="write a table of the vertices: how far the surface would spring away at each, were it let go, "
+        "and with --ease where it has been moved; for several inputs a pattern with {name}",
     )
 
 
@@ -143,8 +143,8 @@ def require_one(sources: Sequence[Object], wanted: Wanted) -> None:
     """Raises JobError where a table would have the vertices of several meshes."""
     if wanted.tables is not None and len(sources) > 1:
         raise JobError(
-            f"--strain: the table is of one mesh, and this file has {len(sources)}: "
-            f"{', '.join(source.name for source in sources)}. Give each a file of its own."
+            f"--strain: Give each mesh a file of its own. The table is of one, and this file has {len(sources)}: "
+            f"{', '.join(source.name for source in sources)}."
         )
 
 

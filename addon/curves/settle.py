@@ -10,11 +10,11 @@ import numpy as np
 
 from .. import core
 from ..errors import JobError
-from .cells import Cells, find_cells
+from .cells import Cells, border_arcs, find_cells
 from .control_mesh import ControlMesh, control_mesh
 from .cubics import Curve
 from .network import network
-from .words import none_text, remarks
+from .words import Text, none_text, plain, remarks
 
 # The second moves vertices by a third of what the first has, a third round by a tenth.
 _ROUNDS = 2
@@ -46,26 +46,30 @@ class Covered:
         )
 
 
-def covered(curves: Sequence[Curve], wish: Wish, before: np.ndarray | None = None) -> Covered:
+def covered(
+    curves: Sequence[Curve], wish: Wish, before: np.ndarray | None = None, text: Text = plain
+) -> Covered:
     """The control mesh over the network of `curves`; JobError says why there is none. `before`: the
-    numbers of edges that an earlier one had on its arcs.
+    numbers of edges that an earlier one had on its arcs. `text` says lengths.
     """
     curves = [curve for curve in curves if len(curve.pieces)]
     if not curves:
-        raise JobError("There is no curve with two points. Draw some first.")
+        raise JobError("Draw curves that cross each other first. There is none with two points.")
     for curve in curves:
         if not np.isfinite(curve.pieces).all():
-            raise JobError(f"'{curve.name}' has a point without a proper position. Delete it.")
+            raise JobError(f"Delete the point of '{curve.name}' that has no proper position.")
     found = find_cells(network(curves, wish.snap), wish.closed)
     if not found.cells:
-        raise JobError(none_text(found.network))
+        raise JobError(none_text(found.network, text))
     mesh = control_mesh(found, wish.per_side, before)
     if len(mesh.faces) > MOST_FACES:
         raise JobError(
-            f"The control mesh would have {len(mesh.faces):,} faces. Lower Edges per Side, or leave "
-            "out very short or very long curves."
+            "Lower Edges per Side, or leave out very short or very long curves. The control mesh would "
+            f"have {len(mesh.faces):,} faces."
         )
-    return Covered(_settled(mesh), found, remarks(found.network))
+    mesh = _settled(mesh)
+    mesh = replace(mesh, held=mesh.held | _in_caps(mesh, found))
+    return Covered(mesh, found, remarks(found.network, text))
 
 
 def _settled(mesh: ControlMesh) -> ControlMesh:
@@ -90,6 +94,21 @@ def _settled(mesh: ControlMesh) -> ControlMesh:
             break
         points = np.where(mesh.held[:, None], mesh.points, surface.vertices[: len(points)])
     return replace(mesh, points=points)
+
+
+def _in_caps(mesh: ControlMesh, found: Cells) -> np.ndarray:
+    """(n,) bool: in cells whose rim has no corner and goes on into other cells, such as the closed
+    end of a tube. They stay where least bending has taken them: other energies swell them.
+    """
+    borders = border_arcs(found.cells, found.network.arcs)
+    caps = [
+        k
+        for k, cell in enumerate(found.cells)
+        if len(cell.sides) == 1 and borders.isdisjoint(half // 2 for half in cell.halves)
+    ]
+    inside = np.zeros(len(mesh.points), bool)
+    inside[mesh.faces[np.isin(mesh.cell_of_face, caps)]] = True
+    return inside
 
 
 def _count(number: int, what: str) -> str:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What of the curves did not take part, and where: a sentence each, the cure in it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -9,45 +9,52 @@ from .crossings import Meeting
 from .cubics import Curve, points_at
 from .network import Loose, Network
 
+Text = Callable[[float], str]  # a length in scene units, as the scene says it
+
 _SHOWN = 8
 
 
-def place_text(place: np.ndarray) -> str:
-    return "({:.4g}, {:.4g}, {:.4g})".format(*(0.0 if abs(x) < 1e-9 else x for x in place.tolist()))
+def plain(length: float) -> str:
+    """Where nobody knows of a scene."""
+    return f"{length:.4g}"
 
 
-def remarks(network: Network) -> list[str]:
+def place_text(place: np.ndarray, text: Text) -> str:
+    return f"({', '.join(text(0.0 if abs(x) < 1e-9 else x) for x in place.tolist())})"
+
+
+def remarks(network: Network, text: Text = plain) -> list[str]:
     """On loose ends and near misses, and curves without any part in the surface."""
     used = {arc.curve for arc in network.arcs}
-    said = [_miss(network, miss) for miss in network.misses]
+    said = [_miss(network, miss, text) for miss in network.misses]
     for i, curve in enumerate(network.curves):
         if i not in used:
             said.append(
-                f"'{curve.name}' encloses nothing, and was left out. {_nearest(network.curves, i, None)}"
+                f"'{curve.name}' encloses nothing, and was left out. {_nearest(network.curves, i, None, text)}"
             )
-    said += [_loose(network, one) for one in network.loose if one.curve in used]
+    said += [_loose(network, one, text) for one in network.loose if one.curve in used]
     if len(said) > _SHOWN:
         said[_SHOWN:] = [f"So are {len(said) - _SHOWN} other places."]
     return said
 
 
-def _miss(network: Network, miss: Meeting) -> str:
+def _miss(network: Network, miss: Meeting, text: Text) -> str:
     first, second = (network.curves[i].name for i in (miss.a, miss.b))
     return (
-        f"'{first}' misses '{second}' by {miss.distance:.3g} near {place_text(miss.place)}: "
-        f"move one of them, or raise Snap to {1.05 * miss.distance:.2g}."
+        f"'{first}' misses '{second}' by {text(miss.distance)} near {place_text(miss.place, text)}: "
+        f"move one of them, or raise Snap to {text(1.05 * miss.distance)}."
     )
 
 
-def _loose(network: Network, one: Loose) -> str:
+def _loose(network: Network, one: Loose, text: Text) -> str:
     name = network.curves[one.curve].name
     return (
-        f"'{name}' ends loose at {place_text(one.place)}: {one.length:.3g} of it was left out. "
-        f"{_nearest(network.curves, one.curve, one.place)}"
+        f"'{name}' ends loose at {place_text(one.place, text)}: {text(one.length)} of it was left out. "
+        f"{_nearest(network.curves, one.curve, one.place, text)}"
     )
 
 
-def _nearest(curves: Sequence[Curve], i: int, place: np.ndarray | None) -> str:
+def _nearest(curves: Sequence[Curve], i: int, place: np.ndarray | None, text: Text) -> str:
     """What is next to a place, or to the ends of a curve."""
     others = [(k, _samples(curve)) for k, curve in enumerate(curves) if k != i]
     if not others:
@@ -58,17 +65,19 @@ def _nearest(curves: Sequence[Curve], i: int, place: np.ndarray | None) -> str:
         for k, points in others
         for end in ends
     )
-    return f"'{curves[k].name}' is {gap:.3g} away from its end: extend it to there, or shorten it."
+    return (
+        f"'{curves[k].name}' is {text(gap)} away from its end: extend it to there, or shorten it."
+    )
 
 
 def _samples(curve: Curve) -> np.ndarray:
     return points_at(curve.pieces, np.linspace(0.0, curve.end, 8 * len(curve.pieces) + 1))
 
 
-def none_text(network: Network) -> str:
-    """Why there is no surface."""
-    said = remarks(network)
-    start = "The curves enclose nothing: "
+def none_text(network: Network, text: Text = plain) -> str:
+    """Why there is no surface, after what to do."""
+    said = remarks(network, text)
+    start = "Draw curves across one another, whose ends lie on others: these enclose nothing. "
     if not network.crossings and len(network.curves) > 1:
-        start += f"no two of them come nearer to each other than {network.tolerance:.3g} (Snap). "
-    return start + (" ".join(said) or "Draw curves across them, whose ends lie on the others.")
+        start += f"No two of them come nearer to each other than {text(network.tolerance)} (Snap). "
+    return (start + " ".join(said)).strip()

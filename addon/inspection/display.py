@@ -5,11 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from ..blender import Context, Mesh, Object, all_objects, current_context
+from ..blender import Context, Mesh, Object, Scene, all_objects, current_context
 from ..memory import source_of
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import world_shape
 from ..settings import is_evaluated
+from ..units import curvature_text, length_text
 from . import deviation, measures, viewport_material
 from .curvature import curvature
 from .materials import COLOUR, CURVATURE_MODE, curvature_material, stripes_material
@@ -35,7 +37,7 @@ def write_values(target: Object, mode: str, settings: Any) -> None:
         _write_deviation(current_context(), target, settings.deviation_object)
         return
     mesh = target.data
-    bent = curvature(read_mesh(mesh))
+    bent = curvature(world_shape(target).of_arrays(read_mesh(mesh)))
     for name, values in zip(CURVATURES.values(), (bent.mean, bent.gauss, bent.total), strict=True):
         fill_layer(make_layer(mesh, name, "FLOAT", "POINT"), values)
     fill_layer(make_layer(mesh, INNER, "BOOLEAN", "POINT"), bent.inner)
@@ -104,6 +106,13 @@ def legend(mesh: Mesh) -> tuple[float, ...] | None:
     """(lowest, highest) of the measures, or None."""
     known = mesh.discrete_fairing
     return tuple(known.curvature_range) if known.is_property_set("curvature_range") else None
+
+
+def value_text(scene: Scene, mode: str, value: float) -> str:
+    """A number of `mode`, one of VALUES, with its unit."""
+    if mode == "DEVIATION":
+        return length_text(scene, value)
+    return curvature_text(scene, value, 1 if mode == "MEAN" else 2)
 
 
 def _remember_active(mesh: Mesh) -> None:

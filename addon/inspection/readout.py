@@ -4,27 +4,29 @@
 Kept with the object.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from .. import core, memory
-from ..blender import Context, Object
+from ..blender import Context, Object, Scene
 from ..mesh import mesh_changes
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import world_shape
+from ..units import curvature_text, length_text
 from .measures import largest_deviation, measure
 
-# (label, key, how to write it). Curvature is one over a length: no unit fits all scenes, so none is
-# shown
-ROWS = (
-    ("Total curvature", "total_curvature", "{:.4g}"),
-    ("Largest curvature", "largest_curvature", "{:.3g}"),
-    ("98 % lie below", "curvature_98", "{:.3g}"),
+# (label, key, how to write it: a format, or what knows the units of a scene)
+ROWS: tuple[tuple[str, str, str | Callable[[Scene, float], str]], ...] = (
+    ("Total curvature", "total_curvature", "{:.4g}"),  # has no unit
+    ("Largest curvature", "largest_curvature", curvature_text),
+    ("98 % lie below", "curvature_98", curvature_text),
     ("Worst fold", "worst_fold", "{:.2f}°"),
     ("… sharp ones too", "worst_fold_with_sharp", "{:.2f}°"),
-    ("Off the vertices", "deviation", "{:.3g}"),
+    ("Off the vertices", "deviation", length_text),
     ("Steps", "steps", "{}"),
-    ("Last decrement", "decrement", "{:.1e}"),
+    ("Left to gain", "left", "{:.2g} %"),
     ("Faces", "faces", "{:,}"),
 )
 _FORMS = {key: form for _, key, form in ROWS}
@@ -41,17 +43,20 @@ def take(context: Context, target: Object, source: Object | None = None) -> dict
     remembers and returns both.
 
     {"after": numbers, "before": numbers or None}; see measures.measure, with `deviation` where
-    known, and what the core has reported: steps and their last decrement.
+    known, and what the core has reported: steps, and what one more might gain, in percent.
     """
     after, positions = _measured(context, target)
     before = None
     report = memory.recall(target, "report") or {}
-    after |= {"steps": core.step_count(report), "decrement": core.last_decrement(report)}
+    last = core.last_decrement(report)
+    left = None if last is None else 100.0 * last**2
+    after |= {"steps": core.step_count(report), "left": left}
     if source is not None:
         before, control = _measured(context, source)
         # on its few vertices a coarse mesh always looks calmer than it is
         before |= dict.fromkeys(_OF_SURFACES)
-        after["deviation"] = largest_deviation(control, positions)
+        shape = world_shape(target)
+        after["deviation"] = largest_deviation(shape.of(control), shape.of(positions))
     record = {"after": after, "before": before, "counts": mesh_changes.watch(context, target.data)}
     memory.keep(target, "readout", record)
     return record
@@ -62,20 +67,25 @@ def is_stale(target: Object, record: dict[str, Any]) -> bool:
     return mesh_changes.is_stale(target.data, record["counts"])
 
 
-def table(record: dict[str, Any]) -> list[tuple[str, str, str]]:
+def table(record: dict[str, Any], scene: Scene) -> list[tuple[str, str, str]]:
     """Rows (label, before, after) of texts; lines that nobody knows anything about are left out."""
     before = dict(record["before"] or {}) | dict.fromkeys(_OF_SURFACES)  # older files have them
-    rows = [(label, text(before, key), text(record["after"], key)) for label, key, _ in ROWS]
+    rows = [
+        (label, text(before, key, scene), text(record["after"], key, scene))
+        for label, key, _ in ROWS
+    ]
     return [row for row in rows if row[1] or row[2]]
 
 
 def _measured(context: Context, target: Object) -> tuple[dict[str, Any], np.ndarray]:
     with control_mesh(context, target) as mesh:
         arrays = read_mesh(mesh)
-    return measure(arrays), arrays.positions
+    return measure(world_shape(target).of_arrays(arrays)), arrays.positions
 
 
-def text(figures: dict[str, Any], key: str) -> str:
+def text(figures: dict[str, Any], key: str, scene: Scene) -> str:
     """One of the ROWS as it is shown; empty where nobody knows it."""
-    value = figures.get(key)
-    return "" if value is None else _FORMS[key].format(value)
+    value, form = figures.get(key), _FORMS[key]
+    if value is None:
+        return ""
+    return form.format(value) if isinstance(form, str) else form(scene, value)

@@ -58,7 +58,7 @@ MODES = (
     (
         "DEVIATION",
         "Deviation",
-        "How far the surface is from its control vertices or from another object: outside (red), "
+        "How far the surface is from the vertices of its source or from another object: outside (red), "
         "inside (blue)",
         "DRIVER_DISTANCE",
         7,
@@ -231,7 +231,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     deviation_object: PointerProperty(
         name="Measured from",
-        description="The mesh object that distances are measured from, or the control vertices if there is none",
+        description="The mesh object that distances are measured from, or the vertices of the source if there is none",
         type=bpy.types.Object,
         poll=_is_mesh,
         update=_deviation_changed,
@@ -264,8 +264,8 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         update=_lines_changed,
     )
     comb_scale: FloatProperty(
-        name="Comb Length",
-        description="How long the teeth are",
+        name="Comb Scale",
+        description="How many times longer the teeth are than usual",
         default=1.0,
         min=0.0,
         soft_max=5.0,

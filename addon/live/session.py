@@ -340,7 +340,7 @@ class Session:
         """What is less than chosen during edits, a line each."""
         if self._settings is None or not self.updates:
             return []
-        less = ["Thin Plate while editing"] if self._pace.is_plain else []
+        less = ["Bending while editing"] if self._pace.is_plain else []
         if self._level < self._chosen:
             less.append(f"Level {self._level} instead of {self._chosen}, to keep up")
         return less

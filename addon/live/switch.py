@@ -26,9 +26,9 @@ def poll_reason(target: Object) -> str:
     if source is None:
         return no_source_reason(target)
     if any(block.library or block.override_library for block in (target, target.data)):
-        return "A linked object cannot be changed"
+        return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
     if any(block.library for block in (source, source.data)):
-        return "The source is linked from another file: nothing can be edited here"
+        return "Make the source local first (Object > Relations > Make Local): it is linked from another file"
     return ""
 
 

@@ -92,8 +92,8 @@ def _of_update(source: Object, depsgraph: bpy.types.Depsgraph) -> Object:
     """`source` as `depsgraph` has it, with its modifiers applied; JobError if it has not."""
     if not source.visible_get(view_layer=depsgraph.view_layer):
         raise JobError(
-            f"{source.name}: it is hidden, so Blender does not run its modifiers. Show it, "
-            "or set Control Mesh to As Modelled."
+            f"{source.name}: Show it, or set Control Mesh to As Modelled. It is hidden, so Blender "
+            "does not run its modifiers."
         )
     return source.evaluated_get(depsgraph)
 
@@ -154,8 +154,8 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
     found = np.flatnonzero(selected & ~hidden).astype(np.int32)
     if not len(found):
         raise JobError(
-            f"{source_name}: no face is selected. Select the faces to fair in Edit Mode, "
-            "or switch off Selected Faces Only."
+            f"{source_name}: Select the faces to fair in Edit Mode, or switch off Selected Faces Only. "
+            "No face is selected."
         )
     return found
 

@@ -20,7 +20,7 @@ class _OfEdges(ExplainedPoll):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        return edit_mode_reason(context, "Border edges")
+        return edit_mode_reason(context, "border edges")
 
 
 class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
@@ -38,7 +38,9 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
         meshes = [o.data for o in context.objects_in_mode_unique_data]
         count = sum(mark_selected(mesh, self.boundary) for mesh in meshes)
         if not count:
-            self.report({"ERROR"}, "No border edge is selected. Select edges that have one face")
+            self.report(
+                {"ERROR"}, "Select edges at an open border: no edge with a single face is selected"
+            )
             return {"CANCELLED"}
         edges = "1 border edge" if count == 1 else f"{count} border edges"
         self.report({"INFO"}, f"{edges}: {_NAMES[self.boundary]}")

@@ -17,7 +17,7 @@ class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
 
     @staticmethod
     def poll_reason(_context: Context) -> str:
-        return "" if running() is not None else "Nothing is being faired"
+        return "" if running() is not None else "Nothing to cancel: no surface is being faired"
 
     def execute(self, _context: Context) -> Answer:
         queue = running()

@@ -29,7 +29,7 @@ def poll_reason(context: Context) -> str:
     if core.why_missing():
         return core.why_missing()
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Check Mesh works in Object Mode and Edit Mode"
+        return "Go to Object Mode or Edit Mode first"
     return mesh_poll_reason(source_objects(context))
 
 

@@ -23,10 +23,10 @@ _GAP = 1.15  # from one to the next, in widths of the source
 
 
 class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
-    """Make the surfaces of all energies with the settings of the panel, in a row beside this mesh, and measure them"""
+    """Make a surface by each kind of fairness with the settings of the panel, in a row beside this mesh, and measure them"""
 
     bl_idname = "object.fairing_compare"
-    bl_label = "Compare Energies"
+    bl_label = "Compare Fairness"
     bl_options = {"REGISTER", "UNDO"}
 
     @staticmethod

@@ -65,7 +65,7 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
     @staticmethod
     def poll_reason(context: Context) -> str:
         if context.mode != "OBJECT":
-            return "Surfaces from curves are made in Object Mode: press Tab first"
+            return "Press Tab first: surfaces from curves are made in Object Mode"
         if poll_reason(context):
             return poll_reason(context)
         return "" if curve_objects(context) else "Select curves that cross each other first"

@@ -116,7 +116,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         if poll_reason(context):
             return poll_reason(context)
         if context.mode != "OBJECT":
-            return "Easing the control mesh works in Object Mode: press Tab. In Edit Mode there is Ease Selected"
+            return "Press Tab first, or take Ease Selected: the whole control mesh is eased in Object Mode"
         return mesh_poll_reason(sources_at_hand(context))
 
     def draw(self, _context: Context) -> None:
@@ -163,7 +163,7 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        return poll_reason(context) or edit_mode_reason(context, "Vertices")
+        return poll_reason(context) or edit_mode_reason(context, "vertices")
 
     def make_jobs(self, context: Context) -> list[Any]:
         return [EaseSelectedJob(context, source, self.factor) for source in source_objects(context)]

@@ -33,9 +33,9 @@ def poll_reason(context: Context) -> str:
         return core.why_missing()
     queue = running()
     if queue is not None and not queue.gives_way:
-        return "A surface is being faired at this moment"
+        return "Wait, or press ESC: a surface is being faired at this moment"
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Fairing works in Object Mode and Edit Mode"
+        return "Go to Object Mode or Edit Mode first"
     return ""
 
 
@@ -126,7 +126,7 @@ class Fairing(ExplainedPoll, ModalRun):
         if gone:
             self.report(
                 {"ERROR"},
-                f"{', '.join(gone)} was deleted or undone during the run: nothing has been made.",
+                f"Fair once more: {', '.join(gone)} was deleted or undone during the run, and nothing has been made.",
             )
             return {"CANCELLED"}
         if context.mode != "OBJECT":  # whatever the user has begun meanwhile
@@ -232,7 +232,7 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
         if not targets:
             return no_source_reason(context.active_object)
         if any(target.data.library or target.library for target in targets):
-            return "A linked object cannot be changed"
+            return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
         return ""
 
     def make_jobs(self, context: Context) -> list[Job]:
@@ -249,7 +249,7 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
     @staticmethod
     def poll_reason(context: Context) -> str:
         stale = next(stale_surfaces(), None)
-        return poll_reason(context) or ("" if stale else "No surface is out of date")
+        return poll_reason(context) or ("" if stale else "Nothing to do: no surface is out of date")
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [_again(context, target) for target in stale_surfaces()]
@@ -271,7 +271,7 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         if source is None:
             return no_source_reason(active)
         if context.view_layer.objects.get(source.name) != source:
-            return f"'{source.name}' is not in this view layer"
+            return f"Link '{source.name}' to this scene first: it is not in this view layer"
         return ""
 
     def execute(self, context: Context) -> Answer:

@@ -27,7 +27,7 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
         if active is None or active.type != "MESH":
             return "Select a faired surface first"
         if not any(name in active.data.attributes for name in FAULTS.values()):
-            return "Nothing was found wrong with this surface"
+            return "Nothing to do: nothing was found wrong with this surface"
         return mesh_poll_reason([active])
 
     def execute(self, context: Context) -> Answer:

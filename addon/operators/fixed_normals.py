@@ -25,7 +25,7 @@ class _OfVertices(ExplainedPoll):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        return edit_mode_reason(context, "Vertices")
+        return edit_mode_reason(context, "vertices")
 
 
 class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
@@ -52,7 +52,7 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
             axis = _z_axis(empties[0])
             count = sum(fixed_normals.fix_along(source, axis) for source in sources)
         if not count:
-            self.report({"ERROR"}, "No vertex with faces is selected")
+            self.report({"ERROR"}, "Select a vertex with faces first")
             return {"CANCELLED"}
         self.report({"INFO"}, "1 normal fixed" if count == 1 else f"{count} normals fixed")
         return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Selected Faces in Place: the mesh in Edit Mode itself, by request and with undo."""
+"""Fair Selected Faces in Place, and Fair Scan in Place: meshes themselves, by request and with undo."""
 
 from collections.abc import Sequence
 from typing import Any, cast
@@ -11,6 +11,8 @@ from .. import in_place
 from ..blender import Answer, Context, Object, registration
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
+from ..mesh.read import source_objects
+from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
 
 
@@ -23,12 +25,22 @@ def _joints() -> tuple[tuple[str, str, str], ...]:
     return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
 
 
-class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
-    """Fair the selected faces of this mesh itself: move their vertices, or refine them too, and nothing around"""
+VERTICES = (
+    (
+        "FREE",
+        "Free",
+        "They go to where the surface is fairest, wherever they were: for bumps and holes",
+    ),
+    (
+        "MEASURED",
+        "Measured",
+        "They are data with noise: the surface passes near them, and they move to it, but for edges marked sharp",
+    ),
+)
 
-    bl_idname = "object.fairing_in_place"
-    bl_label = "Fair Selected Faces in Place"
-    bl_options = {"REGISTER", "UNDO"}
+
+class InPlace(WholeFairing):
+    """What faces of the meshes themselves are faired with."""
 
     levels: IntProperty(
         name="Levels",
@@ -60,18 +72,7 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
     vertices: EnumProperty(
         name="Vertices",
         description="What the vertices inside of the selection are",
-        items=(
-            (
-                "FREE",
-                "Free",
-                "They go to where the surface is fairest, wherever they were: for bumps and holes",
-            ),
-            (
-                "MEASURED",
-                "Measured",
-                "They are data with noise: the surface passes near them, and they move to it, but for edges marked sharp",
-            ),
-        ),
+        items=VERTICES,
     )
     noise: FloatProperty(
         name="Noise",
@@ -96,14 +97,6 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
         max=1.0,
         subtype="FACTOR",
     )
-
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        if context.mode != "EDIT_MESH":
-            return "Fairing in place works on the selected faces in Edit Mode: press Tab first"
-        return ""
 
     def draw(self, _context: Context) -> None:
         layout = cast(bpy.types.UILayout, self.layout)
@@ -136,10 +129,13 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
             self.noise,
         )
         settings = context.scene.discrete_fairing
-        objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
-        if not objects:
-            raise JobError("No face is selected. Select the faces to fair.")
-        return [in_place.InPlaceJob(context, target, settings, wish) for target in objects]
+        return [
+            in_place.InPlaceJob(context, target, settings, wish) for target in self.targets(context)
+        ]
+
+    def targets(self, context: Context) -> list[Object]:
+        """Whose faces; raises JobError."""
+        raise NotImplementedError
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         """Changes the meshes, if nobody else has meanwhile."""
@@ -157,9 +153,64 @@ class OBJECT_OT_fairing_in_place(WholeFairing, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
+    """Fair the selected faces of this mesh itself: move their vertices, or refine them too, and nothing around"""
+
+    bl_idname = "object.fairing_in_place"
+    bl_label = "Fair Selected Faces in Place"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if poll_reason(context):
+            return poll_reason(context)
+        if context.mode != "EDIT_MESH":
+            return "Press Tab first, and select faces: those of the mesh in Edit Mode are faired"
+        return ""
+
+    def targets(self, context: Context) -> list[Object]:
+        objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
+        if not objects:
+            raise JobError("Select the faces to fair: no face is selected.")
+        return objects
+
+
+class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
+    """Take the noise off the selected meshes themselves, of all their faces but edges marked sharp"""
+
+    bl_idname = "object.fairing_scan"
+    bl_label = "Fair Scan in Place"
+    bl_options = {"REGISTER", "UNDO"}
+
+    vertices: EnumProperty(
+        name="Vertices",
+        description="What the vertices of the scan are",
+        items=VERTICES,
+        default="MEASURED",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if poll_reason(context):
+            return poll_reason(context)
+        if context.mode != "OBJECT":
+            return "Press Tab first: whole meshes are faired in Object Mode"
+        return mesh_poll_reason(source_objects(context))
+
+    def targets(self, context: Context) -> list[Object]:
+        objects = list({o.data: o for o in source_objects(context)}.values())
+        for target in objects:
+            if target.data.shape_keys:
+                raise JobError(
+                    f"{target.name}: Press Tab, select all, and take Fair Selected Faces in Place. In Object "
+                    "Mode a mesh with shape keys stays as it is."
+                )
+        return objects
+
+
 def _has_selection(target: Object) -> bool:
     target.update_from_editmode()
     return target.data.total_face_sel > 0
 
 
-register, unregister = registration(OBJECT_OT_fairing_in_place)
+register, unregister = registration(OBJECT_OT_fairing_in_place, OBJECT_OT_fairing_scan)

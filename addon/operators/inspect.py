@@ -24,7 +24,7 @@ def meshes(context: Context) -> list[Object]:
 def poll_reason(context: Context) -> str:
     """Why nothing can be shown or measured here, in one sentence; empty when it can."""
     if context.mode != "OBJECT":
-        return "Inspecting works in Object Mode: press Tab first"
+        return "Press Tab first: this works in Object Mode"
     return mesh_poll_reason(meshes(context))
 
 
@@ -49,7 +49,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     @staticmethod
     def poll_reason(context: Context) -> str:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return "Inspecting works in Object Mode and Edit Mode"
+            return "Go to Object Mode or Edit Mode first"
         return mesh_poll_reason(meshes(context))
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
@@ -63,9 +63,11 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
         for target in meshes(context):
             target.discrete_fairing_inspection.mode = self.mode
         if self.mode in VALUES and context.mode == "EDIT_MESH":
-            self.report({"INFO"}, "Colours are measured in Object Mode: press Tab, then Refresh")
+            self.report({"INFO"}, "Press Tab, then Refresh: colours are measured in Object Mode")
         elif self.mode == "DEVIATION" and not _has_reference(context):
-            self.report({"WARNING"}, "No control vertices: choose an object under Measured from")
+            self.report(
+                {"WARNING"}, "Choose an object under Measured From: this mesh was made from none"
+            )
         return {"FINISHED"}
 
 
@@ -117,7 +119,9 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
     @staticmethod
     def poll_reason(context: Context) -> str:
         space = context.space_data
-        return "" if space is not None and space.type == "VIEW_3D" else "Only in a 3D viewport"
+        return (
+            "" if space is not None and space.type == "VIEW_3D" else "Point at a 3D viewport first"
+        )
 
     def execute(self, context: Context) -> Answer:
         viewport_shading.switch(cast(Any, context.space_data), self.shading)

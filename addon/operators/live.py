@@ -38,7 +38,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         if core.why_missing():
             return core.why_missing()
         if context.mode not in _MODES:
-            return "Live works in Object Mode, Edit Mode and Sculpt Mode"
+            return "Go to Object Mode, Edit Mode or Sculpt Mode first"
         active = context.active_object
         if active is None or active.type != "MESH":
             return "Select a mesh object first"

@@ -7,6 +7,7 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, registration
+from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..purposes import EASED_FIRST, PURPOSES, preset_file
 from ..ui.main import fairing_operator, remembered, settings_at_hand
@@ -28,9 +29,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        active = context.active_object
-        mesh = active is not None and active.type == "MESH"
-        return poll_reason(context) or ("" if mesh else "Select a mesh object first")
+        return poll_reason(context) or (
+            "" if source_objects(context) else "Select a mesh object first"
+        )
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
         return self._run_or_say(context, "INVOKE_DEFAULT")
@@ -40,12 +41,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
 
     def _run_or_say(self, context: Context, how: str) -> Answer:
         """What an operator within this one reports as an error is an exception here, and would be shown as one."""
-        had_object_mode = context.mode == "OBJECT"
         try:
             return self._run(context, how)
         except RuntimeError as error:
-            if had_object_mode and context.mode != "OBJECT":
-                bpy.ops.object.mode_set(mode="OBJECT")
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
 
@@ -53,10 +51,8 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         operators: Any = bpy.ops.object
         path = preset_file(self.purpose)
         if path is None:
-            if context.mode == "OBJECT":  # a whole scan
-                operators.mode_set(mode="EDIT")
-                bpy.ops.mesh.reveal(select=False)
-                bpy.ops.mesh.select_all(action="SELECT")
+            if context.mode == "OBJECT":
+                return operators.fairing_scan(how)
             return operators.fairing_in_place(how, vertices="MEASURED", levels=0)
         operators.fairing_preset_apply(filepath=str(path))
         if self.purpose in EASED_FIRST:

@@ -74,8 +74,8 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.ty
             names = ", ".join(job.name for job in faulty)
             self.report(
                 {"ERROR"},
-                f"Nothing was written: the surface of {names} folds or turns too sharply for patches. "
-                "Check in the panel of its source selects the faces; Write Faulty Faces writes them red.",
+                f"Smooth the faces that Check lists in the panel of the source, or take Write Faulty Faces. "
+                f"Nothing was written: the surface of {names} folds or turns too sharply for patches.",
             )
             return {"CANCELLED"}
         scale = scale_to(self.unit, context.scene)
@@ -83,7 +83,10 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.ty
         try:
             write_jobs(path, jobs, self.unit, scale)
         except OSError as error:
-            self.report({"ERROR"}, f"{path} cannot be written: {error.strerror or error}.")
+            self.report(
+                {"ERROR"},
+                f"Choose another file: {path} cannot be written ({error.strerror or error}).",
+            )
             return {"CANCELLED"}
         self.report({"INFO"}, summary(jobs, self.unit, scale))
         return {"FINISHED"}

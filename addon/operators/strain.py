@@ -47,7 +47,7 @@ class _Straining(WholeFairing):
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         for job in jobs:
             if job.reference.find() is None:
-                self.report({"ERROR"}, f"{job.name} was deleted during the run")
+                self.report({"ERROR"}, f"Select once more: {job.name} was deleted during the run")
                 return {"CANCELLED"}
             known.keep(job)
         return self.use(context, list(jobs))
@@ -153,7 +153,9 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         source = cast(Object, source_at_hand(context))
         if not select_defects(context, source, "vertex", [self.vertex]):
-            self.report({"ERROR"}, f"{source.name} has no vertex {self.vertex}")
+            self.report(
+                {"ERROR"}, f"Choose another vertex: {source.name} has no vertex {self.vertex}"
+            )
             return {"CANCELLED"}
         space = cast(Any, context.space_data)
         strained = known.found_of(source)
@@ -182,7 +184,10 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
         (job,) = jobs
         source = job.reference.find()
         if source is None:
-            self.report({"ERROR"}, f"{job.name} was deleted during the run: nothing was written")
+            self.report(
+                {"ERROR"},
+                f"Write it once more: {job.name} was deleted during the run, and nothing was written",
+            )
             return {"CANCELLED"}
         matrix = np.array(world_matrix(source))
 
@@ -202,7 +207,10 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
             with core.module().whole_files.whole_file(path) as part:
                 part.write_text(written, encoding="ascii", newline="")
         except OSError as error:
-            self.report({"ERROR"}, f"{path} cannot be written: {error.strerror or error}.")
+            self.report(
+                {"ERROR"},
+                f"Choose another file: {path} cannot be written ({error.strerror or error}).",
+            )
             return {"CANCELLED"}
         self.report({"INFO"}, f"{words.count(len(job.result.positions))} written to {path}")
         return {"FINISHED"}

@@ -21,7 +21,7 @@ from ..preferences import preferences
 from ..settings import halves
 from . import words
 from .measure import plate_settings, settings_for
-from .strained import floor_of, out_of_line
+from .strained import above
 
 _LEVELS = 2  # that the core computes on
 
@@ -89,14 +89,14 @@ class _Moving:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
         source = self.reference.find()
         if source is None:
-            return f"{self.name} was deleted or undone during the run: nothing has changed."
+            return f"Ease once more: {self.name} was deleted or undone during the run, and nothing has changed."
         with control_mesh(context, source) as mesh:
             now = read_mesh(mesh)
         if core.same_faces(now, self.arrays) and np.array_equal(
             now.positions, self.arrays.positions
         ):
             return ""
-        return f"{self.name} was edited during the run: nothing has changed. Ease it once more."
+        return f"Ease once more: {self.name} was edited during the run, and nothing has changed."
 
     def note(self) -> None:
         """For predictions, on the main thread."""
@@ -112,13 +112,13 @@ class EaseJob(_Moving):
         self._wish = wish
         if wish.use_selection and not self.selected.any():
             raise JobError(
-                f"{self.name}: no vertex is selected. Select the vertices that may move in Edit Mode, "
-                "or switch off Selected Vertices Only."
+                f"{self.name}: Select the vertices that may move in Edit Mode, or switch off Selected "
+                "Vertices Only. No vertex is selected."
             )
         keys = source.data.shape_keys
         if keys is not None and not keys.use_relative:
             raise JobError(
-                f"{self.name} has absolute shape keys, which are not mixed. Ease a copy."
+                f"{self.name}: Ease a copy. It has absolute shape keys, which are not mixed."
             )
 
     def _run(self, watchers: dict[str, Any]) -> Any:
@@ -142,8 +142,8 @@ class EaseJob(_Moving):
             return words.moved(self.moves, text)
         if wish.amount == "TOLERANCE":
             return words.moved_within(self.moves, wish.tolerance, before, text)
-        wrong = out_of_line(before, self.arrays.edges)
-        return words.eased(eased.noise, self.moves, before, wrong, floor_of(before), text)
+        wrong = above(before, eased.floor)
+        return words.eased(eased.noise, self.moves, before, wrong, eased.floor, text)
 
     def write_key(self) -> None:
         """As a shape key of the source, whose mesh stays, and so of its live surfaces."""
@@ -179,11 +179,11 @@ class EaseSelectedJob(_Moving):
         self._free = self.selected & _inner(self.arrays)
         if not self._free.any():
             raise JobError(
-                f"{self.name}: no vertex inside of the mesh is selected. Those on open borders stay."
+                f"{self.name}: Select vertices inside of the mesh. Those on open borders stay."
             )
         if floats(self.arrays, self._free):
             raise JobError(
-                f"{self.name}: a part is selected whole, so nothing holds it. Leave out some of its vertices."
+                f"{self.name}: Leave out some vertices of each part. One is selected whole, so nothing holds it."
             )
 
     def _run(self, watchers: dict[str, Any]) -> Any:
@@ -197,7 +197,7 @@ class EaseSelectedJob(_Moving):
     def why_outdated(self, context: Context) -> str:
         source = self.reference.find()
         if source is not None and source.mode != "EDIT":
-            return f"{self.name} left Edit Mode during the run: nothing has changed."
+            return f"Ease once more: {self.name} left Edit Mode during the run, and nothing has changed."
         return super().why_outdated(context)
 
     def said(self, text: words.Text) -> str:

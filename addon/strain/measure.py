@@ -61,7 +61,6 @@ class StrainJob:
                 self.positions = _as_mixed(source, mesh, arrays.positions)
         self._shape = world_shape(source)
         world = self._shape.of_arrays(replace(arrays, positions=self.positions))
-        self._edges = arrays.edges
         self._edge_length = core.mean_edge_length(world)
         self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
         coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
@@ -90,7 +89,7 @@ class StrainJob:
             found = core.module().strain(**self.arguments, **watchers)
         back = self._shape.way_back[:3, :3]
         self.result = Strained(
-            self.positions, found.ways @ back, found.lengths, self._edges, self._edge_length
+            self.positions, found.excess_ways @ back, found.excess, found.floor, self._edge_length
         )
         self.taken = perf_counter() - begun
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..blender import Context, Object, all_objects, registration
+from ..blender import Context, Object, Scene, all_objects, registration
 from ..choices import ENERGIES, energy_name
 from ..inspection import readout
 from ..memory import recall, source_of
@@ -27,7 +27,7 @@ class VIEW3D_PT_fairing_compare(Folded, bpy.types.Panel):
             draw_notice(layout, "A mesh was changed since: select all, press Measure", icon="INFO")
         split = layout.box().split(factor=0.48)
         columns = [split.column(align=True) for _ in _HEADS]
-        for row in (_HEADS, *(figures(*pair) for pair in measured)):
+        for row in (_HEADS, *(figures(*pair, context.scene) for pair in measured)):
             for column, text in zip(columns, row, strict=True):
                 column.label(text=text)
 
@@ -45,10 +45,10 @@ def measured_surfaces(active: Object | None) -> list[tuple[Object, dict]]:
     return sorted(found, key=lambda pair: _ORDER.index(pair[0].discrete_fairing.energy))
 
 
-def figures(target: Object, record: dict) -> tuple[str, str, str]:
-    """Energy, total curvature and worst fold, as texts."""
+def figures(target: Object, record: dict, scene: Scene) -> tuple[str, str, str]:
+    """Fairness, total curvature and worst fold, as texts."""
     after = record["after"]
-    curvature, fold = (readout.text(after, key) for key in ("total_curvature", "worst_fold"))
+    curvature, fold = (readout.text(after, key, scene) for key in ("total_curvature", "worst_fold"))
     return energy_name(target.discrete_fairing.energy), curvature, fold
 
 

@@ -16,7 +16,6 @@ from .notice import draw_notice
 
 class VIEW3D_PT_fairing_curves(Sidebar, bpy.types.Panel):
     bl_label = "Surface from Curves"
-    bl_order = 1
 
     @classmethod
     def poll(cls, context: Context) -> bool:

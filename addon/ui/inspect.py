@@ -17,7 +17,7 @@ from .notice import draw_notice
 
 class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
     bl_label = "Inspect"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = 1  # below what makes surfaces
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -37,13 +37,13 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
                 draw_stripes(layout, settings)
             layout.prop(settings, "smooth")
         if target is not None and mode in VALUES:
-            _draw_legend(layout, target, mode)
+            _draw_legend(layout, context, target, mode)
         if target is not None:
             draw_sections(layout, target, context.scene.discrete_fairing_inspection)
         layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
         record = recall(target, "readout") if target is not None else None
         if target is not None and record is not None:
-            _draw_readout(layout, target, record)
+            _draw_readout(layout, context, target, record)
 
 
 def draw_stripes(layout: bpy.types.UILayout, settings: Any) -> None:
@@ -103,7 +103,7 @@ _ENDS = {
 }
 
 
-def _draw_legend(layout: bpy.types.UILayout, target: Object, mode: str) -> None:
+def _draw_legend(layout: bpy.types.UILayout, context: Context, target: Object, mode: str) -> None:
     limits = display.legend(target.data)
     if limits is None:
         draw_notice(layout, "Not measured yet: press Refresh Colours in Object Mode", icon="INFO")
@@ -111,18 +111,21 @@ def _draw_legend(layout: bpy.types.UILayout, target: Object, mode: str) -> None:
         low, high = _ENDS[mode]
         colours = ("Grey", "red") if mode == "TOTAL" else ("Blue", "red")
         column = layout.column(align=True)
-        column.label(text=f"{colours[0]}: {low}, {limits[0]:.3g}", icon="COLOR")
-        column.label(text=f"{colours[1].title()}: {high}, {limits[1]:.3g}", icon="BLANK1")
+        texts = [display.value_text(context.scene, mode, limit) for limit in limits]
+        column.label(text=f"{colours[0]}: {low}, {texts[0]}", icon="COLOR")
+        column.label(text=f"{colours[1].title()}: {high}, {texts[1]}", icon="BLANK1")
     layout.operator("object.fairing_refresh", icon="FILE_REFRESH")
 
 
-def _draw_readout(layout: bpy.types.UILayout, target: Object, record: dict[str, Any]) -> None:
+def _draw_readout(
+    layout: bpy.types.UILayout, context: Context, target: Object, record: dict[str, Any]
+) -> None:
     if readout.is_stale(target, record):
         draw_notice(layout, "The mesh was changed since: press Measure again", icon="INFO")
     split = layout.box().split(factor=0.46)
     columns = split.column(align=True), split.column(align=True), split.column(align=True)
     heads = ("", "Before" if record["before"] else "", "After" if record["before"] else "Now")
-    for row in (heads, *readout.table(record)):
+    for row in (heads, *readout.table(record, context.scene)):
         for column, text in zip(columns, row, strict=True):
             column.label(text=text)
     if record["before"]:

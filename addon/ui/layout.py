@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..choices import ENERGY_MEANINGS, SHORT_ENERGIES, SHORT_INTERPOLATIONS
+from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, SHORT_INTERPOLATIONS
+from ..purposes import name_of_purpose
 from ..settings import Settings, is_evaluated, is_limit, is_near
-from .pictures import draw_choices, draw_ends, name_of
+from .pictures import draw_choices, draw_ends, icon, name_of
 
 
 class Sidebar:
@@ -48,20 +49,32 @@ class Known:
 _NOTHING = Known()
 
 
-def draw_job(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
-    """What everyone needs: how fine, what is fair, how near to the source."""
+def draw_job(
+    layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING, job: str = ""
+) -> None:
+    """What everyone needs: how fine, how near to the source; and where no `job` has chosen them,
+    what is fair, and what vertices are.
+    """
+    if job:
+        layout.label(text=name_of_purpose(job), icon_value=icon(job))
     layout.prop(settings, "levels")
     if known.triangles:
         _remark(layout, known.triangles)
-    draw_choices(layout, settings, "energy", SHORT_ENERGIES)
-    _remark(layout, ENERGY_MEANINGS[settings.energy])
-    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
-    if known.vertices:
-        _remark(layout, known.vertices)
+    if not job:
+        draw_fairness(layout, settings, known)
     if is_limit(settings) or known.follows:
         layout.prop(settings, "limit", slider=True)
     elif is_near(settings):
         _draw_tolerance(layout, settings, known)
+
+
+def draw_fairness(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
+    """What a job chooses: what is fair, and what vertices are."""
+    draw_choices(layout, settings, "energy", ENERGY_NAMES)
+    _remark(layout, ENERGY_MEANINGS[settings.energy])
+    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
+    if known.vertices:
+        _remark(layout, known.vertices)
 
 
 def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:

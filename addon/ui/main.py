@@ -15,9 +15,10 @@ from ..mesh import boundary_marks, fixed_normals
 from ..mesh.mesh_changes import coarse_triangles
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
+from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
-from ..purposes import PRESET_FOLDER, is_shipped
+from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
 from ..settings import (
     Settings,
@@ -29,7 +30,7 @@ from ..settings import (
     subdivision,
 )
 from ..units import length_text
-from .layout import Known, Sidebar, draw_folded, draw_job, draw_shape
+from .layout import Known, Sidebar, draw_fairness, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import PRESETS, draw_pictures, draw_purposes
@@ -56,6 +57,13 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
 
 class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
     bl_label = "Fair Surface"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """Not where curves alone are selected, which have a panel of their own."""
+        active = context.active_object
+        of_curves = active is not None and active.type != "MESH" and has_curves(active)
+        return not of_curves or bool(source_objects(context))
 
     def draw_header_preset(self, _context: Context) -> None:
         VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
@@ -89,7 +97,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             vertices_text(settings, sources),
             follows(settings, sources),
         )
-        draw_job(layout, settings, known)
+        job = job_of(settings)
+        draw_job(layout, settings, known, job)
         if triangles >= size.LARGE:
             draw_notice(
                 layout,
@@ -116,6 +125,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         header, more = layout.panel("fairing.more", default_closed=True)
         header.label(text="More")
         if more is not None:
+            if job:
+                draw_fairness(more, settings, known)
             draw_shape(more, settings, known)
             draw_folded(more, settings, "fairing")
 
@@ -211,7 +222,7 @@ def normals_text(settings: Settings, sources: list[Object]) -> str:
     count = fixed_normals.count(small)
     if not count:
         return ""
-    return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Thin Plate only")
+    return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Bending only")
 
 
 def follows(settings: Settings, sources: list[Object]) -> bool:

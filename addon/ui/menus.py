@@ -8,7 +8,7 @@ import bpy
 from ..blender import Context
 from ..choices import EDGE_BOUNDARIES
 from ..inspection.settings import MODES
-from ..purposes import PURPOSES
+from ..purposes import PURPOSES, TRADES
 from . import pictures
 
 
@@ -20,7 +20,9 @@ class VIEW3D_MT_fairing_for(bpy.types.Menu):
         layout.operator_context = "INVOKE_DEFAULT"
         for purpose, label, *_ in PURPOSES:
             button = layout.operator(
-                "object.fairing_for", text=label, icon_value=pictures.icon(purpose)
+                "object.fairing_for",
+                text=f"{label}: {TRADES[purpose]}",
+                icon_value=pictures.icon(purpose),
             )
             button.purpose = purpose
 
@@ -34,13 +36,15 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
         layout.menu(VIEW3D_MT_fairing_for.__name__)
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
+        layout.operator("object.fairing_scan")
         layout.operator("object.fairing_fill")
-        layout.operator("object.fairing_curves")
+        layout.operator("object.fairing_curves", text="Fair Surface from Curves (Loft, Network)")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
         layout.operator("object.fairing_show_source")
         layout.operator("object.fairing_show_patches")
+        layout.operator("export_scene.fairing_step", text="Export STEP for CAD")
         layout.separator()
         layout.operator("object.fairing_check")
         layout.operator("object.fairing_select_faults")

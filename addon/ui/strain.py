@@ -62,7 +62,7 @@ def _draw_worst(layout: Any, context: Context, source: Object, strained: Straine
     column.label(text=f"Out of line: {len(strained.wrong)} of {len(strained.held):,}")
     column.label(text=f"Up to {text(strained.floor)} is scatter")
     if source.discrete_fairing_strain.show and times > 1.0:
-        column.label(text=f"Needles are {times:g} times as long")
+        column.label(text=f"Lines are {times:g} times as long")
     column, wrong = layout.box().column(align=True), set(strained.wrong.tolist())
     for index in strained.worst(drawing.label_count).tolist():
         size = float(strained.lengths[index])

@@ -7,7 +7,7 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t shown = 5;
+constexpr std::size_t shown = 5;  // ids in a message: a line of text
 
 template <class Item>
 std::string list(Words noun, std::size_t count, Item item, Words verb) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that all rooms speak in. Positions and lengths have the unit of the caller's mesh, or
-// of the working frame that fairing/frame.h makes of it; angles are in radians.
+// of the working frame that fairing/control_positions.h makes of it; angles are in radians.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays from NumPy, copied, and to it, without copies.
+// Arrays from NumPy, copied; and to it, large ones without copies.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -15,6 +15,11 @@ namespace fairing {
 
 template <class T>
 using Contiguous = pybind11::array_t<T, pybind11::array::c_style>;
+using Numbers = Contiguous<double>;
+using Ids = Contiguous<std::int64_t>;
+
+// An argument that is such an array already: the package has seen to that.
+inline pybind11::arg exact(const char* name) { return pybind11::arg(name).noconvert(); }
 
 // While Python's lock is held: what other threads write into the caller's array from then on does
 // not reach a run. The array may be misaligned.
@@ -25,9 +30,7 @@ std::vector<T> copy_of(const Contiguous<T>& a) {
   return out;
 }
 
-inline OwnedPolygonMesh copy_of(const Contiguous<double>& vertices,
-                                const Contiguous<std::int64_t>& corners,
-                                const Contiguous<std::int64_t>& offsets) {
+inline OwnedPolygonMesh copy_of(const Numbers& vertices, const Ids& corners, const Ids& offsets) {
   return {copy_of(vertices), copy_of(corners), copy_of(offsets)};
 }
 
@@ -40,6 +43,12 @@ pybind11::array to_numpy(Array<T>&& values, pybind11::ssize_t columns) {
   pybind11::capsule free_later(owner.release(), [](void* p) { delete static_cast<Array<T>*>(p); });
   if (columns == 1) return pybind11::array_t<T>({size}, data, free_later);
   return pybind11::array_t<T>({size / columns, columns}, data, free_later);
+}
+
+// A copy of shorter ones.
+template <class T>
+pybind11::array to_numpy(const std::vector<T>& values, pybind11::ssize_t columns = 1) {
+  return to_numpy(Array<T>(values.begin(), values.end()), columns);
 }
 
 }  // namespace fairing

@@ -10,7 +10,6 @@
 #include "binding/runner.h"
 #include "mesh/fill/crossings.h"
 #include "mesh/validate/check.h"
-#include "parallel/cancel.h"
 
 namespace py = pybind11;
 
@@ -20,19 +19,18 @@ namespace {
 // A mesh with holes, and what fills them so far.
 class Filler {
  public:
-  Filler(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-         const Contiguous<std::int64_t>& offsets)
+  Filler(const Numbers& vertices, const Ids& corners, const Ids& offsets)
       : mesh_(copy_of(vertices, corners, offsets)) {}
 
   std::vector<HoleLoop> find(Monitor& monitor, const py::object& progress) {
     std::vector<HoleLoop> loops;
-    run(monitor, progress, [&] { loops = find_holes(mesh_.view(), half_edges()); });
+    run_once(monitor, progress, [&] { loops = find_holes(mesh_.view(), half_edges()); });
     return loops;
   }
 
   py::list fill(std::vector<Hole> holes, double density, Monitor& monitor,
                 const py::object& progress) {
-    run(monitor, progress, [&] {
+    run_once(monitor, progress, [&] {
       holes_ = checked_holes(mesh_.view(), half_edges(), std::move(holes));
       options_ = {.density = density};
       filled_ = fairing::fill(mesh_.view(), half_edges(), holes_, options_);
@@ -41,8 +39,8 @@ class Filler {
   }
 
   // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine.
-  py::list refine(const Contiguous<double>& points, const std::vector<std::size_t>& chosen,
-                  Monitor& monitor, const py::object& progress) {
+  py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen, Monitor& monitor,
+                  const py::object& progress) {
     const std::vector<double> moved = copy_of(points);
     std::vector<std::uint8_t> flags(filled_.size(), 0);
     for (const std::size_t hole : chosen) flags.at(hole) = 1;
@@ -52,22 +50,12 @@ class Filler {
         p = Vec3(moved.at(at), moved.at(at + 1), moved.at(at + 2));
         at += 3;
       }
-    run(monitor, progress,
-        [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, flags, filled_); });
+    run_once(monitor, progress,
+             [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, flags, filled_); });
     return arrays();
   }
 
  private:
-  template <class Job>
-  void run(Monitor& monitor, const py::object& progress, Job&& job) {
-    Runner().run(
-        [&] {
-          const CancelScope scope(&monitor);
-          job();
-        },
-        monitor, nullptr, progress);
-  }
-
   const HalfEdges& half_edges() {
     if (!half_edges_) {
       require_arrays(mesh_.view());
@@ -100,40 +88,33 @@ class Filler {
 
 // Numbers (k,) of the triangles (t, 3) from the `first` on that cross another; corners are ids in
 // points (n, 3), which nobody checks.
-py::array crossings(const Contiguous<double>& points, const Contiguous<std::int32_t>& triangles,
+py::array crossings(const Numbers& points, const Contiguous<std::int32_t>& triangles,
                     std::size_t first, Monitor& monitor, const py::object& progress) {
   const std::vector<double> coordinates = copy_of(points);
   const std::vector<std::int32_t> corners = copy_of(triangles);
-  std::vector<Vec3> places(coordinates.size() / 3);
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = Vec3(coordinates.data() + 3 * i);
-  std::vector<Triangle> faces(corners.size() / 3);
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    faces[i] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
-  Array<std::int64_t> found;
-  Runner().run(
-      [&] {
-        const CancelScope scope(&monitor);
-        for (const std::size_t t : crossing(places, faces, first)) found.push_back(std::int64_t(t));
-      },
-      monitor, nullptr, progress);
-  return to_numpy(std::move(found), 1);
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < coordinates.size(); i += 3) places.emplace_back(&coordinates[i]);
+  std::vector<Triangle> faces;
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  std::vector<std::size_t> found;
+  run_once(monitor, progress, [&] { found = crossing(places, faces, first); });
+  return to_numpy(Array<std::int64_t>(found.begin(), found.end()), 1);
 }
 
 }  // namespace
 
 void bind_fill(py::module_& m) {
   py::class_<Filler> filler(m, "Filler", "For the package's find_holes() and fill_holes().");
-  define_constructor<const Contiguous<double>&, const Contiguous<std::int64_t>&,
-                     const Contiguous<std::int64_t>&>(filler, py::arg("vertices").noconvert(),
-                                                      py::arg("corners").noconvert(),
-                                                      py::arg("offsets").noconvert());
+  define_constructor<const Numbers&, const Ids&, const Ids&>(filler, exact("vertices"),
+                                                             exact("corners"), exact("offsets"));
   filler.def("find", &Filler::find, py::arg("monitor"), py::arg("progress"))
       .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("monitor"),
            py::arg("progress"))
-      .def("refine", &Filler::refine, py::arg("points").noconvert(), py::arg("chosen"),
-           py::arg("monitor"), py::arg("progress"));
-  m.def("_crossings", &crossings, py::arg("points").noconvert(), py::arg("triangles").noconvert(),
-        py::arg("first"), py::arg("monitor"), py::arg("progress"));
+      .def("refine", &Filler::refine, exact("points"), py::arg("chosen"), py::arg("monitor"),
+           py::arg("progress"));
+  m.def("_crossings", &crossings, exact("points"), exact("triangles"), py::arg("first"),
+        py::arg("monitor"), py::arg("progress"));
 }
 
 }  // namespace fairing

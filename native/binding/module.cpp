@@ -75,16 +75,15 @@ void bind_monitor(py::module_& m) {
           "Name of the present phase, a key of report[\"seconds\"]; \"done\" at the end.");
 }
 
-py::dict fair_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                     const Contiguous<std::int64_t>& offsets, const Contiguous<double>& shapes,
-                     FairOptions options, Monitor& monitor, const py::object& progress,
-                     const py::object& whole) {
+py::dict fair_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
+                     const Numbers& shapes, FairOptions options, Monitor& monitor,
+                     const py::object& progress, const py::object& whole) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   const std::vector<double> positions = copy_of(shapes);
   options.shapes = positions;
   options.whole = whole_from(whole);
   FairResult result;
-  Runner().run([&] { result = fair(mesh.view(), options, monitor); }, monitor, nullptr, progress);
+  run_once(monitor, progress, [&] { result = fair(mesh.view(), options, monitor); });
   py::dict d;
   d["vertices"] = to_numpy(std::move(result.vertices), 3);
   py::list surfaces;
@@ -106,22 +105,20 @@ auto beside_python(Call&& call) {
   return call();
 }
 
-py::list check_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                      const Contiguous<std::int64_t>& offsets) {
+py::list check_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   const Findings findings = beside_python([&] { return find_defects(mesh.view()); });
   return to_python(findings.defects);
 }
 
-void readable_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-                     const Contiguous<std::int64_t>& offsets, Repair repair) {
+void readable_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
+                     Repair repair) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   beside_python([&] { require_readable(mesh.view(), repair); });
 }
 
-py::dict predicted_size(std::int64_t vertices, const Contiguous<std::int64_t>& corners,
-                        const Contiguous<std::int64_t>& offsets, int levels, std::size_t shapes,
-                        Energy energy) {
+py::dict predicted_size(std::int64_t vertices, const Ids& corners, const Ids& offsets, int levels,
+                        std::size_t shapes, Energy energy) {
   const OwnedPolygonMesh faces = copy_of({}, corners, offsets);
   require_faces(faces.corners, faces.offsets);
   return to_python(predict_size(vertices, faces.corners, faces.offsets, levels, shapes, energy));
@@ -139,18 +136,18 @@ PYBIND11_MODULE(_native, m) {
   bind_errors(m);
   bind_monitor(m);
   bind_options(m);
-  m.def("fair", &fair_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("shapes").noconvert(), py::arg("options"),
-        py::arg("monitor"), py::arg("progress"), py::arg("whole") = py::none(),
+  m.def("fair", &fair_arrays, exact("vertices"), exact("corners"), exact("offsets"),
+        exact("shapes"), py::arg("options"), py::arg("monitor"), py::arg("progress"),
+        py::arg("whole") = py::none(),
         "discrete_fairing.fair on plain arrays: vertices (n, 3) and shapes (k, n, 3) float64,\n"
         "corners and offsets int64. Returns what Result takes.");
-  m.def("check", &check_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), "The arguments of Defect for each defect of a mesh.");
-  m.def("require_readable", &readable_arrays, py::arg("vertices").noconvert(),
-        py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("repair"),
+  m.def("check", &check_arrays, exact("vertices"), exact("corners"), exact("offsets"),
+        "The arguments of Defect for each defect of a mesh.");
+  m.def("require_readable", &readable_arrays, exact("vertices"), exact("corners"), exact("offsets"),
+        py::arg("repair"),
         "Raises what fair() would for these arrays before it looks at the mesh.");
-  m.def("predicted_size", &predicted_size, py::arg("vertices"), py::arg("corners").noconvert(),
-        py::arg("offsets").noconvert(), py::arg("levels"), py::arg("shapes"), py::arg("energy"),
+  m.def("predicted_size", &predicted_size, py::arg("vertices"), exact("corners"), exact("offsets"),
+        py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");
   m.def("relisted", &relisted_message, py::arg("message"), py::arg("kind"), py::arg("ids"),
         "A message about other elements of that kind.");

@@ -7,134 +7,81 @@
 #include "fairing/fixed_normals.h"
 
 namespace py = pybind11;
+using namespace pybind11::literals;
 
 namespace fairing {
 namespace {
 
 py::dict to_python(const SurfaceEnergies& e) {
-  py::dict d;
-  d["thin_plate"] = e.thin_plate;
-  d["total_curvature"] = e.total_curvature;
-  return d;
+  return py::dict("thin_plate"_a = e.thin_plate, "total_curvature"_a = e.total_curvature);
 }
 
 py::dict to_python(const LevelReport& l) {
-  py::dict d;
-  d["level"] = l.level;
-  d["points"] = l.points;
-  d["unknowns"] = l.unknowns;
-  d["iterations"] = l.iterations;
-  d["residual"] = l.residual;
-  d["energy_error"] = l.energy_error;
-  d["largest_eigenvalue"] = l.largest_eigenvalue;
-  d["smoother_degree"] = l.smoother_degree;
-  d["direct"] = l.direct;
-  d["blocks"] = l.blocks;
-  d["converged"] = l.converged;
-  d["residuals"] = l.residuals;
-  d["pad_corrections"] = l.pad_corrections;
-  d["pad_force"] = l.pad_force;
-  d["constraint_rounds"] = l.constraint_rounds;
-  d["constraint_gap"] = l.constraint_gap;
-  d["normal_angle"] = l.normal_angle / degree;
-  return d;
+  return py::dict(
+      "level"_a = l.level, "points"_a = l.points, "unknowns"_a = l.unknowns,
+      "iterations"_a = l.iterations, "residual"_a = l.residual, "energy_error"_a = l.energy_error,
+      "largest_eigenvalue"_a = l.largest_eigenvalue, "smoother_degree"_a = l.smoother_degree,
+      "direct"_a = l.direct, "blocks"_a = l.blocks, "converged"_a = l.converged,
+      "residuals"_a = l.residuals, "pad_corrections"_a = l.pad_corrections,
+      "pad_force"_a = l.pad_force, "constraint_rounds"_a = l.constraint_rounds,
+      "constraint_gap"_a = l.constraint_gap, "normal_angle"_a = l.normal_angle / degree);
 }
 
 py::dict to_python(const StepWork& w) {
-  py::dict d;
-  d["steps"] = w.steps;
-  d["linearizations"] = w.linearizations;
-  d["iterations"] = w.iterations;
-  d["pad_corrections"] = w.pad_corrections;
-  d["factors"] = w.factors;
-  return d;
+  return py::dict("steps"_a = w.steps, "linearizations"_a = w.linearizations,
+                  "iterations"_a = w.iterations, "pad_corrections"_a = w.pad_corrections,
+                  "factors"_a = w.factors);
 }
 
 py::dict to_python(const CurvatureLevelReport& l) {
-  py::dict d;
-  d["level"] = l.level;
-  d["plate_energy"] = l.plate_energy;
-  d["start_energy"] = l.start_energy;
-  d["energy"] = l.energy;
-  d["start_variation"] = l.start_variation;
-  d["variation"] = l.variation;
-  d["damped"] = l.damped;
-  d["folds_before"] = l.folds_before;
-  d["folds"] = l.folds;
-  d["constraint_gap"] = l.constraint_gap;
-  d["left"] = l.left;
-  d["converged"] = l.converged;
-  d["kept_start"] = l.kept_start;
-  d["work"] = to_python(l.work);
   py::list steps;
   for (const StepReport& s : l.steps) {
-    py::dict step;
-    step["functional"] = s.variation ? "minimum_variation" : "total_curvature";
-    step["energy"] = s.energy;
-    step["decrement"] = s.decrement;
-    step["length"] = s.length;
-    step["movement"] = s.movement;
-    step["iterations"] = s.iterations;
-    step["residual"] = s.residual;
-    step["direct"] = s.direct;
-    step["pad_corrections"] = s.pad_corrections;
-    step["constraint_rounds"] = s.constraint_rounds;
-    steps.append(step);
+    const char* const functional = s.variation ? "minimum_variation" : "total_curvature";
+    steps.append(py::dict(
+        "functional"_a = functional, "energy"_a = s.energy, "decrement"_a = s.decrement,
+        "length"_a = s.length, "movement"_a = s.movement, "iterations"_a = s.iterations,
+        "residual"_a = s.residual, "direct"_a = s.direct, "pad_corrections"_a = s.pad_corrections,
+        "constraint_rounds"_a = s.constraint_rounds));
   }
-  d["steps"] = steps;
-  return d;
+  return py::dict(
+      "level"_a = l.level, "plate_energy"_a = l.plate_energy, "start_energy"_a = l.start_energy,
+      "energy"_a = l.energy, "start_variation"_a = l.start_variation, "variation"_a = l.variation,
+      "damped"_a = l.damped, "folds_before"_a = l.folds_before, "folds"_a = l.folds,
+      "constraint_gap"_a = l.constraint_gap, "left"_a = l.left, "converged"_a = l.converged,
+      "kept_start"_a = l.kept_start, "work"_a = to_python(l.work), "steps"_a = steps);
 }
 
 py::dict to_python(const ShapeReport& s) {
-  py::dict d;
-  d["iterations"] = s.finest.iterations;
-  d["residual"] = s.finest.residual;
-  d["converged"] = s.converged;
-  d["largest_deviation"] = s.largest_deviation;
-  d["constraint_rounds"] = s.constraint_rounds;
-  d["normal_angle"] = s.normal_angle;
-  return d;
+  return py::dict("iterations"_a = s.finest.iterations, "residual"_a = s.finest.residual,
+                  "converged"_a = s.converged, "largest_deviation"_a = s.largest_deviation,
+                  "constraint_rounds"_a = s.constraint_rounds, "normal_angle"_a = s.normal_angle);
 }
 
 py::dict to_python(const NormalReport& n) {
-  py::dict d;
-  d["fixed"] = n.fixed;
-  d["largest_angle"] = n.largest_angle;
-  return d;
+  return py::dict("fixed"_a = n.fixed, "largest_angle"_a = n.largest_angle);
 }
 
 py::dict to_python(const PadReport& p) {
-  py::dict d;
-  d["gone"] = p.gone;
-  d["widths"] = p.widths;
-  return d;
+  return py::dict("gone"_a = p.gone, "widths"_a = p.widths);
 }
 
 py::dict to_python(const SheetReport& s) {
-  py::dict d;
-  d["count"] = s.count;
-  d["nonmanifold_edges"] = s.nonmanifold_edges;
-  d["nonmanifold_vertices"] = s.nonmanifold_vertices;
-  d["one_sided"] = s.one_sided;
-  return d;
+  return py::dict("count"_a = s.count, "nonmanifold_edges"_a = s.nonmanifold_edges,
+                  "nonmanifold_vertices"_a = s.nonmanifold_vertices, "one_sided"_a = s.one_sided);
 }
 
 py::list to_python(const std::vector<Warning>& warnings) {
   py::list list;
   for (const Warning& w : warnings) {
-    py::dict entry;
-    entry["code"] = w.code;
-    entry["message"] = w.message;
-    entry["elements"] = w.elements;
-    entry["kind"] = name(w.kind);
-    list.append(entry);
+    list.append(py::dict("code"_a = w.code, "message"_a = w.message, "elements"_a = w.elements,
+                         "kind"_a = name(w.kind)));
   }
   return list;
 }
 
 using VertexPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
-VertexPairs in_pairs(const std::vector<std::int64_t>& ids) {
+VertexPairs pairs_of(const std::vector<std::int64_t>& ids) {
   VertexPairs pairs;
   for (std::size_t i = 0; i + 1 < ids.size(); i += 2) pairs.emplace_back(ids[i], ids[i + 1]);
   return pairs;
@@ -143,10 +90,9 @@ VertexPairs in_pairs(const std::vector<std::int64_t>& ids) {
 }  // namespace
 
 py::dict to_python(const Report& r) {
-  py::dict energy, seconds, d;
-  energy["result"] = to_python(r.result);
-  energy["polyhedron"] = to_python(r.polyhedron);
-  energy["prediction"] = to_python(r.prediction);
+  const py::dict energy("result"_a = to_python(r.result), "polyhedron"_a = to_python(r.polyhedron),
+                        "prediction"_a = to_python(r.prediction));
+  py::dict seconds;
   py::list levels, iterations, residuals, curvature, shapes;
   bool converged = r.converged();
   for (const LevelReport& l : r.levels) {
@@ -160,23 +106,14 @@ py::dict to_python(const Report& r) {
     converged &= s.converged;
   }
   for (const PhaseSeconds& s : r.seconds) seconds[py::str(s.phase)] = s.seconds;
-  d["energy"] = energy;
-  d["levels"] = levels;
-  d["iterations"] = iterations;
-  d["residuals"] = residuals;
-  d["converged"] = converged;
-  d["curvature"] = curvature;
-  d["warm"] = r.warm;
-  d["shapes"] = shapes;
-  d["seconds"] = seconds;
-  d["predicted_bytes"] = r.predicted_bytes;
-  d["peak_bytes"] = r.peak_bytes;
-  d["largest_deviation"] = r.largest_deviation;
-  d["constraint_rounds"] = r.constraint_rounds;
-  d["constraint_gap"] = r.constraint_gap;
-  d["pads"] = to_python(r.pads);
-  d["normals"] = to_python(r.normals);
-  d["threads"] = r.threads;
+  py::dict d("energy"_a = energy, "levels"_a = levels, "iterations"_a = iterations,
+             "residuals"_a = residuals, "converged"_a = converged, "curvature"_a = curvature,
+             "warm"_a = r.warm, "shapes"_a = shapes, "seconds"_a = seconds,
+             "predicted_bytes"_a = r.predicted_bytes, "peak_bytes"_a = r.peak_bytes,
+             "largest_deviation"_a = r.largest_deviation,
+             "constraint_rounds"_a = r.constraint_rounds, "constraint_gap"_a = r.constraint_gap,
+             "pads"_a = to_python(r.pads), "normals"_a = to_python(r.normals),
+             "threads"_a = r.threads);
   add_mesh_report(d, r);
   return d;
 }
@@ -189,27 +126,20 @@ void add_mesh_report(py::dict& to, const Report& r) {
 }
 
 py::dict to_python(const RunSize& size) {
-  py::dict d;
-  d["vertices"] = size.points;
-  d["triangles"] = size.triangles;
-  d["bytes"] = size.bytes;
-  return d;
+  return py::dict("vertices"_a = size.points, "triangles"_a = size.triangles,
+                  "bytes"_a = size.bytes);
 }
 
 py::list to_python(const Defects& defects) {
   py::list list;
   for (const Defect& defect : defects) {
-    py::dict entry;
-    entry["code"] = name(defect.code);
-    entry["message"] = defect.message;
-    if (defect.kind == ElementKind::edge)
-      entry["elements"] = in_pairs(defect.elements);
-    else
-      entry["elements"] = defect.elements;
-    entry["kind"] = name(defect.kind);
-    entry["severity"] = defect.severity == Severity::error ? "error" : "warning";
-    entry["repairable"] = defect.repairable;
-    list.append(entry);
+    const bool in_pairs = defect.kind == ElementKind::edge;
+    list.append(py::dict(
+        "code"_a = name(defect.code), "message"_a = defect.message,
+        "elements"_a = in_pairs ? py::cast(pairs_of(defect.elements)) : py::cast(defect.elements),
+        "kind"_a = name(defect.kind),
+        "severity"_a = defect.severity == Severity::error ? "error" : "warning",
+        "repairable"_a = defect.repairable));
   }
   return list;
 }
@@ -226,18 +156,11 @@ py::object to_python(const MendedMesh* mended) {
     corner.mutable_at(k, 1) = origin.beside;
     share.mutable_at(k) = origin.share;
   }
-  const auto copy = [](const auto& values) {
-    return py::array_t<typename std::remove_cvref_t<decltype(values)>::value_type>(
-        py::ssize_t(values.size()), values.data());
-  };
-  py::dict d;
-  d["corners"] = copy(mended->mesh.corners);
-  d["offsets"] = copy(mended->mesh.offsets);
-  d["vertex_origin"] = copy(mended->vertex_origin);
-  d["face_origin"] = copy(mended->face_origin);
-  d["corner_origin"] = corner;
-  d["corner_share"] = share;
-  return d;
+  return py::dict("corners"_a = to_numpy(mended->mesh.corners),
+                  "offsets"_a = to_numpy(mended->mesh.offsets),
+                  "vertex_origin"_a = to_numpy(mended->vertex_origin),
+                  "face_origin"_a = to_numpy(mended->face_origin), "corner_origin"_a = corner,
+                  "corner_share"_a = share);
 }
 
 void add_faces(py::dict& to, OutputFaces&& faces, Array<std::int32_t>&& crease_edges) {

@@ -64,7 +64,7 @@ class Watch {
           text, sizeof text,
           "This run is going to take at least %.3g MB, more than the %.3g MB predicted: a "
           "level has proved hard.",
-          1e-6 * double(bytes), 1e-6 * double(news_.predicted()));
+          double(bytes) / megabyte, double(news_.predicted()) / megabyte);
       if (PyErr_WarnEx(kind.ptr(), text, 2) != 0) throw py::error_already_set();
     } catch (...) {
       failure_ = std::current_exception();

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "parallel/monitor.h"
+#include "parallel/cancel.h"
 
 namespace fairing {
 
@@ -44,5 +44,16 @@ class Runner {
   long process_;
   std::unique_ptr<Thread> thread_;
 };
+
+// One job, which may be cancelled, on a thread of its own.
+template <class Job>
+void run_once(Monitor& monitor, const pybind11::object& progress, const Job& job) {
+  Runner().run(
+      [&] {
+        const CancelScope scope(&monitor);
+        job();
+      },
+      monitor, nullptr, progress);
+}
 
 }  // namespace fairing

@@ -20,8 +20,8 @@ long process = 0;
 bool is_ending = false;
 
 // Runs end within milliseconds; a progress callback may take its time.
-constexpr std::chrono::seconds patience(10);
-constexpr std::chrono::milliseconds pause(2);
+constexpr std::chrono::seconds longest_end(10);
+constexpr std::chrono::milliseconds between_looks(2);
 
 }  // namespace
 
@@ -48,12 +48,12 @@ RunningScope::~RunningScope() {
 
 void end_runs() {
   is_ending = true;
-  const auto end = std::chrono::steady_clock::now() + patience;
+  const auto end = std::chrono::steady_clock::now() + longest_end;
   if (process != current_process()) return;
   for (RunningScope* scope = newest; scope; scope = scope->before_) scope->monitor_.cancel();
   while (newest && std::chrono::steady_clock::now() < end) {
     const py::gil_scoped_release release;
-    std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(between_looks);
   }
 }
 

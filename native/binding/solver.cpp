@@ -16,8 +16,8 @@ namespace {
 // A FairSolver and the thread that all its calls run on.
 class Solver {
  public:
-  Solver(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
-         const Contiguous<std::int64_t>& offsets, const FairOptions& options)
+  Solver(const Numbers& vertices, const Ids& corners, const Ids& offsets,
+         const FairOptions& options)
       : corners_(copy_of(corners)), offsets_(copy_of(offsets)) {
     if (!runner_.has_thread())
       throw FairingError(ErrorCode::no_thread,
@@ -48,7 +48,7 @@ class Solver {
     return d;
   }
 
-  py::dict solve(const Contiguous<double>& vertices, Monitor* watcher, const py::object& progress) {
+  py::dict solve(const Numbers& vertices, Monitor* watcher, const py::object& progress) {
     py::array_t<double> out({py::ssize_t(points_), py::ssize_t(3)});
     double* const to = out.mutable_data();
     const std::vector<double> coordinates = copy_of(vertices);
@@ -60,7 +60,7 @@ class Solver {
     return d;
   }
 
-  void rebase(const Contiguous<double>& vertices) {
+  void rebase(const Numbers& vertices) {
     const std::vector<double> coordinates = copy_of(vertices);
     call([&] { solver_->rebase(mesh_of(coordinates)); });
   }
@@ -97,15 +97,13 @@ class Solver {
 
 void bind_solver(py::module_& m) {
   py::class_<Solver> solver(m, "Solver", "discrete_fairing.Solver on plain arrays.");
-  define_constructor<const Contiguous<double>&, const Contiguous<std::int64_t>&,
-                     const Contiguous<std::int64_t>&, const FairOptions&>(
-      solver, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
-      py::arg("offsets").noconvert(), py::arg("options"));
+  define_constructor<const Numbers&, const Ids&, const Ids&, const FairOptions&>(
+      solver, exact("vertices"), exact("corners"), exact("offsets"), py::arg("options"));
   solver.def("constants", &Solver::constants)
-      .def("solve", &Solver::solve, py::arg("vertices").noconvert(), py::arg("monitor").none(true),
+      .def("solve", &Solver::solve, exact("vertices"), py::arg("monitor").none(true),
            py::arg("progress"))
       .def("require_own_process", &Solver::require_own_process)
-      .def("rebase", &Solver::rebase, py::arg("vertices").noconvert())
+      .def("rebase", &Solver::rebase, exact("vertices"))
       .def_property_readonly("bytes", &Solver::bytes);
 }
 

@@ -17,15 +17,11 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
+using ShortIds = Contiguous<std::int32_t>;
+
 template <class T>
 std::span<const T> view(const Contiguous<T>& a) {
   return {a.data(), std::size_t(a.size())};
-}
-
-template <class T>
-py::array to_numpy(const std::vector<T>& values, py::ssize_t columns = 1) {
-  Array<T> copy(values.begin(), values.end());
-  return to_numpy(std::move(copy), columns);
 }
 
 // The points of each item, one after another. Items give theirs up: large surfaces are not held
@@ -87,9 +83,8 @@ void add_patches(py::dict& to, SplineSurface& surface) {
   to["turned"] = to_numpy(surface.turned);
 }
 
-py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::int32_t>& triangles,
-                    const Contiguous<std::int32_t>& quads,
-                    const Contiguous<std::int32_t>& crease_edges, int levels, double tolerance,
+py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const ShortIds& quads,
+                    const ShortIds& crease_edges, int levels, double tolerance,
                     double normal_tolerance, int threads, Monitor& monitor,
                     const py::object& progress) {
   // The arrays are the package's own: nobody else writes to them.
@@ -98,8 +93,7 @@ py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::in
   const SplineOptions options{
       .tolerance = tolerance, .normal_tolerance = normal_tolerance, .threads = threads};
   SplineSurface surface;
-  Runner().run([&] { surface = fit_splines(refined, options, monitor); }, monitor, nullptr,
-               progress);
+  run_once(monitor, progress, [&] { surface = fit_splines(refined, options, monitor); });
   py::dict d;
   std::array corners{std::move(surface.vertices)};
   d["vertices"] = points_array(corners, [](std::vector<Vec3>& all) -> auto& { return all; });
@@ -111,10 +105,8 @@ py::dict fit_arrays(const Contiguous<double>& vertices, const Contiguous<std::in
   return d;
 }
 
-py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::int32_t>& triangles,
-                      const Contiguous<std::int32_t>& quads,
-                      const Contiguous<std::int32_t>& crease_edges, int levels, double least,
-                      int threads) {
+py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const ShortIds& quads,
+                      const ShortIds& crease_edges, int levels, double least, int threads) {
   const Lattice lattice({levels, view(vertices), view(triangles), view(quads), view(crease_edges)});
   Workers workers(threads);
   Topology topology = make_topology(lattice);
@@ -126,16 +118,13 @@ py::array turns_array(const Contiguous<double>& vertices, const Contiguous<std::
 }  // namespace
 
 void bind_splines(py::module_& m) {
-  m.def("lattice_turns", &turns_array, py::arg("vertices").noconvert(),
-        py::arg("triangles").noconvert(), py::arg("quads").noconvert(),
-        py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("least"),
-        py::arg("threads"),
+  m.def("lattice_turns", &turns_array, exact("vertices"), exact("triangles"), exact("quads"),
+        exact("crease_edges"), py::arg("levels"), py::arg("least"), py::arg("threads"),
         "By control faces, radians: the sharpest turn between two cells of a refined surface, of "
         "those at least `least` high.");
-  m.def("fit_splines", &fit_arrays, py::arg("vertices").noconvert(),
-        py::arg("triangles").noconvert(), py::arg("quads").noconvert(),
-        py::arg("crease_edges").noconvert(), py::arg("levels"), py::arg("tolerance"),
-        py::arg("normal_tolerance"), py::arg("threads"), py::arg("monitor"), py::arg("progress"),
+  m.def("fit_splines", &fit_arrays, exact("vertices"), exact("triangles"), exact("quads"),
+        exact("crease_edges"), py::arg("levels"), py::arg("tolerance"), py::arg("normal_tolerance"),
+        py::arg("threads"), py::arg("monitor"), py::arg("progress"),
         "Patches of a refined surface, as flat arrays, which Patches of the package takes.");
 }
 

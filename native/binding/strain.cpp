@@ -32,8 +32,11 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
   Runner().run([&] { strain = measure_strain(mesh.view(), own, monitor); }, monitor, nullptr,
                progress);
   py::dict d;
-  d["lengths"] = numbers(strain.lengths);
-  d["ways"] = points(strain.ways);
+  d["lengths"] = numbers(strain.all.lengths);
+  d["ways"] = points(strain.all.ways);
+  d["excess"] = numbers(strain.excess.own.lengths);
+  d["excess_ways"] = points(strain.excess.own.ways);
+  d["floor"] = strain.excess.floor;
   d["on_curve"] =
       py::array_t<std::uint8_t>(py::ssize_t(strain.on_curve.size()), strain.on_curve.data());
   return d;
@@ -57,8 +60,9 @@ py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
       monitor, nullptr, progress);
   py::dict d;
   d["moves"] = points(result.moves);
-  d["strain_before"] = numbers(result.strain_before);
-  d["strain_after"] = numbers(result.strain_after);
+  d["strain_before"] = numbers(result.before.own.lengths);
+  d["strain_after"] = numbers(result.after.own.lengths);
+  d["floor"] = result.before.floor;
   d["amount"] = result.amount;
   d["noise"] = result.noise;
   d["iterations"] = result.iterations;

@@ -3,12 +3,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/error.h"
+#include "base/points.h"
 #include "mesh/validate/check.h"
+#include "mesh/vertex_pair.h"
 
 namespace fairing {
 namespace {
@@ -26,7 +27,7 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   std::vector<Index> corners;
   for (const Spoke& spoke : mesh.ring(centre))
     corners.push_back(mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0]);
-  const double count = double(corners.size());
+  const auto count = double(corners.size());
   Vec3 mean = Vec3::Zero();
   for (const Index c : corners) mean += basis[std::size_t(c)] / count;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -59,8 +60,6 @@ ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> worl
   return control;
 }
 
-using Pair = std::array<std::int64_t, 2>;
-
 // Handed points take the place of those that a piece of the chain would have. `surface`: 0 for the
 // mesh, s + 1 for shape s.
 void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
@@ -70,17 +69,15 @@ void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_
   if (size == 0 ? !handed.points.empty()
                 : handed.points.size() % size || handed.points.size() / size <= surface)
     throw FairingError(ErrorCode::bad_shape, "Curves of the whole have points of another level.");
-  std::vector<std::pair<Pair, std::size_t>> place;
-  for (std::size_t k = 0; k < handed.edges.size(); ++k) {
-    const auto [a, b] = handed.edges[k];
-    place.push_back({{std::min(a, b), std::max(a, b)}, k});
-  }
+  std::vector<std::pair<VertexPair, std::size_t>> place;
+  for (std::size_t k = 0; k < handed.edges.size(); ++k)
+    place.push_back({ascending(handed.edges[k][0], handed.edges[k][1]), k});
   std::sort(place.begin(), place.end());
   for (Index e = 0; e < mesh.first_copied_edge() && !place.empty(); ++e) {
     if (curves.run[std::size_t(e)] < 0) continue;
     const Index from = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[0]),
                 to = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[1]);
-    const Pair pair{std::min(from, to), std::max(from, to)};
+    const VertexPair pair = ascending(from, to);
     const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
     if (at == place.end() || at->first != pair) continue;
     const double* points = handed.points.data() + surface * size + 3 * inner * at->second;
@@ -89,6 +86,15 @@ void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_
     for (std::size_t k = 0; k < inner; ++k)
       own[along ? k : inner - 1 - k] = Eigen::Map<const Vec3>(points + 3 * k);
   }
+}
+
+void require_numbers(std::span<const double> coordinates, const std::string& where) {
+  const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
+  if (!bad.empty())
+    throw FairingError(ErrorCode::non_finite,
+                       where + listing(vertex_s, bad, {"has", "have"}) +
+                           " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
+                       bad);
 }
 
 }  // namespace
@@ -120,9 +126,8 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
 std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                 std::span<const double> coordinates) {
   std::vector<Vec3> world;
-  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
-    world.emplace_back(coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]);
-  for (const Index v : mesh.copied_vertex) world.push_back(world[std::size_t(v)]);
+  for (Index v = 0; v < mesh.input_vertices; ++v) world.push_back(point_at(coordinates, v));
+  for (const Index v : mesh.copies.vertex) world.push_back(world[std::size_t(v)]);
   for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c)
     world.push_back(centre_of_shape(mesh, basis_world, c, world));
   return world;
@@ -143,15 +148,8 @@ void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {
   if (shapes.size() % size != 0)
     throw FairingError(ErrorCode::bad_shape,
                        "shapes must be (k, n, 3): k positions of every vertex.");
-  for (std::size_t s = 0; s * size < shapes.size(); ++s) {
-    const std::vector<std::int64_t> bad = non_finite_vertices(shapes.subspan(s * size, size));
-    if (!bad.empty())
-      throw FairingError(ErrorCode::non_finite,
-                         "In shape " + std::to_string(s) + " " +
-                             listing(vertex_s, bad, {"has", "have"}) +
-                             " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
-                         bad);
-  }
+  for (std::size_t s = 0; s * size < shapes.size(); ++s)
+    require_numbers(shapes.subspan(s * size, size), "In shape " + std::to_string(s) + " ");
 }
 
 void check_positions(std::size_t vertices, std::span<const double> coordinates) {
@@ -160,12 +158,7 @@ void check_positions(std::size_t vertices, std::span<const double> coordinates) 
                                                  " vertices where the solver's mesh has " +
                                                  std::to_string(vertices) +
                                                  ". Make another solver.");
-  const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
-  if (!bad.empty())
-    throw FairingError(ErrorCode::non_finite,
-                       listing(vertex_s, bad, {"has", "have"}) +
-                           " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
-                       bad);
+  require_numbers(coordinates, "");
 }
 
 }  // namespace fairing

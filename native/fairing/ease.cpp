@@ -8,12 +8,10 @@
 #include <optional>
 
 #include "fairing/fair.h"
-#include "fairing/memory_plan.h"
 #include "fairing/mending.h"
 #include "fairing/strain.h"
 #include "fairing/systems.h"
 #include "parallel/cancel.h"
-#include "strain/load_matrix.h"
 #include "strain/worst.h"
 
 namespace fairing {
@@ -23,6 +21,8 @@ namespace {
 constexpr std::int64_t on_second_level = 2000;
 // Parts of the run: up to the surface, and to the matrix of its loads.
 constexpr double surface_done = 0.2, matrix_done = 0.85;
+// Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
+constexpr int rings_apart = 9;
 
 // Some rows and columns of a matrix, each given its weight: rows by it, columns by its inverse.
 LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
@@ -81,93 +81,67 @@ class Easing {
 
   EaseResult run() {
     monitor_.enter_part(0, surface_done);
-    require_room();
+    StrainGauge::require_room(*problem_, rings_apart);
     ControlPositions control = problem_->basis;
-    Loads loads = loads_of(control);
+    PlateLoads plate = loads_of(control);
     measure_matrix();
-    Strain before = gauge_->read(loads, control.working);
+    out_.before = gauge_->excess(plate.turned, control);
     out_.moves.assign(std::size_t(mesh_.input_vertices), Vec3::Zero());
     if (wanted_.most > 0) {
-      move_worst(loads, control);
+      move_worst(std::move(plate.turned), control);
     } else {
       find_movable();
+      // Scatter makes moments on borders too, and there is no knowing which are the shape's: with
+      // them, faint scatter of few vertices is made worse, by up to a tenth.
+      Loads loads = std::move(plate.free);
       // A curve has few vertices to tell scatter from shape by: no more than scatters beside it.
-      const EaseSystem inner = inner_system(loads), curve = curve_system(control);
+      const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
       double s = amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)
         s = with_noise_up_to(curve, s, inner.noise(amount(inner_, inner)));
       if (take(curve_, curve, s)) {
         control = problem_->control_positions(at_);
-        loads = loads_of(control);
+        loads = loads_of(control).free;
       }
-      const EaseSystem again = inner_system(loads);
+      const EaseSystem again = inner_system(loads, control);
       take(inner_, again, amount(inner_, again));
     }
     const ControlPositions after = problem_->control_positions(at_);
-    Strain left = gauge_->read(loads_of(after), after.working);
-    restore(before, left);
-    out_.strain_before = std::move(before.lengths);
-    out_.strain_after = std::move(left.lengths);
+    out_.after = gauge_->excess(loads_of(after).turned, after);
+    restore();
     return std::move(out_);
   }
 
  private:
-  Loads loads_of(const ControlPositions& control) {
-    Report report;
-    Array<double> surface;
+  PlateLoads loads_of(const ControlPositions& control) {
     ++out_.iterations;
-    return systems_.solve(control, false, watch_, report, surface).loads;
+    return solve_loads(*problem_, systems_, control, watch_);
   }
 
   bool stays(std::size_t v) const { return !wanted_.fixed.empty() && wanted_.fixed[v]; }
 
-  // Of all inner vertices on pads.
   void measure_matrix() {
-    ThinPlateSolver& solver = systems_.plate();
-    std::vector<double> own(std::size_t(mesh_.vertex_count()), 0.0);
-    if (const Pads* const pads = solver.pads()) {
-      for (Index v = 0; v < mesh_.input_vertices; ++v)
-        if (pads->under(std::size_t(v))) on_pads_.push_back(v);
-      counted_.emplace(bytes_of_load_matrix(on_pads_.size()));
-      ProbedMatrix probed = load_matrix(
-          solver, problem_->basis.working_curves, on_pads_, [&](double begin, double end) {
-            const double part = matrix_done - surface_done;
-            monitor_.enter_part(surface_done + part * begin, surface_done + part * end);
-          });
-      monitor_.enter_part(matrix_done, 1);
-      g_ = std::move(probed.g);
-      out_.iterations += probed.solves;
-      for (std::size_t i = 0; i < on_pads_.size(); ++i)
-        own[std::size_t(on_pads_[i])] = g_.coeff(Index(i), Index(i));
-    }
-    gauge_.emplace(*problem_, std::move(own));
-  }
-
-  // Before anything is solved.
-  void require_room() const {
-    const FairOptions& options = problem_->options;
-    const auto matrix = bytes_of_load_matrix(std::size_t(mesh_.input_vertices));
-    const auto surface = std::size_t(predict_size(mesh_, problem_->unknowns, options.levels).bytes);
-    if (surface + matrix <= options.bytes_allowed()) return;
-    throw FairingError(ErrorCode::too_large,
-                       "The loads that " + std::to_string(mesh_.input_vertices) +
-                           " vertices ask for take " + std::to_string(matrix / 1000000) +
-                           " MB beside the surface's " + std::to_string(surface / 1000000) +
-                           ", over the limit. Raise memory_limit, or ease parts of the mesh.");
+    gauge_.emplace(*problem_, systems_.plate(), rings_apart, [&](double begin, double end) {
+      const double part = matrix_done - surface_done;
+      monitor_.enter_part(surface_done + part * begin, surface_done + part * end);
+    });
+    monitor_.enter_part(matrix_done, 1);
+    out_.iterations += gauge_->solves();
   }
 
   void find_movable() {
-    std::vector<Index> rows(on_pads_.size(), -1);
+    std::vector<Index> rows(gauge_->vertices().size(), -1);
     std::vector<double> shares;
-    for (std::size_t i = 0; i < on_pads_.size(); ++i) {
-      const auto v = std::size_t(on_pads_[i]);
+    for (std::size_t i = 0; i < gauge_->on_pads(); ++i) {
+      const auto v = std::size_t(gauge_->vertices()[i]);
       if (stays(v)) continue;
       rows[i] = Index(inner_.vertices.size());
-      inner_.vertices.push_back(on_pads_[i]);
+      inner_rows_.push_back(Eigen::Index(i));
+      inner_.vertices.push_back(Index(v));
       shares.push_back(systems_.plate().pads()->total(v));
     }
     inner_.root = roots(std::move(shares));
-    inner_.g = part_of(g_, rows, rows, inner_.root, inner_.root);
+    inner_.g = part_of(gauge_->matrix(), rows, rows, inner_.root, inner_.root);
 
     const CurveLoads& curves = gauge_->curves();
     for (std::size_t i = 0; i < curves.vertices().size(); ++i) {
@@ -184,11 +158,11 @@ class Easing {
                        curve_.root);
   }
 
-  EaseSystem inner_system(const Loads& loads) const {
-    Columns own(Eigen::Index(inner_.vertices.size()), 3);
-    for (std::size_t i = 0; i < inner_.vertices.size(); ++i)
-      own.row(Eigen::Index(i)) =
-          inner_.root[i] * loads[std::size_t(inner_.vertices[i])].transpose();
+  EaseSystem inner_system(const Loads& loads, const ControlPositions& control) const {
+    const Columns all = gauge_->loads(loads, control);
+    Columns own(Eigen::Index(inner_rows_.size()), 3);
+    for (std::size_t i = 0; i < inner_rows_.size(); ++i)
+      own.row(Eigen::Index(i)) = inner_.root[i] * all.row(inner_rows_[i]);
     return inner_.system(std::move(own));
   }
 
@@ -242,74 +216,52 @@ class Easing {
   // Where some of them are on curves, what is inside is picked again about the curves as they are by
   // then.
   void move_worst(Loads loads, ControlPositions control) {
-    const std::size_t inner = on_pads_.size();
-    std::vector<Index> vertices = on_pads_;
-    vertices.insert(vertices.end(), gauge_->curve_vertices().begin(),
-                    gauge_->curve_vertices().end());
+    const std::vector<Index>& vertices = gauge_->vertices();
+    const std::size_t inner = gauge_->on_pads();
     std::vector<std::uint8_t> may(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) may[i] = !stays(std::size_t(vertices[i]));
     const std::vector<Index> number = numbered(std::size_t(mesh_.vertex_count()), vertices);
     std::vector<Index> images(vertices.size(), -1);
     for (std::size_t i = 0; i < vertices.size() && !wanted_.images.empty(); ++i)
       images[i] = number[std::size_t(wanted_.images[std::size_t(vertices[i])])];
-    const LoadMatrix g = with_curves();
     Index left = wanted_.most;
     const auto pick = [&] {
-      Columns all(Eigen::Index(vertices.size()), 3);
-      for (std::size_t i = 0; i < inner; ++i)
-        all.row(Eigen::Index(i)) = loads[std::size_t(vertices[i])].transpose();
-      all.bottomRows(Eigen::Index(vertices.size() - inner)) = gauge_->pulls_of(control.working);
-      return moves_of_worst(g, all, {may, images, left});
+      return moves_of_worst(gauge_->matrix(), gauge_->loads(loads, control), {may, images, left});
     };
     const Worst first = pick();
     if (std::none_of(first.rows.begin(), first.rows.end(),
                      [&](Index row) { return std::size_t(row) >= inner; })) {
-      move_all(vertices, first, 0);
+      move_all(first, 0);
       return;
     }
-    left -= move_all(vertices, first, inner);
+    left -= move_all(first, inner);
     std::fill(may.begin() + std::ptrdiff_t(inner), may.end(), std::uint8_t(0));
     control = problem_->control_positions(at_);
-    loads = loads_of(control);
-    if (left > 0) move_all(vertices, pick(), 0);
-  }
-
-  // The matrix of loads on pads, and beside it that of pulls on curves.
-  LoadMatrix with_curves() const {
-    std::vector<Eigen::Triplet<double, Index>> entries;
-    const auto add = [&](const LoadMatrix& part, Index first) {
-      for (Eigen::Index i = 0; i < part.rows(); ++i)
-        for (LoadMatrix::InnerIterator entry(part, i); entry; ++entry)
-          entries.emplace_back(first + Index(i), first + Index(entry.col()), entry.value());
-    };
-    add(g_, 0);
-    add(gauge_->pulls(), Index(g_.rows()));
-    const Eigen::Index all = g_.rows() + gauge_->pulls().rows();
-    LoadMatrix out(all, all);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
+    loads = loads_of(control).turned;
+    if (left > 0) move_all(pick(), 0);
   }
 
   // Those of rows from `first` on; how many, images not counted.
-  Index move_all(const std::vector<Index>& vertices, const Worst& worst, std::size_t first) {
+  Index move_all(const Worst& worst, std::size_t first) {
     Index count = 0;
     for (std::size_t k = 0; k < worst.rows.size(); ++k) {
       const auto row = std::size_t(worst.rows[k]);
       if (row < first) continue;
       count += !worst.is_image[k];
-      move(vertices[row], problem_->frame.scale * worst.moves.row(Eigen::Index(k)).transpose());
+      move(gauge_->vertices()[row],
+           problem_->frame.scale * worst.moves.row(Eigen::Index(k)).transpose());
     }
     return count;
   }
 
   // Vertices that were merged are where the one is that they have become.
-  void restore(Strain& before, Strain& after) {
+  void restore() {
     if (!mending_.mended()) return;
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
     for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
       out_.moves[v] = out_.moves[std::size_t(origin[v])];
-    before.restore(origin);
-    after.restore(origin);
+    fairing::restore(out_.before.own, origin);
+    fairing::restore(out_.after.own, origin);
   }
 
   const Mending& mending_;
@@ -322,10 +274,8 @@ class Easing {
   FairingSystems systems_;
   std::vector<double> at_;  // input vertices in world coordinates
   std::optional<StrainGauge> gauge_;
-  std::vector<Index> on_pads_;
-  std::optional<CountedBytes> counted_;
-  LoadMatrix g_;  // of these
   Movable inner_, curve_;
+  std::vector<Eigen::Index> inner_rows_;  // of the gauge, of the inner ones
   EaseResult out_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fairing/options.h"
+#include "fairing/strain_gauge.h"
 #include "parallel/monitor.h"
 
 namespace fairing {
@@ -21,12 +22,11 @@ struct EaseOptions {
 };
 
 struct EaseResult {
-  // One an input vertex, in mesh units. Strain as fairing/strain_gauge.h has it.
-  std::vector<Vec3> moves;
-  std::vector<double> strain_before, strain_after;
-  double amount = 0;   // times the root mean square of what moves ask for: no unit
-  double noise = 0;    // root mean square length of the scatter that was taken out, mesh units
-  int iterations = 0;  // solves, all in all
+  std::vector<Vec3> moves;  // one an input vertex, in mesh units
+  Excess before, after;     // strain
+  double amount = 0;        // times the root mean square of what moves ask for: no unit
+  double noise = 0;         // root mean square length of the scatter that was taken out, mesh units
+  int iterations = 0;       // solves, all in all
 };
 
 // Throws what measure_strain() does; too_large where the matrix of loads is.

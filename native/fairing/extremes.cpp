@@ -26,8 +26,8 @@ double median(std::vector<double> values) {
 }
 
 // The input vertices on faces that are farther out than that, in working coordinates.
-std::vector<std::int64_t> vertices_beyond(double distance, const ControlMesh& mesh,
-                                          const ControlPositions& control) {
+std::vector<std::int64_t> vertices_outside(double distance, const ControlMesh& mesh,
+                                           const ControlPositions& control) {
   std::vector<std::int64_t> out;
   for (Index v = 0; v < mesh.input_vertices; ++v)
     if (!mesh.ring(v).empty() &&
@@ -60,11 +60,11 @@ std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
 }  // namespace
 
 bool lies_far_out(const ControlMesh& mesh, const ControlPositions& control) {
-  return !vertices_beyond(far_out, mesh, control).empty();
+  return !vertices_outside(far_out, mesh, control).empty();
 }
 
 void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) {
-  std::vector<std::int64_t> far = vertices_beyond(out_of_reach, mesh, control);
+  std::vector<std::int64_t> far = vertices_outside(out_of_reach, mesh, control);
   if (far.empty()) return;
   const std::string names = listing(vertex_s, far, {"lies", "lie"});
   throw FairingError(ErrorCode::too_extreme,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mesh/normal.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -16,21 +17,6 @@ constexpr double steepest = 80 * degree;
 Vec3 normal_given(const FairOptions& options, std::size_t v) {
   const Eigen::Map<const Vec3> given(options.normals.data() + 3 * v);
   return (given / given.lpNorm<Eigen::Infinity>()).normalized();  // of any length
-}
-
-// The sum over the faces around, by their areas there.
-Vec3 control_normal(const ControlMesh& mesh, Index v) {
-  Vec3 normal = Vec3::Zero();
-  for (const Spoke& spoke : mesh.ring(v)) {
-    if (spoke.face < 0) continue;
-    const Face& face = mesh.faces[std::size_t(spoke.face)];
-    const auto edge_to = [&](int corner) -> Vec3 {
-      const Index w = face.vertex[std::size_t((corner + face.size) % face.size)];
-      return mesh.positions[std::size_t(w)] - mesh.positions[std::size_t(v)];
-    };
-    normal += edge_to(spoke.corner + 1).cross(edge_to(spoke.corner - 1));
-  }
-  return normal;
 }
 
 }  // namespace
@@ -70,7 +56,7 @@ void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& norma
     throw FairingError(ErrorCode::bad_option,
                        listing(vertex_s, far, {"is", "are"}) +
                            " to have a normal more than 80 degrees away from that of the faces "
-                           "around. Turn it, or the faces; or free it.",
+                           "around. Turn these normals or these faces, or free the normals.",
                        far, ElementKind::vertex);
 }
 

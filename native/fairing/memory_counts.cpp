@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "mesh/double_cover.h"
+#include "mesh/groups.h"
 #include "mesh/half_edges.h"
-#include "mesh/mend/merge.h"
 #include "mesh/sheets.h"
 #include "mesh/validate/check.h"
 #include "transfer/quadratic_matrix.h"
@@ -79,7 +79,7 @@ void count_edges(const HalfEdges& half_edges, const DoubleCover& cover, Counts& 
 }
 
 // Faces of each group.
-std::vector<std::int64_t> sizes_of(Merges& groups, std::size_t faces) {
+std::vector<std::int64_t> sizes_of(Groups& groups, std::size_t faces) {
   std::vector<std::int64_t> of_lead(faces, 0);
   for (std::size_t f = 0; f < faces; ++f) ++of_lead[std::size_t(groups.lead(Index(f)))];
   std::erase(of_lead, 0);
@@ -87,7 +87,7 @@ std::vector<std::int64_t> sizes_of(Merges& groups, std::size_t faces) {
 }
 
 std::vector<std::int64_t> parts_of(const HalfEdges& half_edges, std::size_t faces) {
-  Merges groups(faces);
+  Groups groups(faces);
   for (std::int32_t k = 0; k < half_edges.count(); ++k)
     if (half_edges.twin(k) > k)
       groups.unite(half_edges.face(k), half_edges.face(half_edges.twin(k)));
@@ -95,7 +95,7 @@ std::vector<std::int64_t> parts_of(const HalfEdges& half_edges, std::size_t face
 }
 
 std::vector<std::int64_t> parts_of(const ControlMesh& mesh, const Unknowns& unknowns) {
-  Merges groups(mesh.faces.size());
+  Groups groups(mesh.faces.size());
   const auto face_of = [&](Index side) { return mesh.sides[std::size_t(side)].face; };
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (unknowns.edge[e] && !mesh.edges[e].boundary())
@@ -131,8 +131,8 @@ Counts count_elements(const ControlMesh& mesh, const Unknowns& unknowns) {
   Counts c;
   c.vertices = mesh.vertex_count();
   c.edges = std::int64_t(mesh.edges.size());
-  c.copied_vertices = std::int64_t(mesh.copied_vertex.size() + mesh.copied_centre.size());
-  c.copied_edges = std::int64_t(mesh.copied_edge.size());
+  c.copied_vertices = std::int64_t(mesh.copies.vertex.size() + mesh.copies.centre.size());
+  c.copied_edges = std::int64_t(mesh.copies.edge.size());
   c.free_vertices = std::count(unknowns.vertex.begin(), unknowns.vertex.end(), 1);
   c.free_edges = std::count(unknowns.edge.begin(), unknowns.edge.end(), 1);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -145,7 +145,7 @@ Counts count_elements(const ControlMesh& mesh, const Unknowns& unknowns) {
     ++(quad ? c.quads : c.triangles);
     (quad ? c.free_quads : c.free_triangles) += unknowns.has_face(f);
   }
-  for (const Index f : mesh.copied_face)
+  for (const Index f : mesh.copies.face)
     ++(mesh.faces[std::size_t(f)].quad() ? c.copied_quads : c.copied_triangles);
   c.parts = parts_of(mesh, unknowns);
   judge_shapes(mesh, c);

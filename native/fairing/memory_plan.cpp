@@ -32,6 +32,7 @@ std::int64_t block_bytes(const Counts& c) { return c.thin ? mixed(c, 240, 140) :
 // between them. Bytes an unknown, measured: equal rows along edges and inside faces share their
 // numbers, so that they fall with the pieces of an edge.
 std::int64_t matrix_bytes(const Counts& c, int levels) {
+  // of triangles and of quads, by levels from the first
   constexpr double row[2][4] = {{80, 125, 90, 66}, {108, 146, 112, 82}},
                    transfer[2][4] = {{80, 88, 97, 60}, {100, 115, 108, 63}};
   const double differing = c.thin ? 1.3 : 1;  // rows of thin faces have fewer numbers in common
@@ -103,7 +104,7 @@ std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
 // accelerated with.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
                         bool tense) {
-  constexpr std::int64_t moments = 112, surfaces = 480;
+  constexpr std::int64_t moment_bytes = 112, surface_bytes = 480;  // bytes a point
   const std::int64_t row = mixed(c, 84, 108), normal_matrix = mixed(c, 482, 620);
   const bool varies = energy == Energy::minimum_variation;
   std::int64_t normal_matrices = 0, factored = 0;
@@ -112,9 +113,9 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
     if (c.unknowns(l) <= std::int64_t(l > 1 ? tiny_level : direct_limit))
       factored = c.used_points(l);
   }
-  const std::int64_t rows = (varies ? 2 * row + moments : row + block_bytes(c)) +
+  const std::int64_t rows = (varies ? 2 * row + moment_bytes : row + block_bytes(c)) +
                             (tense ? row / 3 : 0),
-                     on_finest = surfaces * c.points(levels),
+                     on_finest = surface_bytes * c.points(levels),
                      usual = on_finest + 2 * std::int64_t(factor_bytes(std::size_t(factored)));
   return rows * all_points + normal_matrices +
          (varies ? std::max(hard_bytes(c, levels, on_finest), usual) : usual);

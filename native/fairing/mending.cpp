@@ -5,18 +5,16 @@
 
 #include "mesh/region.h"
 #include "mesh/validate/check.h"
+#include "mesh/vertex_pair.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
 using Ids = std::vector<std::int64_t>;
-using Pair = std::array<std::int64_t, 2>;
 
-Pair ascending(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-std::vector<Pair> edges_of(const PolygonMesh& mesh) {
-  std::vector<Pair> edges;
+std::vector<VertexPair> edges_of(const PolygonMesh& mesh) {
+  std::vector<VertexPair> edges;
   edges.reserve(mesh.corners.size());
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
     stop_if_cancelled(std::size_t(f));
@@ -28,11 +26,6 @@ std::vector<Pair> edges_of(const PolygonMesh& mesh) {
   return edges;
 }
 
-void sort_once(Ids& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
 // Edges of the input as edges of the mended mesh.
 class NamedEdges {
  public:
@@ -41,18 +34,18 @@ class NamedEdges {
 
   // edges <- what they are now: their pieces, or none where their faces have gone. What never was an
   // edge stays as it is, for the core to refuse.
-  void map(std::vector<Pair>& edges) const {
-    std::vector<Pair> now;
-    for (const Pair& edge : edges) add(edge, now);
+  void map(std::vector<VertexPair>& edges) const {
+    std::vector<VertexPair> now;
+    for (const VertexPair& edge : edges) add(edge, now);
     edges = std::move(now);
   }
 
  private:
-  static bool has(const std::vector<Pair>& edges, const Pair& edge) {
+  static bool has(const std::vector<VertexPair>& edges, const VertexPair& edge) {
     return std::binary_search(edges.begin(), edges.end(), edge);
   }
 
-  void add(const Pair& edge, std::vector<Pair>& out) const {
+  void add(const VertexPair& edge, std::vector<VertexPair>& out) const {
     const auto count = std::int64_t(mended_.vertex_origin.size());
     const bool inside = std::min(edge[0], edge[1]) >= 0 && std::max(edge[0], edge[1]) < count;
     if (!inside || !has(before_, ascending(edge[0], edge[1])))
@@ -62,19 +55,20 @@ class NamedEdges {
                  mended_.vertex_origin[std::size_t(edge[1])], out);
   }
 
-  void add_pieces(std::int64_t a, std::int64_t b, std::vector<Pair>& out) const {
-    std::vector<Pair> waiting{ascending(a, b)};
+  void add_pieces(std::int64_t a, std::int64_t b, std::vector<VertexPair>& out) const {
+    std::vector<VertexPair> waiting{ascending(a, b)};
     // Every piece is shorter than the whole: this ends.
     for (std::size_t i = 0; i < waiting.size(); ++i) {
-      const Pair edge = waiting[i];
+      const VertexPair edge = waiting[i];
       if (has(after_, edge)) {
         out.push_back(edge);
         continue;
       }
-      const auto at = std::lower_bound(
-          mended_.cut_edges.begin(), mended_.cut_edges.end(), edge,
-          [](const CutEdge& cut, const Pair& wanted) { return Pair{cut.low, cut.high} < wanted; });
-      if (at == mended_.cut_edges.end() || Pair{at->low, at->high} != edge) continue;
+      const auto at = std::lower_bound(mended_.cut_edges.begin(), mended_.cut_edges.end(), edge,
+                                       [](const CutEdge& cut, const VertexPair& wanted) {
+                                         return VertexPair{cut.low, cut.high} < wanted;
+                                       });
+      if (at == mended_.cut_edges.end() || VertexPair{at->low, at->high} != edge) continue;
       std::int64_t from = at->low;
       for (const Index v : at->between) {
         waiting.push_back(ascending(from, v));
@@ -85,7 +79,7 @@ class NamedEdges {
   }
 
   const MendedMesh& mended_;
-  std::vector<Pair> before_, after_;
+  std::vector<VertexPair> before_, after_;
 };
 
 MendedMesh mend_as_asked(const PolygonMesh& input, const FairOptions& options) {
@@ -115,7 +109,6 @@ Mending::Mending(const PolygonMesh& input, const FairOptions& options)
 
 void Mending::map_options(const PolygonMesh& input) {
   map_edges(input);
-  map_sharpness(input);
   map_region(input);
   map_vertex_values(input);
   for (std::int64_t& v : options_.features.corner_vertices)
@@ -130,22 +123,17 @@ void Mending::map_options(const PolygonMesh& input) {
 
 void Mending::map_edges(const PolygonMesh& input) {
   FeatureOptions& features = options_.features;
-  std::vector<std::vector<Pair>*> named{&features.crease_edges};
-  for (std::vector<Pair>& of_mode : features.boundary_edges) named.push_back(&of_mode);
-  std::erase_if(named, [](const std::vector<Pair>* edges) { return edges->empty(); });
-  if (named.empty()) return;
-  const NamedEdges edges(input, mended_);
-  for (std::vector<Pair>* of_kind : named) edges.map(*of_kind);
-}
-
-void Mending::map_sharpness(const PolygonMesh& input) {
   auto& [edges, values] = options_.sharpness.edges;
-  if (edges.empty()) return;
+  std::vector<std::vector<VertexPair>*> lists{&features.crease_edges};
+  for (std::vector<VertexPair>& of_mode : features.boundary_edges) lists.push_back(&of_mode);
+  std::erase_if(lists, [](const std::vector<VertexPair>* list) { return list->empty(); });
+  if (lists.empty() && edges.empty()) return;
   const NamedEdges named(input, mended_);
-  std::vector<Pair> all;
+  for (std::vector<VertexPair>* list : lists) named.map(*list);
+  std::vector<VertexPair> all;
   std::vector<double> all_values;
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    std::vector<Pair> now{edges[k]};
+    std::vector<VertexPair> now{edges[k]};
     named.map(now);
     all.insert(all.end(), now.begin(), now.end());
     all_values.resize(all.size(), values[k]);
@@ -243,7 +231,8 @@ Ids Mending::faces_of_input(std::span<const std::int64_t> faces) const {
   Ids ids(faces.begin(), faces.end());
   if (!mended_.changed()) return ids;
   for (std::int64_t& f : ids) f = mended_.face_origin[std::size_t(f)];
-  sort_once(ids);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 

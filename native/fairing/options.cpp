@@ -134,7 +134,9 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
   in_range("limit", o.limit, 0, 1);
-  check_sharpness(mesh.vertex_count(), o.sharpness);
+  check_edge_sharpness(mesh.vertex_count(), o.sharpness);
+  if (!o.sharpness.vertices.empty())
+    check_per_vertex(mesh, "vertex_sharpness", o.sharpness.vertices);
   in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");

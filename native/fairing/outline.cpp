@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/outline.h"
 
-#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -11,25 +10,16 @@
 #include "fairing/fair.h"
 #include "fairing/held_positions.h"
 #include "fairing/mending.h"
+#include "mesh/orientation.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-OwnedPolygonMesh turned(const PolygonMesh& mesh, std::span<const std::int64_t> flipped) {
-  OwnedPolygonMesh out{{mesh.coordinates.begin(), mesh.coordinates.end()},
-                       {mesh.corners.begin(), mesh.corners.end()},
-                       {mesh.offsets.begin(), mesh.offsets.end()}};
-  for (const std::int64_t f : flipped)  // the first corner stays the first
-    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
-                 out.corners.begin() + out.offsets[std::size_t(f) + 1]);
-  return out;
-}
-
 // A control vertex as the result numbers it, without copies.
 std::int32_t joined(const ControlMesh& mesh, Index v) {
   const Index original = mesh.original_vertex(v);
-  return original < mesh.input_vertices ? original : original - Index(mesh.copied_vertex.size());
+  return original < mesh.input_vertices ? original : original - Index(mesh.copies.vertex.size());
 }
 
 void take_faces(const ControlMesh& mesh, Outline& out) {
@@ -98,7 +88,7 @@ Outline outline_of(const Mending& mending) {
   out.shapes.assign(options.shapes.begin(), options.shapes.end());
   ControlMesh mesh = make_control_mesh(mending.mesh(), options.features, out.report.flipped_faces);
   out.report.sheets = sheets_of(mesh);
-  out.mesh = turned(mending.mesh(), out.report.flipped_faces);
+  out.mesh = with_flipped(mending.mesh(), out.report.flipped_faces);
   if (mending.mended()) out.mended = *mending.mended();
   take_faces(mesh, out);
   take_edges(mesh, out);

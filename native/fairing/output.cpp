@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/points.h"
 #include "fairing/weld.h"
 #include "grid/accumulate.h"
 #include "grid/linear.h"
@@ -18,13 +19,9 @@ void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::
   ids.resize(std::size_t(last) + 1);
   const bool inside = j > 0 && j < n && last > 1;
   ids[0] = grid.face_point(f, 0, j);
+  for (int i = 1; i < last; ++i)
+    ids[std::size_t(i)] = inside && i > 1 ? ids[std::size_t(i) - 1] + 1 : grid.face_point(f, i, j);
   ids[std::size_t(last)] = grid.face_point(f, last, j);
-  if (inside) {
-    const Index first = grid.face_point(f, 1, j);
-    for (int i = 1; i < last; ++i) ids[std::size_t(i)] = first + i - 1;
-  } else {
-    for (int i = 1; i < last; ++i) ids[std::size_t(i)] = grid.face_point(f, i, j);
-  }
 }
 
 void join_sheets(const Weld& weld, Workers& workers, Array<std::int32_t>& ids) {
@@ -101,7 +98,7 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
   std::vector<std::uint8_t> kept(given.size());
   for (std::size_t v = 0; v < given.size(); ++v) {
     stop_if_cancelled(v);
-    kept[v] = Vec3(x[3 * v], x[3 * v + 1], x[3 * v + 2]) == control.working[v];
+    kept[v] = point_at(x, Index(v)) == control.working[v];
   }
   workers.for_parts(grid.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
@@ -109,14 +106,11 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
         world[3 * p + a] = frame.centre[Eigen::Index(a)] + frame.scale * x[3 * p + a];
   });
   for (std::size_t v = 0; v < given.size(); ++v)
-    if (kept[v])
-      for (std::size_t a = 0; a < 3; ++a) world[3 * v + a] = given[v][Eigen::Index(a)];
+    if (kept[v]) put_point(given[v], world + 3 * v);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (control.world_curves.run[e] < 0) continue;
-    const auto points = control.world_curves.of(Index(e));
-    for (std::size_t k = 0; k < points.size(); ++k)
-      for (std::size_t a = 0; a < 3; ++a)
-        world[3 * (std::size_t(grid.edge_base(Index(e))) + k) + a] = points[k][Eigen::Index(a)];
+    double* to = world + 3 * std::size_t(grid.edge_base(Index(e)));
+    for (const Vec3& p : control.world_curves.of(Index(e))) to = put_point(p, to);
   }
   refine_outside_linearly(grid, given, world);
 }
@@ -124,8 +118,7 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
 double largest_deviation(const std::vector<Vec3>& cage, const double* world) {
   double largest = 0;
   for (std::size_t v = 0; v < cage.size(); ++v)
-    largest = std::max(largest,
-                       (Vec3(world[3 * v], world[3 * v + 1], world[3 * v + 2]) - cage[v]).norm());
+    largest = std::max(largest, (point_at(world, Index(v)) - cage[v]).norm());
   return largest;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/points.h"
 #include "fairing/checked.h"
 #include "fairing/memory_plan.h"
 #include "fairing/unknowns.h"
@@ -154,7 +155,7 @@ ControlPositions FairingProblem::about(std::span<const double> coordinates,
   ControlPositions control = positions_of_shape(mesh, basis.world, held.of(coordinates), frame,
                                                 1 << options.levels, exponent, handed, shape);
   for (std::size_t v = 0; v < control.cage.size(); ++v)
-    control.cage[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+    control.cage[v] = point_at(coordinates, Index(v));
   return control;
 }
 
@@ -168,7 +169,7 @@ std::vector<double> FairingProblem::working_tolerances() const {
 std::vector<double> FairingProblem::weights_with_copies() const {
   std::vector<double> out = options.weights;
   if (!out.empty())
-    for (const Index v : mesh.copied_vertex) out.push_back(out[std::size_t(v)]);
+    for (const Index v : mesh.copies.vertex) out.push_back(out[std::size_t(v)]);
   return out;
 }
 

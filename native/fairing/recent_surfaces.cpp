@@ -17,7 +17,7 @@ constexpr double same_kind = 1e-2;
 constexpr double least_column = 1e-4;
 // The normal equations of columns of length one are solved on eigenvectors with larger eigenvalues
 // than this: a flat mesh, for one, leaves directions undetermined.
-constexpr double least_eigenvalue = 1e-10;
+constexpr double least_determined = 1e-10;
 
 double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
   double most = 0;
@@ -55,7 +55,7 @@ RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions
                                                                           unit.asDiagonal());
   Eigen::Matrix<double, 7, 1> inverse;
   for (int k = 0; k < 7; ++k)
-    inverse[k] = solver.eigenvalues()[k] > least_eigenvalue ? 1 / solver.eigenvalues()[k] : 0;
+    inverse[k] = solver.eigenvalues()[k] > least_determined ? 1 / solver.eigenvalues()[k] : 0;
   return unit.asDiagonal() *
          (solver.eigenvectors() * (inverse.asDiagonal() * (solver.eigenvectors().transpose() *
                                                            (unit.asDiagonal() * right))));

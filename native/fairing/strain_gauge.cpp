@@ -1,85 +1,155 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/strain_gauge.h"
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "fairing/memory_plan.h"
+#include "fairing/symmetry.h"
+#include "mesh/normal.h"
+#include "strain/excess.h"
+#include "strain/load_matrix.h"
+
 namespace fairing {
+namespace {
 
-// Each face's share is its area vector; a quad's is that of its diagonals.
-Vec3 normal_of(const ControlMesh& mesh, Index v) {
-  Vec3 sum = Vec3::Zero();
-  const auto at = [&](Index u) -> const Vec3& { return mesh.positions[std::size_t(u)]; };
-  for (const Spoke& spoke : mesh.ring(v)) {
-    if (spoke.face < 0) continue;
-    const Face& f = mesh.faces[std::size_t(spoke.face)];
-    const Vec3 &a = at(f.vertex[0]), &b = at(f.vertex[1]), &c = at(f.vertex[2]);
-    sum += f.quad() ? (c - a).cross(at(f.vertex[3]) - b) : (b - a).cross(c - a);
-  }
-  return sum.stableNormalized();
+// The floor, in standard deviations: of a thousand strains that are nothing but scatter, three are
+// larger. And the standard deviation of a bell curve, over the median of its absolute values.
+constexpr double beyond = 3, of_median = 1.4826;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-void Strain::restore(const std::vector<Index>& origin) {
-  for (std::size_t v = 0; v < std::min(origin.size(), ways.size()); ++v) {
-    const auto lead = std::size_t(origin[v]);
-    ways[v] = ways[lead];
-    lengths[v] = lengths[lead];
-    on_curve[v] = on_curve[lead];
+}  // namespace
+
+void restore(Ways& ways, const std::vector<Index>& origin) {
+  for (std::size_t v = 0; v < std::min(origin.size(), ways.lengths.size()); ++v) {
+    ways.ways[v] = ways.ways[std::size_t(origin[v])];
+    ways.lengths[v] = ways.lengths[std::size_t(origin[v])];
   }
 }
 
-StrainGauge::StrainGauge(const FairingProblem& problem, std::vector<double> own)
-    : problem_(problem),
-      own_(std::move(own)),
-      curves_(problem.mesh, problem.basis.working, problem.exponent) {
+StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver, int rings_apart,
+                         const OnPart& on_part)
+    : problem_(problem), curves_(problem.mesh, problem.basis.working, problem.exponent) {
+  const ControlMesh& mesh = problem.mesh;
+  if (const Pads* const pads = solver.pads()) {
+    for (Index v = 0; v < mesh.input_vertices; ++v)
+      if (pads->under(std::size_t(v))) vertices_.push_back(v);
+    on_pads_ = vertices_.size();
+    counted_.emplace(bytes_of_load_matrix(on_pads_, rings_apart));
+    ProbedMatrix probed =
+        load_matrix(solver, problem.basis.working_curves, vertices_, rings_apart, on_part);
+    matrix_ = std::move(probed.g);
+    solves_ = probed.solves;
+  }
+  add_pulls();
+  normals_ = Columns::Zero(Eigen::Index(vertices_.size()), 3);
+  for (std::size_t i = 0; i < on_pads_; ++i)
+    normals_.row(Eigen::Index(i)) = control_normal(mesh, vertices_[i]).stableNormalized();
+  find_images();
+}
+
+// A mesh that is its own mirror image has what is wrong twice.
+void StrainGauge::find_images() {
+  for (std::size_t i = 0; i < vertices_.size(); ++i) images_.push_back({Index(i)});
+  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) row[std::size_t(vertices_[i])] = Index(i);
+  for (const Mirror& mirror :
+       find_symmetry(problem_.mesh, problem_.basis, problem_.frame, problem_.options))
+    for (std::vector<Index>& images : images_)
+      for (std::size_t k = 0, known = images.size(); k < known; ++k) {
+        const Index v = vertices_[std::size_t(images[k])];
+        const Index other = row[std::size_t(mirror.vertex[std::size_t(v)])];
+        if (other >= 0 && std::find(images.begin(), images.end(), other) == images.end())
+          images.push_back(other);
+      }
+}
+
+void StrainGauge::require_room(const FairingProblem& problem, int rings_apart) {
+  const auto vertices = std::size_t(problem.mesh.input_vertices);
+  const std::size_t matrix = bytes_of_load_matrix(vertices, rings_apart);
+  const auto surface =
+      std::size_t(predict_size(problem.mesh, problem.unknowns, problem.options.levels).bytes);
+  if (surface + matrix <= problem.options.bytes_allowed()) return;
+  throw FairingError(ErrorCode::too_large,
+                     "The loads that " + std::to_string(vertices) + " vertices ask for take " +
+                         std::to_string(matrix / 1000000) + " MB beside the surface's " +
+                         std::to_string(surface / 1000000) +
+                         ", over the limit. Raise memory_limit, or ease parts of the mesh.");
+}
+
+// To the matrix of loads on pads.
+void StrainGauge::add_pulls() {
   for (const Index v : curves_.middles())
-    if (problem.mesh.vertex_part(v) == RegionPart::inside) curve_vertices_.push_back(v);
-  const LoadMatrix all = LoadMatrix(curves_.differences().transpose()) * curves_.differences();
+    if (problem_.mesh.vertex_part(v) == RegionPart::inside) vertices_.push_back(v);
+  pulls_ = LoadMatrix(curves_.differences().transpose()) * curves_.differences();
+  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
+  for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
+    row[std::size_t(vertices_[i])] = Index(i);
   std::vector<Eigen::Triplet<double, Index>> entries;
-  std::vector<Index> number(std::size_t(problem.mesh.vertex_count()), -1);
-  for (std::size_t i = 0; i < curve_vertices_.size(); ++i)
-    number[std::size_t(curve_vertices_[i])] = Index(i);
-  for (std::size_t i = 0; i < curve_vertices_.size(); ++i)
-    for (LoadMatrix::InnerIterator entry(all, curve_vertices_[i]); entry; ++entry)
-      if (const Index column = number[std::size_t(entry.col())]; column >= 0)
+  const auto n = Eigen::Index(vertices_.size());
+  for (Eigen::Index i = Eigen::Index(on_pads_); i < n; ++i)
+    for (LoadMatrix::InnerIterator entry(pulls_, vertices_[std::size_t(i)]); entry; ++entry)
+      if (const Index column = row[std::size_t(entry.col())]; column >= 0)
         entries.emplace_back(Index(i), column, entry.value());
-  const auto count = Eigen::Index(curve_vertices_.size());
-  pulls_.resize(count, count);
-  pulls_.setFromTriplets(entries.begin(), entries.end());
+  LoadMatrix own(n, n);
+  own.setFromTriplets(entries.begin(), entries.end());
+  matrix_.conservativeResize(n, n);
+  matrix_ += own;
 }
 
-Columns StrainGauge::pulls_of(std::span<const Vec3> positions) const {
-  const Columns all =
-      curves_.differences().transpose() * (curves_.differences() * columns_of(positions)).eval();
-  Columns out(Eigen::Index(curve_vertices_.size()), 3);
-  for (std::size_t i = 0; i < curve_vertices_.size(); ++i)
-    out.row(Eigen::Index(i)) = all.row(curve_vertices_[i]);
+Columns StrainGauge::loads(const Loads& on_pads, const ControlPositions& control) const {
+  Columns out(Eigen::Index(vertices_.size()), 3);
+  for (std::size_t i = 0; i < on_pads_; ++i)
+    out.row(Eigen::Index(i)) = on_pads[std::size_t(vertices_[i])].transpose();
+  const Columns pulls = pulls_ * columns_of(control.working);
+  for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
+    out.row(Eigen::Index(i)) = pulls.row(vertices_[i]);
   return out;
 }
 
-Strain StrainGauge::read(const Loads& loads, std::span<const Vec3> positions) const {
+Columns StrainGauge::ways_of(Columns loads) const {
+  for (Eigen::Index i = 0; i < loads.rows(); ++i) {
+    const double own = matrix_.coeff(i, i);
+    loads.row(i) *= own > 0 ? -1 / own : 0.0;
+  }
+  return loads;
+}
+
+Ways StrainGauge::in_mesh_units(const Columns& ways) const {
   const auto n = std::size_t(problem_.mesh.input_vertices);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Strain out{std::vector<Vec3>(n, Vec3::Constant(none)), std::vector<double>(n, none),
-             std::vector<std::uint8_t>(n, 0)};
-  const double unit = problem_.frame.scale;
-  for (std::size_t v = 0; v < std::min(n, own_.size()); ++v) {
-    if (!(own_[v] > 0)) continue;
-    out.ways[v] = -unit / own_[v] * loads[v];
-    out.lengths[v] = out.ways[v].dot(normal_of(problem_.mesh, Index(v)));
-  }
-  const Columns pulls = pulls_of(positions);
-  for (std::size_t i = 0; i < curve_vertices_.size(); ++i) {
-    const auto v = std::size_t(curve_vertices_[i]);
-    const double own = pulls_.coeff(Index(i), Index(i));
-    if (!(own > 0)) continue;
-    out.on_curve[v] = 1;
-    out.ways[v] = -unit / own * pulls.row(Eigen::Index(i)).transpose();
-    out.lengths[v] =
-        std::copysign(out.ways[v].norm(), out.ways[v].dot(normal_of(problem_.mesh, Index(v))));
+  Ways out{std::vector<Vec3>(n, Vec3::Constant(none)), std::vector<double>(n, none)};
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (!(matrix_.coeff(Eigen::Index(i), Eigen::Index(i)) > 0)) continue;
+    const auto v = std::size_t(vertices_[i]);
+    const Vec3 way = problem_.frame.scale * ways.row(Eigen::Index(i)).transpose();
+    const double along = way.dot(control_normal(problem_.mesh, Index(v)).stableNormalized());
+    out.ways[v] = way;
+    out.lengths[v] = i < on_pads_ ? along : std::copysign(way.norm(), along);
   }
   return out;
+}
+
+Ways StrainGauge::strain(const Loads& on_pads, const ControlPositions& control) const {
+  return in_mesh_units(ways_of(loads(on_pads, control)));
+}
+
+Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control) const {
+  const Columns all = loads(on_pads, control), ways = ways_of(all);
+  std::vector<double> lengths;
+  for (Eigen::Index i = 0; i < ways.rows(); ++i)
+    if (matrix_.coeff(i, i) > 0) lengths.push_back(way_length(ways.row(i), normals_.row(i)));
+  const double floor = beyond * of_median * median(std::move(lengths));
+  return {in_mesh_units(ways_one_by_one({matrix_, normals_, images_}, all, floor)),
+          floor * problem_.frame.scale};
 }
 
 }  // namespace fairing

@@ -4,49 +4,75 @@
 // makes their loads (strain/curve_loads.h) least.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fairing/problem.h"
 #include "strain/curve_loads.h"
+#include "strain/probes.h"
 
 namespace fairing {
 
-struct Strain {
-  // One an input vertex, in mesh units: the way itself, and its part along the control mesh's
-  // normal; on curves the whole, over zero on the normal's side. NaN at corners, at
-  // and next to ends of curves, and outside a region.
+// Ways of the surface, one an input vertex, in mesh units; and their parts along the control mesh's
+// normal, on curves the whole, over zero on the normal's side. NaN at corners, at and next to ends of
+// curves, and outside a region.
+struct Ways {
   std::vector<Vec3> ways;
   std::vector<double> lengths;
-  std::vector<std::uint8_t> on_curve;  // over zero where a curve says it
-
-  // Each vertex that was merged with another gets what that one has: `origin` one a vertex.
-  void restore(const std::vector<Index>& origin);
 };
+
+// The part of strain that is a vertex' own: less what vertices that strain more do to it
+// (strain/excess.h), of loads that have moments on borders (strain/border_moments.h).
+struct Excess {
+  Ways own;
+  // What it may be without saying anything: scatter, and a fair shape between its vertices. By a
+  // median, which a few wrong vertices do not change.
+  double floor = 0;
+};
+
+// Each vertex that was merged with another gets what that one has: `origin` one a vertex.
+void restore(Ways& ways, const std::vector<Index>& origin);
 
 class StrainGauge {
  public:
-  // `own`: what each control vertex on a pad asks for when it alone moves, 0 for others.
-  StrainGauge(const FairingProblem& problem, std::vector<double> own);
+  // Of the plate that `solver` has solved for, by moves of vertices so many rings apart at once. All
+  // references must outlive it.
+  StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver, int rings_apart,
+              const OnPart& on_part = {});
+
+  // Throws too_large where the memory that is allowed does not hold the matrix beside the surface's.
+  static void require_room(const FairingProblem& problem, int rings_apart);
 
   const CurveLoads& curves() const { return curves_; }
-  // The middles() of curves that are faired, and the pulls of loads on them: one row each of D'D x,
-  // with D the loads' matrix.
-  const std::vector<Index>& curve_vertices() const { return curve_vertices_; }
-  const LoadMatrix& pulls() const { return pulls_; }
-  Columns pulls_of(std::span<const Vec3> positions) const;
+  // What strains: input vertices on pads, ascending, then the middles() of curves that are faired. The
+  // matrix of their loads has one row and column each; on curves loads are the pulls D'D x, with D the
+  // differences of the curves.
+  const std::vector<Index>& vertices() const { return vertices_; }
+  std::size_t on_pads() const { return on_pads_; }
+  const LoadMatrix& matrix() const { return matrix_; }
+  int solves() const { return solves_; }
+  // Of a surface through these positions.
+  Columns loads(const Loads& on_pads, const ControlPositions& control) const;
 
-  // Of loads on pads, and of control positions in working coordinates.
-  Strain read(const Loads& loads, std::span<const Vec3> positions) const;
+  Ways strain(const Loads& on_pads, const ControlPositions& control) const;
+  Excess excess(const Loads& on_pads, const ControlPositions& control) const;
 
  private:
-  const FairingProblem& problem_;
-  std::vector<double> own_;
-  CurveLoads curves_;
-  std::vector<Index> curve_vertices_;
-  LoadMatrix pulls_;  // D'D
-};
+  void add_pulls();
+  void find_images();
+  Columns ways_of(Columns loads) const;
+  Ways in_mesh_units(const Columns& ways) const;
 
-// The control mesh's own unit normal at a vertex; zero where its faces have no area.
-Vec3 normal_of(const ControlMesh& mesh, Index v);
+  const FairingProblem& problem_;
+  CurveLoads curves_;
+  std::vector<Index> vertices_;
+  std::size_t on_pads_ = 0;
+  std::optional<CountedBytes> counted_;
+  LoadMatrix matrix_;
+  LoadMatrix pulls_;                        // D'D of all control vertices
+  Columns normals_;                         // of each row; zero on curves
+  std::vector<std::vector<Index>> images_;  // likewise: itself and its mirror images
+  int solves_ = 0;
+};
 
 }  // namespace fairing

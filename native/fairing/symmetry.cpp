@@ -6,13 +6,13 @@
 namespace fairing {
 namespace {
 
-// How far two positions in working coordinates may be apart and count as the same. They were
-// rounded as world coordinates, relative to their distance from the world's origin: some bits of
-// that, and of the caller's own arithmetic at the mesh's size.
+// How far two positions in working coordinates may be apart and count as the same: what the caller's
+// own arithmetic makes at the mesh's size, and some units in the last place of world coordinates.
+constexpr double own_rounding = 1e-12, last_places = 8;
+
 double rounding(const Frame& frame) {
-  constexpr double own_rounding = 1e-12, bits = 8;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return own_rounding + bits * epsilon * frame.centre.norm() / frame.scale;
+  return own_rounding + last_places * epsilon * frame.centre.norm() / frame.scale;
 }
 
 // Corners, and where chains begin and end, need no test of their own: they show in the curves.

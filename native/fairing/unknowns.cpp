@@ -70,7 +70,7 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
     throw FairingError(ErrorCode::underdetermined,
                        "Nothing holds the part of the mesh around vertex " +
                            std::to_string(loose[0]) +
-                           ": give a vertex of it a weight, or interpolate one.",
+                           ". Give a vertex of it a weight, or interpolate one.",
                        loose);
 }
 

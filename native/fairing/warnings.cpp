@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "fairing/fixed_normals.h"
 #include "hold/control_hold.h"
@@ -21,7 +22,7 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
   char text[200];
   std::snprintf(text, sizeof text,
                 "This took %.3g MB where %.3g MB were predicted: some levels proved hard.",
-                1e-6 * double(report.peak_bytes), 1e-6 * double(report.predicted_bytes));
+                double(report.peak_bytes) / megabyte, double(report.predicted_bytes) / megabyte);
   report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
 
@@ -44,7 +45,7 @@ std::string of_tolerance(int level, double gap) {
 
 std::string of_plate(const LevelReport& level, const FairOptions& options) {
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
-  if (level.normal_angle > 90 * degree)
+  if (level.normal_angle > std::numbers::pi / 2)
     return sentence(
         "On level %d the surface has turned over at a fixed normal: it looks to the other side, up "
         "to %.3g degrees away. Turn that normal towards the faces around it, or free it.",

@@ -63,7 +63,7 @@ void Weld::take_means(double* points) const {
       mean(grid_.edge_point(mesh.original_edge(e), k), grid_.edge_point(e, k));
   const int n = grid_.n();
   for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f) {
-    const Index original = mesh.copied_face[std::size_t(f - mesh.first_copied_face())];
+    const Index original = mesh.copies.face[std::size_t(f - mesh.first_copied_face())];
     const bool quad = mesh.faces[std::size_t(f)].quad();
     for (int j = 1; j < n; ++j)
       for (int i = 1; i < (quad ? n : n - j); ++i)
@@ -72,7 +72,7 @@ void Weld::take_means(double* points) const {
 }
 
 void Weld::join(double* points, double* out) const {
-  if (!grid_.mesh().copied_face.empty()) take_means(points);
+  if (!grid_.mesh().copies.face.empty()) take_means(points);
   double* to = out;
   for (const Block& block : {vertices_, centres_, edges_, faces_}) {
     const double *begin = points + 3 * std::size_t(block.begin),

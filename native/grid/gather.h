@@ -72,25 +72,10 @@ inline SideWalk side_walk(bool quad, int n, int s, int k, int r) {
   return walk;
 }
 
-// The same among a face's interior points (first row 1), for the row r = 1.
+// The same among a face's interior points, for the row r = 1. These are a smaller closed face, whose
+// sides that row runs along.
 inline SideWalk interior_walk(bool quad, int n, int s, int k) {
-  const GridPoint p = closed_point(quad, n, s, k, 1);
-  const std::ptrdiff_t m = n, j = p.j;
-  SideWalk walk{std::ptrdiff_t(interior_row(quad, std::size_t(n), std::size_t(p.j))) + p.i - 1, 0,
-                0};
-  if (quad) {
-    const std::ptrdiff_t steps[4] = {1, m - 1, -1, -(m - 1)};
-    walk.step = steps[s];
-  } else if (s == 0) {
-    walk.step = 1;
-  } else if (s == 1) {
-    walk.step = m - j - 2;
-    walk.change = -1;
-  } else {
-    walk.step = -(m - j);
-    walk.change = -1;
-  }
-  return walk;
+  return side_walk(quad, quad ? n - 2 : n - 3, s, k - 1, 0);
 }
 
 // run <- x on the edge's points 0 … n.

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/linear.h"
 
+#include "base/points.h"
 #include "grid/runs.h"
 
 namespace fairing {
 namespace {
-
-double* put(const Vec3& p, double* x) {
-  for (int a = 0; a < 3; ++a) *x++ = p[a];
-  return x;
-}
 
 void refine_run(const GridLevel& grid, std::span<const Vec3> control, const Run& run, double* x) {
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n(), j = run.row, count = int(run.count);
   x += 3 * run.first;
   if (run.kind == RunKind::vertex) {
-    put(control[run.first], x);
+    put_point(control[run.first], x);
     return;
   }
   if (run.kind == RunKind::edge) {
     const Edge& edge = mesh.edges[std::size_t(run.element)];
     const Vec3 &a = control[std::size_t(edge.vertex[0])], &b = control[std::size_t(edge.vertex[1])];
-    for (int k = 1; k <= count; ++k) x = put((double(n - k) * a + double(k) * b) / n, x);
+    for (int k = 1; k <= count; ++k) x = put_point((double(n - k) * a + double(k) * b) / n, x);
     return;
   }
   const Face& face = mesh.faces[std::size_t(run.element)];
@@ -32,11 +28,13 @@ void refine_run(const GridLevel& grid, std::span<const Vec3> control, const Run&
   if (run.quad) {
     const Vec3 left = (double(n - j) * corner(0) + double(j) * corner(3)) / n,
                right = (double(n - j) * corner(1) + double(j) * corner(2)) / n;
-    for (int i = 1; i <= count; ++i) x = put((double(n - i) * left + double(i) * right) / n, x);
+    for (int i = 1; i <= count; ++i)
+      x = put_point((double(n - i) * left + double(i) * right) / n, x);
     return;
   }
   for (int i = 1; i <= count; ++i)
-    x = put((double(n - i - j) * corner(0) + double(i) * corner(1) + double(j) * corner(2)) / n, x);
+    x = put_point(
+        (double(n - i - j) * corner(0) + double(i) * corner(1) + double(j) * corner(2)) / n, x);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ class ElementSums {
   double total() const {
     double total = 0;
     for (std::size_t i = 0; i < sum_.size(); ++i)
-      if (mesh_.copied_face.empty() || !second(i)) total += sum_[i];
+      if (mesh_.copies.face.empty() || !second(i)) total += sum_[i];
     return total;
   }
 

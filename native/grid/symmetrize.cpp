@@ -89,7 +89,7 @@ void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Un
                            Workers& workers, double* h) {
   for_pairs(grid, mirror, unknowns, workers,
             [&](std::size_t p, std::size_t q) { h[p] = h[q] = 0.5 * (h[p] + h[q]); });
-  if (grid.mesh().copied_vertex.empty()) return;
+  if (grid.mesh().copies.vertex.empty()) return;
   for_each_run(grid, workers, [&](const Run& run) {
     if (lies_in_plane(grid.mesh(), mirror, run)) std::fill_n(h + run.first, run.count, 0.0);
   });

@@ -32,8 +32,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
         {1 / std::max(size * ahead, least_reach), 1 / std::max(size * back, least_reach)});
   for (std::size_t v = 0; v < vertices; ++v) {
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
-    if (!held || !mesh.vertex_fit(Index(v)) || mesh.vertex_part(Index(v)) != RegionPart::inside)
-      continue;
+    if (!held || !may_have_pad(mesh, Index(v))) continue;
     under_[v] = 1;
     rows_.vertex[v] = 1;
     rows_.any_vertex = true;

@@ -35,10 +35,15 @@ using LoadsOf = std::vector<Eigen::Matrix<double, N, 1>>;
 using Loads = LoadsOf<3>;
 using NormalLoads = LoadsOf<1>;
 
+// Off all curves and inside the region.
+inline bool may_have_pad(const ControlMesh& mesh, Index v) {
+  return mesh.vertex_fit(v) && mesh.vertex_part(v) == RegionPart::inside;
+}
+
 class Pads {
  public:
   // `size` in (0, 1] is what all reaches are multiplied by. A pad is under every control vertex
-  // that is fixed or has a weight, off all curves and inside the region. Positions of `mesh` in
+  // that is fixed or has a weight and may have one. Positions of `mesh` in
   // working coordinates.
   Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
        Workers& workers, const VertexWeights& weights = {});

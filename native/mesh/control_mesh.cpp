@@ -2,11 +2,12 @@
 #include "mesh/control_mesh.h"
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
-#include <algorithm>
 #include <string>
 
 #include "base/error.h"
+#include "base/points.h"
 #include "mesh/features.h"
+#include "mesh/orientation.h"
 #include "mesh/region.h"
 #include "mesh/sheets.h"
 #include "mesh/split.h"
@@ -14,16 +15,6 @@
 
 namespace fairing {
 namespace {
-
-OwnedPolygonMesh oriented(const PolygonMesh& mesh, std::span<const std::int64_t> flipped) {
-  OwnedPolygonMesh out{{mesh.coordinates.begin(), mesh.coordinates.end()},
-                       {mesh.corners.begin(), mesh.corners.end()},
-                       {mesh.offsets.begin(), mesh.offsets.end()}};
-  for (std::int64_t f : flipped)  // the first corner stays the first
-    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
-                 out.corners.begin() + out.offsets[std::size_t(f) + 1]);
-  return out;
-}
 
 void take_faces(const SplitMesh& split, ControlMesh& control) {
   Index sides = 0;
@@ -153,19 +144,18 @@ void index_spokes(ControlMesh& control) {
 
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped) {
-  OwnedPolygonMesh sheets = oriented(mesh, flipped);
+  OwnedPolygonMesh sheets = with_flipped(mesh, flipped);
   ControlMesh control;
   control.input_vertices = Index(mesh.vertex_count());
   control.input_faces = Index(mesh.face_count());
   SheetCopies copies = cut_into_sheets(sheets);
-  control.copied_vertex = std::move(copies.vertex);
-  control.second = std::move(copies.second);
-  SplitMesh split = split_polygons(sheets.view(), control.copied_vertex);
-  control.copied_face = lift_faces(sheets.view(), copies.cover, split, control.copied_centre);
+  control.copies.vertex = std::move(copies.vertex);
+  control.copies.second = std::move(copies.second);
+  SplitMesh split = split_polygons(sheets.view(), control.copies.vertex);
+  control.copies.face = lift_faces(sheets.view(), copies.cover, split, control.copies.centre);
 
-  for (std::size_t v = 0; v < std::size_t(control.first_centre()); ++v)
-    control.positions.emplace_back(sheets.coordinates[3 * v], sheets.coordinates[3 * v + 1],
-                                   sheets.coordinates[3 * v + 2]);
+  for (Index v = 0; v < control.first_centre(); ++v)
+    control.positions.push_back(point_at(sheets.coordinates, v));
   control.positions.insert(control.positions.end(), split.centres.begin(), split.centres.end());
   take_faces(split, control);
   connect_faces(control);

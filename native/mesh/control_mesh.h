@@ -101,6 +101,20 @@ struct Region {
   bool whole() const { return face.empty(); }
 };
 
+// Which elements of a control mesh are copies, and of what; ascending, and empty where the input is a
+// manifold with two sides.
+struct Copies {
+  // Where sheets meet (mesh/sheets.h), each has its own vertices and edges. Control vertex
+  // input_vertices + k is a copy of vertex[k]. The last edges are copies of `edge`, and run the same
+  // way.
+  std::vector<Index> vertex, edge;
+  // A one-sided sheet is there as its double cover (mesh/double_cover.h). All of its second half are
+  // copies: vertices that are `second`, one flag each of `vertex`, edges, the last vertices, of centres,
+  // and the last faces. Copied faces are reversed, with the same first corner.
+  std::vector<std::uint8_t> second;
+  std::vector<Index> centre, face;
+};
+
 struct ControlMesh {
   // The input's vertices first, then copies of them, then free vertices that splits have added, then
   // copies of these.
@@ -110,15 +124,7 @@ struct ControlMesh {
   std::vector<Side> sides;
   std::vector<Edge> edges;
 
-  // Where sheets meet (mesh/sheets.h), each has its own vertices and edges. Control vertex
-  // input_vertices + k is a copy of copied_vertex[k]. The last edges are copies of copied_edge, and
-  // run the same way. Both ascend, and are empty where the input is a manifold with two sides.
-  std::vector<Index> copied_vertex, copied_edge;
-  // A one-sided sheet is here as its double cover (mesh/double_cover.h). All of its second half are
-  // copies: vertices of copied_vertex that are `second`, edges, the last vertices, of centres, and
-  // the last faces. Copied faces are reversed, with the same first corner.
-  std::vector<std::uint8_t> second;
-  std::vector<Index> copied_centre, copied_face;
+  Copies copies;
 
   // The one-rings, counter-clockwise; an open ring starts at its first boundary edge.
   std::vector<Index> ring_offset;  // vertices + 1
@@ -135,35 +141,35 @@ struct ControlMesh {
 
   Index vertex_count() const { return Index(positions.size()); }
 
-  Index first_centre() const { return input_vertices + Index(copied_vertex.size()); }
-  Index first_copied_centre() const { return vertex_count() - Index(copied_centre.size()); }
-  Index first_copied_face() const { return Index(faces.size() - copied_face.size()); }
-  Index first_copied_edge() const { return Index(edges.size() - copied_edge.size()); }
+  Index first_centre() const { return input_vertices + Index(copies.vertex.size()); }
+  Index first_copied_centre() const { return vertex_count() - Index(copies.centre.size()); }
+  Index first_copied_face() const { return Index(faces.size() - copies.face.size()); }
+  Index first_copied_edge() const { return Index(edges.size() - copies.edge.size()); }
   // The input vertex at v, or the centre of a split polygon.
   Index original_vertex(Index v) const {
     if (v < input_vertices) return v;
-    if (v < first_centre()) return copied_vertex[std::size_t(v - input_vertices)];
-    return v < first_copied_centre() ? v : copied_centre[std::size_t(v - first_copied_centre())];
+    if (v < first_centre()) return copies.vertex[std::size_t(v - input_vertices)];
+    return v < first_copied_centre() ? v : copies.centre[std::size_t(v - first_copied_centre())];
   }
   Index original_edge(Index e) const {
-    return e < first_copied_edge() ? e : copied_edge[std::size_t(e - first_copied_edge())];
+    return e < first_copied_edge() ? e : copies.edge[std::size_t(e - first_copied_edge())];
   }
   // Whether v is a copy or has copies.
   bool shared(Index v) const {
-    const std::vector<Index>& copied = v < first_centre() ? copied_vertex : copied_centre;
+    const std::vector<Index>& copied = v < first_centre() ? copies.vertex : copies.centre;
     return std::binary_search(copied.begin(), copied.end(), original_vertex(v));
   }
   // Whether the edge is a copy or has copies.
   bool shared_edge(Index e) const {
-    return std::binary_search(copied_edge.begin(), copied_edge.end(), original_edge(e));
+    return std::binary_search(copies.edge.begin(), copies.edge.end(), original_edge(e));
   }
   // Whether the edge is one of several that are one in the input, of three faces and more, and not
   // just one of the two on a double cover.
   bool nonmanifold(Index e) const {
     const Index original = original_edge(e);
-    const auto [first, last] = std::equal_range(copied_edge.begin(), copied_edge.end(), original);
+    const auto [first, last] = std::equal_range(copies.edge.begin(), copies.edge.end(), original);
     if (last - first != 1) return first != last;
-    const Index copy = first_copied_edge() + Index(first - copied_edge.begin());
+    const Index copy = first_copied_edge() + Index(first - copies.edge.begin());
     return !second_vertex(edges[std::size_t(original)].vertex[0]) &&
            !second_vertex(edges[std::size_t(copy)].vertex[0]);
   }
@@ -172,15 +178,16 @@ struct ControlMesh {
     bool meet = false;
     if (v < first_centre())
       for_each_copy(original_vertex(v), [&](Index w) {
-        meet |= w >= input_vertices && !second[std::size_t(w - input_vertices)];
+        meet |= w >= input_vertices && !copies.second[std::size_t(w - input_vertices)];
       });
     return meet;
   }
   // Whether the element is of the second half of a double cover: as its first half says all, it
   // counts nowhere.
   bool second_vertex(Index v) const {
-    return v < first_centre() ? v >= input_vertices && second[std::size_t(v - input_vertices)]
-                              : v >= first_copied_centre();
+    return v < first_centre()
+               ? v >= input_vertices && copies.second[std::size_t(v - input_vertices)]
+               : v >= first_copied_centre();
   }
   bool second_edge(Index e) const { return e >= first_copied_edge() && !nonmanifold(e); }
   bool second_face(Index f) const { return f >= first_copied_face(); }
@@ -188,9 +195,9 @@ struct ControlMesh {
   template <class Visit>
   void for_each_copy(Index v, Visit&& visit) const {
     visit(v);
-    auto copy = std::lower_bound(copied_vertex.begin(), copied_vertex.end(), v);
-    for (; copy != copied_vertex.end() && *copy == v; ++copy)
-      visit(input_vertices + Index(copy - copied_vertex.begin()));
+    auto copy = std::lower_bound(copies.vertex.begin(), copies.vertex.end(), v);
+    for (; copy != copies.vertex.end() && *copy == v; ++copy)
+      visit(input_vertices + Index(copy - copies.vertex.begin()));
   }
   // Cut by split_polygons: no edge of the input.
   bool inside_polygon(Index e) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mesh/polygon_shape.h"
 #include "mesh/sheets.h"
 #include "parallel/cancel.h"
 
@@ -21,15 +22,10 @@ Index other_end(const Edge& edge, Index v) {
 }
 
 std::vector<Vec3> polygon_normals(const PolygonMesh& mesh) {
-  std::vector<Vec3> normals(std::size_t(mesh.face_count()), Vec3::Zero());
+  std::vector<Vec3> normals;
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
     stop_if_cancelled(std::size_t(f));
-    const auto face = mesh.face(f);
-    const auto point = [&](std::size_t i) -> Vec3 {
-      return Eigen::Map<const Vec3>(&mesh.coordinates[3 * std::size_t(face[i])]);
-    };
-    for (std::size_t i = 1; i + 1 < face.size(); ++i)
-      normals[std::size_t(f)] += (point(i) - point(0)).cross(point(i + 1) - point(0));
+    normals.push_back(twice_vector_area(mesh, f));
   }
   return normals;
 }
@@ -48,7 +44,6 @@ class FeatureFinder {
     control_.feature_vertex.assign(std::size_t(control_.vertex_count()), 0);
     choose_modes();
     mark_boundary();
-    mark_meeting_edges();
     mark_given_creases();
     mark_folded_edges();
     mark_copies();
@@ -85,9 +80,11 @@ class FeatureFinder {
     return edge(e).boundary() && !control_.nonmanifold(e) && mode(e) == BoundaryMode::linear;
   }
 
+  // Where sheets meet, whatever is asked for: no other curve could hold more than two faces.
   void mark_boundary() {
     for (Index e = 0; e < Index(control_.edges.size()); ++e)
-      control_.feature_edge[std::size_t(e)] = edge(e).boundary() && mode(e) != BoundaryMode::free;
+      control_.feature_edge[std::size_t(e)] =
+          control_.nonmanifold(e) || (edge(e).boundary() && mode(e) != BoundaryMode::free);
   }
 
   // The edge between two input vertices, one of them where it is non-manifold; -1: none.
@@ -101,14 +98,6 @@ class FeatureFinder {
           found = spoke.edge;
     });
     return found;
-  }
-
-  // Whatever is asked for: no other curve could hold more than two faces.
-  void mark_meeting_edges() {
-    for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e)
-      if (control_.nonmanifold(e))
-        control_.feature_edge[std::size_t(e)] =
-            control_.feature_edge[std::size_t(control_.original_edge(e))] = 1;
   }
 
   // Both halves of a double cover have the same creases.

@@ -10,6 +10,11 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/points.h"
+#include "mesh/buckets.h"
+#include "mesh/groups.h"
+#include "mesh/half_edges.h"
+#include "mesh/vertex_pair.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -164,11 +169,7 @@ RingWeights weights_of(const PolygonRing& ring) {
   return weights;
 }
 
-using SharpEdge = std::pair<std::array<std::int64_t, 2>, double>;
-
-std::array<std::int64_t, 2> ascending(std::int64_t a, std::int64_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+using SharpEdge = std::pair<VertexPair, double>;
 
 double forever(double sharpness) { return sharpness >= always_sharp ? infinite : sharpness; }
 
@@ -221,27 +222,19 @@ std::vector<double> vertex_sharpness(const ControlMesh& control,
 class PolygonRings {
  public:
   PolygonRings(const PolygonMesh& mesh, std::vector<SharpEdge> edges)
-      : mesh_(mesh), edges_(std::move(edges)), first_(std::size_t(mesh.vertex_count()) + 1, 0) {
-    for (const std::int64_t v : mesh.corners) ++first_[std::size_t(v) + 1];
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    corner_.resize(mesh.corners.size());
-    face_.resize(mesh.corners.size());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::int64_t f = 0; f < mesh.face_count(); ++f)
-      for (std::int64_t k = mesh.offsets[std::size_t(f)]; k < mesh.offsets[std::size_t(f) + 1];
-           ++k) {
-        const std::size_t place = next[std::size_t(mesh.corners[std::size_t(k)])]++;
-        corner_[place] = Index(k - mesh.offsets[std::size_t(f)]);
-        face_[place] = Index(f);
-      }
-  }
+      : half_edges_(mesh),
+        edges_(std::move(edges)),
+        corners_(
+            std::size_t(mesh.vertex_count()), mesh.corners.size(),
+            [&](std::size_t k) { return mesh.corners[k]; },
+            [](std::size_t k) { return Index(k); }) {}
 
   // Valid until the next call.
   const PolygonRing& at(std::size_t v, double sharpness) {
     ring_.spokes.clear();
     ring_.faces.clear();
     ends_.clear();
-    for (std::size_t k = first_[v]; k < first_[v + 1]; ++k) {
+    for (const Index k : corners_.of(v)) {
       const auto [before, behind] = neighbours(k);
       ends_.insert(ends_.end(), {before, behind});
     }
@@ -249,9 +242,9 @@ class PolygonRings {
     ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
     for (const std::int64_t u : ends_)
       ring_.spokes.push_back({Index(u), sharpness_of(edges_, std::int64_t(v), u), 0});
-    for (std::size_t k = first_[v]; k < first_[v + 1]; ++k) {
+    for (const Index k : corners_.of(v)) {
       const auto [before, behind] = neighbours(k);
-      const RingFace face{face_[k], {spoke(before), spoke(behind)}};
+      const RingFace face{half_edges_.face(k), {spoke(before), spoke(behind)}};
       for (const std::size_t i : face.spoke) ++ring_.spokes[i].faces;
       ring_.faces.push_back(face);
     }
@@ -262,10 +255,8 @@ class PolygonRings {
   }
 
  private:
-  std::array<std::int64_t, 2> neighbours(std::size_t k) const {
-    const auto face = mesh_.face(face_[k]);
-    const auto i = std::size_t(corner_[k]);
-    return {face[i ? i - 1 : face.size() - 1], face[i + 1 < face.size() ? i + 1 : 0]};
+  std::array<std::int64_t, 2> neighbours(Index k) const {
+    return {half_edges_.from(half_edges_.previous(k)), half_edges_.from(half_edges_.next(k))};
   }
   std::size_t spoke(std::int64_t end) const {
     return std::size_t(std::lower_bound(ends_.begin(), ends_.end(), end) - ends_.begin());
@@ -273,34 +264,25 @@ class PolygonRings {
 
   // Whether several fans of faces are around the vertex. One edge of three faces or more may pass
   // through it all the same.
-  bool meets_itself() {
+  bool meets_itself() const {
     if (ring_.faces.empty() || rule_of(ring_, 0) == VertexRule::crease) return false;
-    root_.resize(ring_.spokes.size());
-    for (std::size_t i = 0; i < root_.size(); ++i) root_[i] = i;
-    const auto find = [&](std::size_t i) {
-      while (root_[i] != i) i = root_[i] = root_[root_[i]];
-      return i;
-    };
-    std::size_t fans = root_.size();
-    for (const RingFace& face : ring_.faces) {
-      const std::size_t a = find(face.spoke[0]), b = find(face.spoke[1]);
-      fans -= a != b;
-      root_[a] = b;
-    }
+    Groups joined(ring_.spokes.size());
+    std::size_t fans = ring_.spokes.size();
+    for (const RingFace& face : ring_.faces)
+      fans -= joined.unite(Index(face.spoke[0]), Index(face.spoke[1]));
     return fans > 1;
   }
 
-  const PolygonMesh& mesh_;
+  const HalfEdges half_edges_;
   std::vector<SharpEdge> edges_;
-  std::vector<std::size_t> first_, root_;
-  std::vector<Index> corner_, face_;  // by vertex: the place in its face, the face
+  Buckets<Index> corners_;  // by vertex
   std::vector<std::int64_t> ends_;
   PolygonRing ring_;
 };
 
 }  // namespace
 
-void check_sharpness(std::int64_t vertices, const Sharpness& sharpness) {
+void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness) {
   const auto refuse = [](const std::string& message, std::vector<std::int64_t> elements = {}) {
     throw FairingError(ErrorCode::bad_option, message, std::move(elements), ElementKind::vertex);
   };
@@ -323,15 +305,6 @@ void check_sharpness(std::int64_t vertices, const Sharpness& sharpness) {
   if (!bad.empty())
     refuse("edge_sharpness must be zero or positive; see the edge of the vertices " +
                std::to_string(bad[0]) + " and " + std::to_string(bad[1]) + ".",
-           bad);
-  const std::vector<double>& own = sharpness.vertices;
-  if (!own.empty() && std::int64_t(own.size()) != vertices)
-    refuse("vertex_sharpness has " + std::to_string(own.size()) + " entries for " +
-           std::to_string(vertices) + " vertices; give one for each vertex.");
-  for (std::size_t v = 0; v < own.size(); ++v)
-    if (!(own[v] >= 0)) bad.push_back(std::int64_t(v));
-  if (!bad.empty())
-    refuse("vertex_sharpness must be zero or positive; see vertex " + std::to_string(bad[0]) + ".",
            bad);
 }
 
@@ -368,9 +341,7 @@ LimitPositions::LimitPositions(const PolygonMesh& mesh, const ControlMesh& contr
 }
 
 std::vector<double> LimitPositions::of(std::span<const double> cage) const {
-  const auto at = [&](Index v) -> Vec3 {
-    return Eigen::Map<const Vec3>(&cage[3 * std::size_t(v)]);
-  };
+  const auto at = [&](Index v) { return point_at(cage, v); };
   std::vector<Vec3> middle(offsets_.size() - 1, Vec3::Zero());
   for (std::size_t f = 0; f < middle.size(); ++f) {
     stop_if_cancelled(f);
@@ -380,13 +351,13 @@ std::vector<double> LimitPositions::of(std::span<const double> cage) const {
   std::vector<double> out(cage.begin(), cage.end());
   for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
     const Vec3 here = at(Index(v));
-    Vec3 way = Vec3::Zero();
+    Vec3 offset = Vec3::Zero();
     for (std::size_t k = first_[v]; k < first_[v + 1]; ++k) {
       const Index target = target_[k];
-      way += weight_[k] * ((target < 0 ? middle[std::size_t(-1 - target)] : at(target)) - here);
+      offset += weight_[k] * ((target < 0 ? middle[std::size_t(-1 - target)] : at(target)) - here);
     }
     if (first_[v] == first_[v + 1]) continue;  // stays, to the last bit
-    for (std::size_t a = 0; a < 3; ++a) out[3 * v + a] += share_ * way[Eigen::Index(a)];
+    for (std::size_t a = 0; a < 3; ++a) out[3 * v + a] += share_ * offset[Eigen::Index(a)];
   }
   return out;
 }

@@ -26,9 +26,9 @@ struct Sharpness {
   std::vector<double> vertices;  // one a vertex, or empty; 0: none is given
 };
 
-// Throws FairingError(bad_option) for values that are negative or NaN, or not one an edge or vertex;
+// Throws FairingError(bad_option) for values that are negative or NaN, or not one an edge;
 // index_out_of_range for edges of vertices that are not in the mesh.
-void check_sharpness(std::int64_t vertices, const Sharpness& sharpness);
+void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness);
 
 class LimitPositions {
  public:

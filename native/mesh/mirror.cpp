@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "parallel/cancel.h"
 
@@ -11,9 +12,6 @@ namespace {
 
 constexpr std::size_t most_mirrors = 3;  // that are at right angles
 constexpr double right_angle = 1e-9;     // as a cosine
-// How far from its image a vertex is searched, in tolerances: a candidate plane goes through two
-// vertices only, and their rounding tilts it.
-constexpr double reach = 100;
 // Searches a vertex over all candidate planes; symmetry is given up after that.
 constexpr std::size_t most_searches = 64;
 
@@ -37,8 +35,11 @@ class PointSearch {
   std::vector<Entry> entries_;
 };
 
-// The coordinate along that direction, which has nearly length one.
-double key_of(const Vec3& p) { return p.dot(Vec3(0.5347, 0.6241, 0.5698)); }
+// The coordinate along that direction.
+double key_of(const Vec3& p) {
+  static const Vec3 along = Vec3(std::numbers::e, std::numbers::pi, std::numbers::phi).normalized();
+  return p.dot(along);
+}
 
 PointSearch::PointSearch(const ControlMesh& mesh) : positions_(mesh.positions) {
   for (Index v = 0; v < mesh.vertex_count(); ++v)
@@ -112,7 +113,8 @@ class Finder {
       if (searches_ == 0) return false;
       --searches_;
       const Vec3 opposite = mirror.plane.image(mesh_.positions[std::size_t(v)]);
-      const Index found = image[std::size_t(v)] = search_.at(opposite, reach * tolerance_);
+      const Index found = image[std::size_t(v)] =
+          search_.at(opposite, Plane::search_reach * tolerance_);
       if (found == PointSearch::none) return false;
       if (found == PointSearch::several) unclear.push_back(v);
     }
@@ -129,7 +131,7 @@ class Finder {
 
   // Where sheets meet, `image` has input vertices so far: a face of the sheet says which copy it is.
   bool tell_copies_apart(std::vector<Index>& image) const {
-    if (mesh_.copied_vertex.empty()) return true;
+    if (mesh_.copies.vertex.empty()) return true;
     const std::vector<Index> originals = image;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       stop_if_cancelled(std::size_t(v));
@@ -154,7 +156,7 @@ class Finder {
   // would be a third face at the edge. Only where sheets meet does a surface have such a part and
   // another one.
   bool lies_in_plane(const Face& face, const std::vector<Index>& image) const {
-    return !mesh_.copied_vertex.empty() && std::ranges::all_of(corners(face), [&](Index v) {
+    return !mesh_.copies.vertex.empty() && std::ranges::all_of(corners(face), [&](Index v) {
       return mesh_.original_vertex(image[std::size_t(v)]) == mesh_.original_vertex(v);
     });
   }

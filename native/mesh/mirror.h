@@ -14,6 +14,10 @@ struct Plane {
   Vec3 normal;    // of length one
   double offset;  // of the plane's points along the normal
 
+  // How far off the image of a vertex may be while a plane is looked for, in tolerances: it goes through
+  // two vertices only, and their rounding tilts it.
+  static constexpr double search_reach = 100;
+
   Vec3 image(const Vec3& p) const { return p - 2 * (normal.dot(p) - offset) * normal; }
 };
 

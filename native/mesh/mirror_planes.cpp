@@ -7,8 +7,6 @@
 namespace fairing {
 namespace {
 
-constexpr double slack = 100;  // times the tolerance: what sums and differences make of it
-
 std::vector<Vec3> points_with_faces(const ControlMesh& mesh) {
   std::vector<Vec3> points;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
@@ -76,7 +74,7 @@ class Planes {
 std::vector<Plane> mirror_planes(const ControlMesh& mesh, double tolerance) {
   const std::vector<Vec3> points = points_with_faces(mesh);
   if (points.empty()) return {};
-  const double near = slack * tolerance;
+  const double near = Plane::search_reach * tolerance;
   Planes planes(points, near);
   planes.add_coordinate_planes();
 

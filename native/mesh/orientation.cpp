@@ -88,4 +88,14 @@ Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edge
   return result;
 }
 
+OwnedPolygonMesh with_flipped(const PolygonMesh& mesh, std::span<const std::int64_t> faces) {
+  OwnedPolygonMesh out{{mesh.coordinates.begin(), mesh.coordinates.end()},
+                       {mesh.corners.begin(), mesh.corners.end()},
+                       {mesh.offsets.begin(), mesh.offsets.end()}};
+  for (std::int64_t f : faces)
+    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
+                 out.corners.begin() + out.offsets[std::size_t(f) + 1]);
+  return out;
+}
+
 }  // namespace fairing

@@ -18,4 +18,7 @@ struct Orientation {
 
 Orientation find_orientation(const PolygonMesh& mesh, const HalfEdges& half_edges);
 
+// The mesh with these faces reversed; their first corners stay the first.
+OwnedPolygonMesh with_flipped(const PolygonMesh& mesh, std::span<const std::int64_t> faces);
+
 }  // namespace fairing

@@ -9,13 +9,14 @@
 #include <limits>
 #include <numeric>
 
+#include "base/points.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-constexpr double tan_10_degrees = 0.17632698070846498;
-constexpr double cos_60_degrees = 0.5;
+constexpr double tan_10_degrees = 0.17632698070846498;  // of 180 less what counts as concave
+constexpr double cos_60_degrees = 0.5;                  // of what counts as warped
 // Of a star's sides from its centre, relative to the root of its area.
 constexpr double least_distance = 0.01;
 constexpr double least_flatness = 1e-9;  // a triangle's projected area over its sides' squares
@@ -65,6 +66,7 @@ Vec3 mean(std::span<const Vec3> p) {
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+// Costs that differ by less, relative, are equal: rounding must not decide between triangulations.
 constexpr double tie = 1e-6;
 
 struct Diagonal {
@@ -147,6 +149,16 @@ std::vector<Piece> cut(std::size_t corners, const std::vector<Diagonal>& diagona
 
 }  // namespace
 
+Vec3 twice_vector_area(const PolygonMesh& mesh, std::int64_t f) {
+  const auto face = mesh.face(f);
+  const auto spoke = [&, origin = point_at(mesh.coordinates, face[0])](std::size_t i) -> Vec3 {
+    return point_at(mesh.coordinates, face[i]) - origin;
+  };
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) sum += spoke(i).cross(spoke(i + 1));
+  return sum;
+}
+
 PolygonShape::PolygonShape(std::span<const Vec3> corners) : origin_(mean(corners)) {
   for (const Vec3& p : corners) corners_.push_back(p - origin_);
   const Vec3 area = vector_area();
@@ -211,7 +223,7 @@ double PolygonShape::badness(std::size_t i, std::size_t j, std::size_t k) const 
                          (corners_[j] - corners_[k]).squaredNorm() +
                          (corners_[k] - corners_[i]).squaredNorm();
   const double twice_area = cross(plane_[j] - plane_[i], plane_[k] - plane_[i]);
-  if (!(twice_area > least_flatness * squares)) return std::numeric_limits<double>::infinity();
+  if (!(twice_area > least_flatness * squares)) return infinite;
   return squares / (2 * std::sqrt(3.0) * twice_area);
 }
 

@@ -9,8 +9,12 @@
 #include <vector>
 
 #include "base/types.h"
+#include "mesh/polygon_mesh.h"
 
 namespace fairing {
+
+// A face's vector of projected areas, twice as long: as triangles about its first corner have it.
+Vec3 twice_vector_area(const PolygonMesh& mesh, std::int64_t f);
 
 class PolygonShape {
  public:

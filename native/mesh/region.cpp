@@ -42,7 +42,7 @@ RegionPart edge_part(const ControlMesh& control, const Edge& edge) {
 
 // Sheets that meet do so inside the region, outside, or on its joint.
 void join_sheets(ControlMesh& control) {
-  if (control.copied_edge.empty()) return;
+  if (control.copies.edge.empty()) return;
   Region& region = control.region;
   const auto meet = [](RegionPart& first, RegionPart other) {
     if (first != other) first = RegionPart::joint;

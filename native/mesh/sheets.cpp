@@ -2,8 +2,8 @@
 #include "mesh/sheets.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "mesh/groups.h"
 #include "mesh/half_edges.h"
 #include "parallel/cancel.h"
 
@@ -94,28 +94,6 @@ void apply(const EdgeMoves& moves, ControlMesh& control) {
   }
 }
 
-// Sets of numbers, each known by its least member.
-class Groups {
- public:
-  explicit Groups(Index count) : parent_(std::size_t(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index first(Index i) {
-    while (parent_[std::size_t(i)] != i) {
-      Index& parent = parent_[std::size_t(i)];
-      i = parent = parent_[std::size_t(parent)];
-    }
-    return i;
-  }
-  void join(Index i, Index j) {
-    const Index a = first(i), b = first(j);
-    parent_[std::size_t(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 }  // namespace
 
 std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
@@ -156,7 +134,7 @@ SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh) {
 }
 
 void find_copied_edges(ControlMesh& control) {
-  if (control.copied_vertex.empty()) return;
+  if (control.copies.vertex.empty()) return;
   const std::vector<std::array<Index, 2>> apart = edges_that_came_apart(control);
   const auto start = [&](Index e) {
     return control.original_vertex(control.edges[std::size_t(e)].vertex[0]);
@@ -173,37 +151,37 @@ void find_copied_edges(ControlMesh& control) {
     if (to == 0) to = next++;
   for (const auto& [original, copy] : apart) {
     moves.to[std::size_t(copy)] = next++;
-    control.copied_edge.push_back(moves.to[std::size_t(original)]);
+    control.copies.edge.push_back(moves.to[std::size_t(original)]);
   }
   apply(moves, control);
 }
 
 JoinedVertices::JoinedVertices(const ControlMesh& control) {
-  if (control.copied_edge.empty()) return;
-  Groups groups(control.vertex_count());
+  if (control.copies.edge.empty()) return;
+  Groups groups(control.positions.size());
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
     for (std::size_t h = 0; h < 2; ++h)
-      groups.join(control.edges[std::size_t(e)].vertex[h],
-                  control.edges[std::size_t(control.original_edge(e))].vertex[h]);
+      groups.unite(control.edges[std::size_t(e)].vertex[h],
+                   control.edges[std::size_t(control.original_edge(e))].vertex[h]);
   for (Index v = 0; v < control.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
-    first_.push_back(groups.first(v));
+    first_.push_back(groups.lead(v));
     if (first_.back() != v) others_.emplace_back(first_.back(), v);
   }
   std::sort(others_.begin(), others_.end());
 }
 
 SheetNumbers number_sheets(const ControlMesh& control) {
-  Groups groups(control.vertex_count());
+  Groups groups(control.positions.size());
   for (std::size_t e = 0; e < control.edges.size(); ++e) {
     stop_if_cancelled(e);
-    groups.join(control.edges[e].vertex[0], control.edges[e].vertex[1]);
+    groups.unite(control.edges[e].vertex[0], control.edges[e].vertex[1]);
   }
   SheetNumbers sheets;
   Index next = 0;
   for (Index v = 0; v < control.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
-    const Index first = groups.first(v);
+    const Index first = groups.lead(v);
     sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[std::size_t(first)]);
     sheets.count += first == v && !control.ring(v).empty();
   }

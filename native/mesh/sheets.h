@@ -30,7 +30,7 @@ SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh);
 std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
                          const DoubleCover& cover);
 
-// Fills copied_edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
+// Fills copies.edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
 // become the last edges and run as their originals do.
 void find_copied_edges(ControlMesh& control);
 

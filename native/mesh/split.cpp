@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/points.h"
 #include "mesh/polygon_shape.h"
 #include "parallel/cancel.h"
 
@@ -17,13 +18,9 @@ constexpr std::size_t most_corners_to_cut = 1000;
 
 enum class Treatment : std::uint8_t { keep, fan, cut };
 
-Vec3 position(const PolygonMesh& mesh, std::int64_t v) {
-  return Eigen::Map<const Vec3>(&mesh.coordinates[3 * std::size_t(v)]);
-}
-
-PolygonShape shape_of(const PolygonMesh& mesh, std::int64_t f) {
+PolygonShape shape_of(const PolygonMesh& mesh, std::span<const std::int64_t> face) {
   std::vector<Vec3> corners;
-  for (std::int64_t v : mesh.face(f)) corners.push_back(position(mesh, v));
+  for (std::int64_t v : face) corners.push_back(point_at(mesh.coordinates, v));
   return PolygonShape(corners);
 }
 
@@ -86,7 +83,7 @@ class Splitter {
       const auto face = mesh_.face(f);
       switch (treatment_[std::size_t(f)]) {
         case Treatment::keep: add_face(f, face); break;
-        case Treatment::fan: add_fan(f, face, shape_of(mesh_, f).centroid()); break;
+        case Treatment::fan: add_fan(f, face); break;
         case Treatment::cut: add_cut(f); break;
       }
     }
@@ -114,7 +111,7 @@ class Splitter {
   Treatment choose(std::int64_t f, const std::vector<std::uint8_t>& pinched) const {
     const auto face = mesh_.face(f);
     if (face.size() == 3) return Treatment::keep;
-    const PolygonShape shape = shape_of(mesh_, f);
+    const PolygonShape shape = shape_of(mesh_, face);
     if (face.size() > 4) return shape.star_shaped() ? Treatment::fan : Treatment::cut;
     const bool has_pinched = std::any_of(face.begin(), face.end(),
                                          [&](std::int64_t v) { return pinched[std::size_t(v)]; });
@@ -145,9 +142,9 @@ class Splitter {
     result_.faces.push_back(added);
   }
 
-  void add_fan(std::int64_t f, std::span<const std::int64_t> corners, const Vec3& centre) {
+  void add_fan(std::int64_t f, std::span<const std::int64_t> corners) {
     const auto c = Index(mesh_.vertex_count() + std::int64_t(result_.centres.size()));
-    result_.centres.push_back(centre);
+    result_.centres.push_back(shape_of(mesh_, corners).centroid());
     for (std::size_t i = 0; i < corners.size(); ++i)
       result_.faces.push_back(
           {{Index(corners[i]), Index(corners[(i + 1) % corners.size()]), c, -1}, Index(f)});
@@ -158,17 +155,13 @@ class Splitter {
     const auto allowed = [&](std::size_t i, std::size_t j) {
       return diagonals_.allowed(original(face[i]), original(face[j]));
     };
-    for (const Piece& piece : cut_polygon(shape_of(mesh_, f), allowed)) {
+    for (const Piece& piece : cut_polygon(shape_of(mesh_, face), allowed)) {
       std::vector<std::int64_t> corners;
-      std::vector<Vec3> points;
-      for (std::size_t i : piece) {
-        corners.push_back(face[i]);
-        points.push_back(position(mesh_, face[i]));
-      }
+      for (std::size_t i : piece) corners.push_back(face[i]);
       if (piece.size() == 3)
         add_face(f, corners);
       else
-        add_fan(f, corners, PolygonShape(points).centroid());
+        add_fan(f, corners);
     }
   }
 

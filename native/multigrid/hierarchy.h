@@ -55,6 +55,8 @@ class Hierarchy {
   const Array<float>& inverse_diagonal(std::size_t index) const {
     return cycle_.levels[index].op->inverse_diagonal();
   }
+  // A vector of the level to work in, in single precision, between solves.
+  float* room(std::size_t index) { return cycle_.levels[index].state.residual.data(); }
   // From here on the smoother adapts to nothing.
   void keep_smoother() { adapts_ = false; }
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "paper/release.h"
 
+#include "base/points.h"
+
 namespace fairing {
 namespace {
 
 // Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
 // first_undamped_level: they step half as far there.
 constexpr int release_rounds = 3, first_undamped_level = 2;
-constexpr double release_damping = 0.5, release_tolerance = 1e-8;
-
-Vec3 point(const Array<double>& x, std::size_t v) { return {x[3 * v], x[3 * v + 1], x[3 * v + 2]}; }
-
-void put(Array<double>& x, std::size_t v, const Vec3& p) {
-  for (std::size_t a = 0; a < 3; ++a) x[3 * v + a] = p[Eigen::Index(a)];
-}
+constexpr double release_damping = 0.5;
+constexpr double release_tolerance = 1e-8;  // of the solves, relative residual
 
 }  // namespace
 
@@ -47,11 +44,12 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
       // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in
       // it.
-      Vec3 offset = targets[v] - damping / double(diagonal[v]) * point(gradient, v) - given[v];
+      Vec3 offset =
+          targets[v] - damping / double(diagonal[v]) * point_at(gradient, Index(v)) - given[v];
       const double length = offset.norm();
       if (length > tolerance_aim * epsilon) offset *= tolerance_aim * epsilon / length;
       targets[v] = given[v] + offset;
-      put(x, v, targets[v]);
+      put_point(targets[v], x.data() + 3 * v);
     }
     solver.solve_again({targets, data.curves}, release_tolerance, state, x);
   }

@@ -48,7 +48,7 @@ inline void stop_in_large_face(int row) {
 // simple loops over long arrays on one thread.
 template <class Body>
 void for_stretches(std::size_t size, Body&& body) {
-  constexpr std::size_t at_once = std::size_t(1) << 20;
+  constexpr std::size_t at_once = std::size_t(1) << 20;  // numbers
   for (std::size_t begin = 0; begin < size; begin += at_once) {
     stop_if_cancelled();
     body(begin, std::min(size, begin + at_once));

@@ -8,6 +8,8 @@
 
 namespace fairing {
 
+constexpr double megabyte = 1e6;  // as messages have it
+
 // Shared between a run and whoever watches it, on any thread.
 class MemoryNews {
  public:

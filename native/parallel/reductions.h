@@ -13,7 +13,7 @@
 
 namespace fairing {
 
-constexpr std::size_t vector_block = 4096;
+constexpr std::size_t vector_block = 4096;  // numbers a block of sums
 // Fewer numbers are not worth waking a thread.
 constexpr std::size_t vector_grain = 1 << 15;
 

@@ -62,7 +62,6 @@ class Workers {
  private:
   using Task = void (*)(void*, int);
   using State = std::uint64_t;
-  static constexpr std::size_t parts_a_thread = 4;
   // A cancelled run finishes the parts that it has begun: at least `enough_parts`, as far as the
   // grain allows, keep that short. state_ has 16 bits for their number.
   static constexpr std::size_t enough_parts = 256, grains_a_part = 8, most_parts = 0xffff;
@@ -70,9 +69,7 @@ class Workers {
   std::size_t part_count(std::size_t size, std::size_t grain) const {
     if (size == 0) return 0;
     const std::size_t grains = std::max<std::size_t>(1, grain ? size / grain : size);
-    const std::size_t wanted =
-        std::max({parts_a_thread * std::size_t(count()), enough_parts, grains / grains_a_part});
-    return std::min({grains, wanted, most_parts});
+    return std::min({grains, std::max(enough_parts, grains / grains_a_part), most_parts});
   }
 
   bool start_thread();

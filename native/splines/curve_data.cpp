@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fairing {
 namespace {
@@ -69,6 +70,7 @@ CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_norm
   const auto kink = [&](std::size_t end) {
     return topology_.kinks[std::size_t(edge.sectors[end])] != Kink::none;
   };
+  for (const std::size_t end : {0u, 1u}) out.corner[end] = narrowest_angle(e, end == 1);
   for (int k = 0; k <= n; k += stride) {
     if ((k < tip_steps && kink(0)) || (n - k < tip_steps && kink(1)))
       out.normals.push_back(Vec3::Zero());
@@ -103,6 +105,24 @@ Vec3 CurveSource::end_tangent(Index e, bool at_end) const {
     return lattice_.position(lattice_.point(use.face, use.side, at_end ? lattice_.n() - k : k, 0));
   };
   return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
+}
+
+// Between an edge and the next ones around one of its ends.
+double CurveSource::narrowest_angle(Index e, bool at_end) const {
+  const Vec3 own = end_tangent(e, at_end);
+  double narrowest = std::numbers::pi;
+  for (const SideUse& use : topology_.edges[std::size_t(e)].uses) {
+    const int corners = lattice_.corners(use.face);
+    const bool at_next = at_end != use.reversed;
+    const int s = (use.side + (at_next ? 1 : corners - 1)) % corners;
+    const int n = lattice_.n();
+    const auto at = [&](int k) {
+      return lattice_.position(lattice_.point(use.face, s, at_next ? k : n - k, 0));
+    };
+    const Vec3 other = -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
+    narrowest = std::min(narrowest, std::atan2(own.cross(other).norm(), own.dot(other)));
+  }
+  return narrowest;
 }
 
 std::vector<Kink> CurveSource::kinks(double least) const {

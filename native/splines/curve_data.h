@@ -32,6 +32,7 @@ class CurveSource {
   std::vector<Vec3> crease_tangents(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 end_tangent(Index e, bool at_end) const;
+  double narrowest_angle(Index e, bool at_end) const;
   std::vector<Vec3> edge_points(Index e) const;
   Vec3 edge_normal(const ControlEdge& edge, int k) const;
   Vec3 on_median(Index f, int s, double row) const;

@@ -3,6 +3,7 @@
 // sides.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "splines/spline.h"
@@ -15,6 +16,7 @@ struct CurveData {
   std::vector<Vec3> points, normals;
   bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
   bool strict = false;  // along the lattice's line; or anywhere near it on the surface
+  std::array<double, 2> corner{4, 4};  // the narrowest angle that it makes at each end, radians
 
   bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
 };

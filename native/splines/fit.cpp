@@ -42,7 +42,8 @@ class Fitting {
         curves_(std::size_t(topology_.curves(lattice_))),
         strict_(curves_.size(), 0),
         sharper_(curves_.size(), 0),
-        fitted_(topology_.patches.size()) {}
+        fitted_(topology_.patches.size()),
+        settled_(fitted_.size(), 0) {}
 
   SplineSurface run() {
     SplineSurface out;
@@ -124,6 +125,9 @@ class Fitting {
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, topology_, place, curves_);
+    const FaceSurface surface(lattice_, topology_, place.face);
+    data.surface = &surface;
+    data.corner = place.corner;
     data.tolerance = patch_share * tolerance();
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
     data.may_fold = turns_[std::size_t(place.face)] > hopeless;
@@ -188,6 +192,7 @@ class Fitting {
                        [&](const PatchSide& side) { return which[std::size_t(side.curve)]; }))
         return;
       fitted_[p] = {};
+      settled_[p] = 0;
       fit_patch_to(p, 1, 1, true);
     });
     return true;
@@ -205,7 +210,7 @@ class Fitting {
         patches_to_refine(topology_, fitted_, curves_, options_.normal_tolerance, workers_);
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
     for_each(fitted_.size(), [&](std::size_t p) {
-      if (!wanted[p].any()) return;
+      if (!wanted[p].any() || settled_[p]) return;
       const int most = most_at_edges(topology_.patches[p].corner >= 0);
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
       const double before = fitted_[p].misses;
@@ -216,6 +221,7 @@ class Fitting {
       if (fitted_[p].misses > serving * before && (u != more_u || v != more_v))
         fit_patch_to(p, more_u, more_v, false);
       changed[p] = fitted_[p].misses < before;
+      settled_[p] = !changed[p];
     });
     return std::find(changed.begin(), changed.end(), 1) != changed.end();
   }
@@ -228,6 +234,7 @@ class Fitting {
   std::vector<FittedCurve> curves_;
   std::vector<std::uint8_t> strict_, sharper_;  // curves
   std::vector<FittedPatch> fitted_;
+  std::vector<std::uint8_t> settled_;  // patches that more spans do not serve
   std::vector<double> turns_;
 };
 

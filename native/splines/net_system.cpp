@@ -13,7 +13,7 @@ NetSystem::NetSystem(const SplinePatch& known)
     : known_(known), rows_(control_points(known.spans_u)), columns_(control_points(known.spans_v)) {
   width_ = 3 * Eigen::Index(std::min(rows_, columns_) - 2);
   const Eigen::Index size = width_ * (std::max(rows_, columns_) - 2);
-  band_ = Eigen::MatrixXd::Zero(size, (reach + 1) * width_);
+  band_.setZero(size, (reach + 1) * width_);
   right_ = balance_ = Eigen::VectorXd::Zero(size);
 }
 
@@ -43,6 +43,43 @@ void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weigh
       band_.block<3, 3>(row.at, column.at + row.shift) += both * weight;
     }
   }
+}
+
+void NetSystem::add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matrix3d& weight,
+                    const Vec3& target) {
+  const bool rows_are_blocks = columns_ <= rows_;
+  const CubicBasis &slow = rows_are_blocks ? u : v, &fast = rows_are_blocks ? v : u;
+  const int slows = rows_are_blocks ? rows_ : columns_, fasts = rows_are_blocks ? columns_ : rows_;
+  Vec3 rest = target;
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b) {
+      const int i = u.first + a, j = v.first + b;
+      if (unknown(i, j) < 0)
+        rest -= u.value[std::size_t(a)] * v.value[std::size_t(b)] * known_.net[known_.index(i, j)];
+    }
+  const Vec3 load = weight * rest;
+  // Of each list those that are no outermost control points.
+  const int slow_from = slow.first ? 0 : 1, slow_to = std::min(4, slows - 1 - slow.first),
+            fast_from = fast.first ? 0 : 1, fast_to = std::min(4, fasts - 1 - fast.first);
+  const Eigen::Index first = 3 * (fast.first + fast_from - 1), count = 3 * (fast_to - fast_from);
+  Eigen::Matrix<double, 3, 12, Eigen::RowMajor> along;  // weight, times the fast functions
+  for (int m = fast_from; m < fast_to; ++m)
+    along.block<3, 3>(0, 3 * (m - fast_from)) = fast.value[std::size_t(m)] * weight;
+  for (int a = slow_from; a < slow_to; ++a)
+    for (int m = fast_from; m < fast_to; ++m) {
+      const Eigen::Index row = (slow.first + a - 1) * width_ + 3 * (fast.first + m - 1);
+      const double factor = slow.value[std::size_t(a)] * fast.value[std::size_t(m)];
+      right_.segment<3>(row) += factor * load;
+      for (int b = slow_from; b <= a; ++b) {
+        const Eigen::Index column = (reach + b - a) * width_ + first;
+        const double both = factor * slow.value[std::size_t(b)];
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          double* to = &band_(row + c, column);
+          const double* from = &along(c, 0);
+          for (Eigen::Index k = 0; k < count; ++k) to[k] += both * from[k];
+        }
+      }
+    }
 }
 
 void NetSystem::balance(std::span<const NetTerm> terms, const Vec3& weight, const Vec3& target) {

@@ -21,6 +21,9 @@ class NetSystem {
 
   // Adds |weight^(1/2) (sum of factor * control point - target)|².
   void add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weight, const Vec3& target);
+  // The same of the patch's point at (u, v).
+  void add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matrix3d& weight,
+           const Vec3& target);
   // Adds weight · (sum of factor * control point - target) to what is to be zero in all.
   void balance(std::span<const NetTerm> terms, const Vec3& weight, const Vec3& target);
   // Adds scale² |third differences of the net|².
@@ -47,8 +50,9 @@ class NetSystem {
   static constexpr Eigen::Index reach = 3;
   const SplinePatch& known_;
   int rows_, columns_;
-  Eigen::Index width_;    // of a block
-  Eigen::MatrixXd band_;  // the lower half, block beside block
+  Eigen::Index width_;  // of a block
+  // The lower half, block beside block; samples add to rows of it.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> band_;
   Eigen::VectorXd right_, balance_;
   double rest_ = 0, weighed_ = 0;  // what the unknowns have to balance; all weights
 };

@@ -29,6 +29,8 @@ constexpr double fold_misses = 1e6;  // of patches that fold, at least
 // Samples move to their feet and the patch is fitted again, as long as that helps.
 constexpr int least_rounds = 2, most_rounds = 8;
 constexpr double improving = 0.7;
+// Of a span, each way, in the middles of which a patch is measured.
+constexpr int parts_a_span = 4;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -52,8 +54,7 @@ SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
   return out;
 }
 
-std::array<NetTerm, 16> terms_at(const SplinePatch& patch, double u, double v) {
-  const CubicBasis bu = cubic_basis(patch.spans_u, u), bv = cubic_basis(patch.spans_v, v);
+std::array<NetTerm, 16> terms_of(const CubicBasis& bu, const CubicBasis& bv) {
   std::array<NetTerm, 16> out;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
@@ -99,13 +100,14 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   for (const PatchSample& sample : data.samples) {
     if (!sample.fitted) continue;
     Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
-    const std::array<NetTerm, 16> terms = terms_at(patch, sample.u, sample.v);
+    const CubicBasis bu = cubic_basis(patch.spans_u, sample.u),
+                     bv = cubic_basis(patch.spans_v, sample.v);
     if (way) {
-      const Vec3 n = patch.at(sample.u, sample.v).normal();
+      const Vec3 n = patch.at(bu, bv).normal();
       weight = squared(way->slide) * weight + (1 - squared(way->slide)) * n * n.transpose();
-      system.balance(terms, sample.area * n, sample.at);
+      system.balance(terms_of(bu, bv), sample.area * n, sample.at);
     }
-    system.add(terms, weight, sample.at);
+    system.add(bu, bv, weight, sample.at);
   }
   system.add_third_differences(rough);
   if (way && way->shear > 0) add_shear(way->shear, patch, system);
@@ -153,6 +155,18 @@ double move_to_feet(const SplinePatch& patch, PatchData& data) {
   return far;
 }
 
+// At the middles of each span's parts: where no sample is near, a patch may swing.
+void measure_between(const PatchData& data, FittedPatch& out) {
+  const SplinePatch& patch = out.patch;
+  const int nu = parts_a_span * patch.spans_u, nv = parts_a_span * patch.spans_v;
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) {
+      const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
+      out.residual =
+          std::max(out.residual, data.surface->height(patch.at(u, v).at, data.corner, u, v));
+    }
+}
+
 FittedPatch measured(const PatchData& data, SplinePatch patch) {
   FittedPatch out;
   for (PatchSample sample : data.samples) {
@@ -170,6 +184,7 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
       out.turned = std::max(out.turned, angle);
     }
   out.patch = std::move(patch);
+  measure_between(data, out);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "splines/face_surface.h"
 #include "splines/spline.h"
 
 namespace fairing {
@@ -26,7 +27,9 @@ struct PatchData {
   std::array<SplineCurve, 4> side;  // v = 0, u = 1, v = 1, u = 0; along growing u or v
   std::array<std::vector<SideNormal>, 4> normals;
   std::vector<PatchSample> samples;
-  double size;  // of the model: what an angle weighs against a distance
+  const FaceSurface* surface = nullptr;  // between the samples
+  int corner = -1;                       // of which the patch is a third
+  double size;                           // of the model: what an angle weighs against a distance
   // What is asked for, and ends the search.
   double tolerance, normal_tolerance;
   bool may_fold = false;  // no time is spent against it
@@ -34,7 +37,8 @@ struct PatchData {
 
 struct FittedPatch {
   SplinePatch patch;
-  double residual = 0;  // the farthest that a sample is from the patch
+  // The farthest that a sample is from the patch, or the patch from the surface between them.
+  double residual = 0;
   // The sharpest angle between the normals of patch and lattice, sides included; radians.
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides

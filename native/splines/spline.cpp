@@ -9,11 +9,45 @@ namespace {
 // Knot i of s spans, in units of a span.
 double knot(int spans, int i) { return double(std::clamp(i - 3, 0, spans)); }
 
-// One over a distance of knots, 1, 2 or 3: to divide took most of the time.
-double over(double distance) {
-  constexpr std::array<double, 4> inverse{0, 1, 1.0 / 2, 1.0 / 3};
-  return inverse[std::size_t(distance + 0.5)];
+// By powers of x, which runs from 0 to 1 within a span.
+using Cubic = std::array<double, 4>;
+using Cubics = std::array<Cubic, 4>;
+
+constexpr Cubic times(const Cubic& p, double constant, double slope) {
+  Cubic out{};
+  for (std::size_t k = 0; k < 4; ++k) out[k] = constant * p[k] + (k ? slope * p[k - 1] : 0);
+  return out;
 }
+
+// The basis functions of a span with so many before and behind it; more than two are as two. De
+// Boor's recursion.
+constexpr Cubics basis_of(int before, int behind) {
+  const auto low = [&](int d) { return double(std::max(1 - d, -before)); };
+  const auto high = [&](int d) { return double(std::min(d, 1 + behind)); };
+  Cubics b{};
+  b[0][0] = 1;
+  for (int d = 1; d <= 3; ++d) {
+    Cubic carried{};
+    for (int r = 0; r < d; ++r) {
+      const double right = high(r + 1), left = low(d - r);
+      const Cubic part = times(b[std::size_t(r)], 1 / (right - left), 0);
+      Cubic& own = b[std::size_t(r)];
+      own = times(part, right, -1);
+      for (std::size_t k = 0; k < 4; ++k) own[k] += carried[k];
+      carried = times(part, -left, 1);
+    }
+    b[std::size_t(d)] = carried;
+  }
+  return b;
+}
+
+constexpr auto every_basis = [] {
+  std::array<std::array<Cubics, 3>, 3> out{};
+  for (int before = 0; before < 3; ++before)
+    for (int behind = 0; behind < 3; ++behind)
+      out[std::size_t(before)][std::size_t(behind)] = basis_of(before, behind);
+  return out;
+}();
 
 std::vector<double> knots_of(int spans) {
   std::vector<double> knots(std::size_t(spans) + 7);
@@ -46,28 +80,14 @@ void insert_knot(std::vector<double>& knots, std::vector<Vec3>& points, double t
 CubicBasis cubic_basis(int spans, double t) {
   const double x = std::clamp(t, 0.0, 1.0) * spans;
   const int k = std::min(int(x), spans - 1);
-  std::array<double, 4> left, right, lower{}, b{1, 0, 0, 0};
-  for (int d = 1; d <= 3; ++d) {
-    left[std::size_t(d)] = x - knot(spans, k + 4 - d);
-    right[std::size_t(d)] = knot(spans, k + 3 + d) - x;
-    if (d == 3) lower = b;
-    double carried = 0;
-    for (int r = 0; r < d; ++r) {
-      const std::size_t i = std::size_t(r);
-      const double part = b[i] * over(right[i + 1] + left[std::size_t(d - r)]);
-      b[i] = carried + right[i + 1] * part;
-      carried = left[std::size_t(d - r)] * part;
-    }
-    b[std::size_t(d)] = carried;
-  }
-  CubicBasis out{k, b, {}};
-  for (int i = 0; i < 4; ++i) {
-    double slope = 0;
-    const double before = knot(spans, k + i + 3) - knot(spans, k + i);
-    const double behind = knot(spans, k + i + 4) - knot(spans, k + i + 1);
-    if (i > 0) slope += 3 * lower[std::size_t(i - 1)] * over(before);
-    if (i < 3) slope -= 3 * lower[std::size_t(i)] * over(behind);
-    out.slope[std::size_t(i)] = slope * spans;
+  const Cubics& cubics =
+      every_basis[std::size_t(std::min(k, 2))][std::size_t(std::min(spans - 1 - k, 2))];
+  const double local = x - k;
+  CubicBasis out{k, {}, {}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& [c0, c1, c2, c3] = cubics[i];
+    out.value[i] = c0 + local * (c1 + local * (c2 + local * c3));
+    out.slope[i] = spans * (c1 + local * (2 * c2 + local * (3 * c3)));
   }
   return out;
 }
@@ -84,7 +104,10 @@ CurvePoint SplineCurve::at(double t) const {
 }
 
 SurfacePoint SplinePatch::at(double u, double v) const {
-  const CubicBasis bu = cubic_basis(spans_u, u), bv = cubic_basis(spans_v, v);
+  return at(cubic_basis(spans_u, u), cubic_basis(spans_v, v));
+}
+
+SurfacePoint SplinePatch::at(const CubicBasis& bu, const CubicBasis& bv) const {
   SurfacePoint out{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int i = 0; i < 4; ++i) {
     const Vec3* row = &net[index(bu.first + i, bv.first)];

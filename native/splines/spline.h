@@ -46,6 +46,7 @@ struct SplinePatch {
     return std::size_t(i) * std::size_t(control_points(spans_v)) + std::size_t(j);
   }
   SurfacePoint at(double u, double v) const;
+  SurfacePoint at(const CubicBasis& u, const CubicBasis& v) const;
 };
 
 // The same curve with `spans` spans, a power of two times its own: exact.

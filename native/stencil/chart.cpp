@@ -8,6 +8,9 @@
 namespace fairing {
 namespace {
 
+// Of a full turn: the angle of an open ring that would overlap itself.
+constexpr double widest_open = 0.95;
+
 Vec2 polar(double radius, double angle) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
@@ -39,6 +42,11 @@ double mean_radius(const Chart& chart) {
   return sum / double(chart.ring.size());
 }
 
+double turn_scale(bool closed, double total) {
+  const double most = (closed ? 1.0 : widest_open) * full_turn;
+  return closed || total > most ? most / total : 1.0;
+}
+
 Chart ChartMaker::vertex(Index v) const {
   Chart chart;
   const auto ring = mesh_.ring(v);
@@ -46,10 +54,7 @@ Chart ChartMaker::vertex(Index v) const {
   for (const Spoke& spoke : ring)
     if (spoke.face >= 0) total += flat_[std::size_t(spoke.face)].angle[std::size_t(spoke.corner)];
   chart.closed = mesh_.interior(v);
-  // An open ring keeps its angle unless it would overlap itself.
-  const double scale = chart.closed || total > 0.95 * full_turn
-                           ? (chart.closed ? 1.0 : 0.95) * full_turn / total
-                           : 1.0;
+  const double scale = turn_scale(chart.closed, total);
   double angle = 0;
   for (const Spoke& spoke : ring) {
     chart.ring.push_back(polar(edge_length(mesh_, flat_, spoke.edge), scale * angle));

@@ -28,6 +28,10 @@ struct Chart {
 
 double mean_radius(const Chart& chart);
 
+// What angles that come to `total` around a point are multiplied by: a closed ring makes a full turn, an
+// open one keeps its angle unless it would overlap itself.
+double turn_scale(bool closed, double total);
+
 // Makes the charts of one control mesh, which must outlive it. Coordinates are lengths of the
 // metric, of exponent b from 0 to 1: (mesh units)^b.
 class ChartMaker {

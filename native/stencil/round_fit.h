@@ -34,7 +34,7 @@ struct RoundFit {
                       Mask& determined) {
     determined &= uu > S(0);
     const N rest = vv - uv * uv / uu;
-    determined &= rest > S(1e-24) * uu;
+    determined &= rest > S(thinnest_ring_square) * uu;
     const S n = S(size);
     each = 1 / n;
     root(n / uu, w0);

@@ -14,9 +14,6 @@ namespace {
 
 using Columns = Eigen::MatrixXd;
 
-// Below these no largest value counts: the matrix is zero.
-constexpr double least_singular_value = 1e-12, least_eigenvalue = 1e-300;
-
 // So many rows and columns need no memory but the stack.
 constexpr int most_on_stack = 16;
 using FewColumns =
@@ -51,8 +48,7 @@ Columns pseudo_inverse_of(const Matrix& a, double scale) {
     throw;
   }
   const auto& sigma = svd->singularValues();
-  const double largest = sigma.size() ? std::max(sigma(0), least_singular_value) : 0.0,
-               least = undetermined * std::max(largest, scale);
+  const double least = undetermined * std::max(sigma.size() ? sigma(0) : 0.0, scale);
   Columns middle = svd->matrixU().adjoint();
   for (Eigen::Index k = 0; k < sigma.size(); ++k)
     middle.row(k) *= sigma(k) > least ? 1 / sigma(k) : 0.0;
@@ -71,8 +67,7 @@ Eigen::Matrix<double, Size, Size> gram_pseudo_inverse(const Eigen::Matrix<double
                                                       double scale = 0) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> eigen(gram);
   Eigen::Matrix<double, Size, 1> inverse = eigen.eigenvalues();
-  const double least =
-      std::max(undetermined_square * std::max(inverse(Size - 1), scale), least_eigenvalue);
+  const double least = undetermined_square * std::max({inverse(Size - 1), scale, 0.0});
   for (int k = 0; k < Size; ++k) inverse(k) = inverse(k) > least ? 1 / inverse(k) : 0.0;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }

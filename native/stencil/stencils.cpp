@@ -35,38 +35,20 @@ void fill_vertex(const ControlMesh& mesh, const ChartMaker& charts, Index v, Ste
   }
 }
 
-// Ring positions of an edge point: forward, left row front to back, back, right row. The far
-// corners of a quad's cells are the first and last of its three.
-struct EdgeRing {
-  int size = 0;
-  int cell[max_edge_ring][2];  // for a far corner of a cell: the cell's other two corners; else -1
-};
-
-EdgeRing edge_ring(const ControlMesh& mesh, Index e) {
-  const Edge& edge = mesh.edges[std::size_t(e)];
-  EdgeRing ring;
-  int axis[2];
-  for (int h = 0; h < 2; ++h) {
-    axis[h] = ring.size;
-    ring.cell[ring.size][0] = ring.cell[ring.size][1] = -1;
-    ++ring.size;
-    if (edge.side[std::size_t(h)] < 0) continue;
-    const Side& side = mesh.sides[std::size_t(edge.side[std::size_t(h)])];
-    const bool quad = mesh.faces[std::size_t(side.face)].quad();
-    for (int k = 0; k < (quad ? 3 : 2); ++k, ++ring.size) {
-      ring.cell[ring.size][0] = ring.cell[ring.size][1] = -1;
-      if (!quad || k == 1) continue;
-      ring.cell[ring.size][0] = ring.size + (k == 0 ? 1 : -1);
-      ring.cell[ring.size][1] = k == 0 ? h : 1 - h;  // which axis; resolved below
-    }
+// Linear half-way to a neighbour; across a quad the mean of its cell's corners: the far one, that
+// beside the point, and that along the edge.
+void fill_linear(const EdgeRingLanes& ring, float* half) {
+  for (int j = 0; j < ring.size; ++j) {
+    half[8 * j + j] = ring.far[j] ? 0.25f : 0.5f;
+    for (int m = 0; ring.far[j] && m < ring.size; ++m)
+      if (ring.lane[m] == 0 ? ring.at[m] == ring.at[j]
+                            : ring.lane[m] == ring.lane[j] && ring.at[m] == 0)
+        half[8 * j + m] = 0.25f;
   }
-  for (int j = 0; j < ring.size; ++j)
-    if (ring.cell[j][0] >= 0) ring.cell[j][1] = axis[ring.cell[j][1]];
-  return ring;
 }
 
 void fill_edge(const ControlMesh& mesh, const ChartMaker& charts, Index e, Stencils& s) {
-  const EdgeRing ring = edge_ring(mesh, e);
+  const EdgeRingLanes ring(mesh, e);
   float* half = s.edge_half.data() + 64 * std::size_t(e);
   double* energy = s.edge_energy.data() + 24 * std::size_t(e);
   std::fill(half, half + 64, 0.f);
@@ -74,14 +56,7 @@ void fill_edge(const ControlMesh& mesh, const ChartMaker& charts, Index e, Stenc
   const bool has_fit = mesh.edge_fit(e);
   s.edge_ring[std::size_t(e)] = std::uint8_t(ring.size);
   s.edge_fit[std::size_t(e)] = has_fit;
-  if (!has_fit) {  // linear, bilinear in a quad's cells
-    for (int j = 0; j < ring.size; ++j) {
-      const bool cell = ring.cell[j][0] >= 0;
-      half[8 * j + j] = cell ? 0.25f : 0.5f;
-      if (cell) half[8 * j + ring.cell[j][0]] = half[8 * j + ring.cell[j][1]] = 0.25f;
-    }
-    return;
-  }
+  if (!has_fit) return fill_linear(ring, half);
   const Chart chart = charts.edge(e);
   const FitRows rows = fit(chart);
   const double root_weight = std::sqrt(chart.area);

@@ -19,8 +19,6 @@
 
 namespace fairing {
 
-constexpr int max_edge_ring = 8;  // forward, back, and three points in each of two quads
-
 // `energy`: the last three rows of the fit (the Hessian) times the root of the chart's area.
 // Neighbours are in the order of the charts. Zero where there is no fit: on curves, at corners and
 // outside a region.

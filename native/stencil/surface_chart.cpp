@@ -12,8 +12,8 @@ namespace {
 // Shares of a ring's largest neighbour, to the metric's power, and of a full turn.
 constexpr double no_length = 1e-6, no_angle = 1e-3;
 
-double power(const Vec3& way, double exponent) {
-  const double square = way.squaredNorm();
+double power(const Vec3& offset, double exponent) {
+  const double square = offset.squaredNorm();
   return exponent == centripetal ? std::sqrt(std::sqrt(square)) : std::pow(square, 0.5 * exponent);
 }
 
@@ -45,10 +45,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
     chart.area += 0.5 * a * b * sine / (ring.far[i] || ring.far[j] ? 4 : 3);
   }
   if (!(total > no_angle * full_turn) || !(chart.area > 0)) return false;
-  // as ChartMaker::vertex()
-  const double scale = ring.closed || total > 0.95 * full_turn
-                           ? (ring.closed ? 1.0 : 0.95) * full_turn / total
-                           : 1.0;
+  const double scale = turn_scale(ring.closed, total);
   double angle = 0;
   for (std::size_t k = 0; k < size; ++k) {
     Vec2& p = chart.ring[at(k)];

@@ -3,43 +3,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "strain/stretches.h"
 
 namespace fairing {
 namespace {
 
-// A curve that turns by more at a vertex, in radians, has a corner there, whether it has been named
-// or not. A regular polygon of seven has none.
-constexpr double corner_turn = 55 * std::numbers::pi / 180;
-
 constexpr std::size_t in_a_row = 5;
-
-// A chain, or a part of one between corners.
-struct Stretch {
-  std::vector<Index> vertices;
-  bool closed;
-};
-
-std::vector<Stretch> split_at_corners(const Chain& chain, std::span<const Vec3> positions) {
-  const std::size_t m = chain.vertices.size();
-  const auto at = [&](std::size_t v) { return positions[std::size_t(chain.vertices[v % m])]; };
-  std::vector<std::size_t> corners;
-  for (std::size_t v = 0; v < m; ++v) {
-    const bool end = !chain.closed && (v == 0 || v + 1 == m);
-    const Vec3 before = at(v) - at(v + m - 1), after = at(v + 1) - at(v);
-    if (end || before.dot(after) < std::cos(corner_turn) * before.norm() * after.norm())
-      corners.push_back(v);
-  }
-  if (corners.empty()) return {{chain.vertices, true}};
-  if (chain.closed) corners.push_back(corners.front() + m);
-  std::vector<Stretch> out;
-  for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
-    Stretch& part = out.emplace_back();
-    for (std::size_t v = corners[c]; v <= corners[c + 1]; ++v)
-      part.vertices.push_back(chain.vertices[v % m]);
-  }
-  return out;
-}
 
 // The weights of a fourth divided difference, times 4!: of the derivative.
 std::array<double, in_a_row> fourth_derivative(const std::array<double, in_a_row>& at) {
@@ -84,7 +54,7 @@ CurveLoads::CurveLoads(const ControlMesh& mesh, std::span<const Vec3> positions,
   };
   for (const Chain& chain : mesh.chains)
     if (!chain.straight)
-      for (const Stretch& stretch : split_at_corners(chain, positions)) add(stretch);
+      for (const Stretch& stretch : stretches_of(chain, positions)) add(stretch);
   const double mean = sum / double(std::max<std::size_t>(vertices_.size(), 1));
   const auto root = [&](double share) { return std::sqrt(share / mean); };
   for (double& share : roots_) share = root(share);

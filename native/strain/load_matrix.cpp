@@ -6,17 +6,9 @@
 #include "parallel/cancel.h"
 
 namespace fairing {
-namespace {
-
-// Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
-constexpr int rings_apart = 9;
-// Sets of a mesh of triangles and quads, about; more around vertices of many faces.
-constexpr std::size_t usual_sets = 90;
-
-}  // namespace
-
 ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
-                         const std::vector<Index>& vertices, const OnPart& on_part) {
+                         const std::vector<Index>& vertices, int rings_apart,
+                         const OnPart& on_part) {
   const ControlMesh& mesh = solver.levels().shared().mesh;
   const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
   std::vector<Index> column(std::size_t(mesh.vertex_count()), -1);
@@ -52,7 +44,9 @@ ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
   return out;
 }
 
-std::size_t bytes_of_load_matrix(std::size_t vertices) {
+std::size_t bytes_of_load_matrix(std::size_t vertices, int rings_apart) {
+  // sets of a mesh of triangles and quads, about; more around vertices of many faces
+  const auto usual_sets = std::size_t(rings_apart * rings_apart + rings_apart);
   // while rows are put together, and twice as a matrix: for a product with it and its transpose
   return vertices * usual_sets *
          (sizeof(std::pair<Index, double>) + 2 * (sizeof(double) + sizeof(Index)));

@@ -86,7 +86,8 @@ class PlateAssembly {
     if (column >= unknowns) return sum_up_auxiliary(column - unknowns);
     const Index p = system_.unknown_points[std::size_t(column)];
     for (const RingPlaces::Place& place : plate_.places().of(p)) add_ring(place.centre, place.slot);
-    if (std::size_t(p) < weights_.size()) add(column, weights_[std::size_t(p)]);
+    const double held = std::size_t(p) < weights_.size() ? weights_[std::size_t(p)] : 0.0;
+    if (const double sum = held + plate_.pull(p); sum != 0) add(column, sum);
   }
 
   void add_ring(Index centre, std::uint32_t slot) {

@@ -31,6 +31,8 @@ class PlateDifferences {
   const RingTable& rings() const { return rings_; }
   const RingPlaces& places() const { return places_; }
 
+  double pull(Index p) const { return surface_ ? surface_->pull(p) : 0.0; }
+
   // None where the point carries no fit.
   EnergyRows rows(Index centre) const {
     return {grid_.mesh(), stencils_, rings_.about(centre).element};

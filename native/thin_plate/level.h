@@ -52,6 +52,10 @@ class ThinPlateLevel final : public LevelOperator {
     update();
   }
   bool is_measured() const { return surface_ != nullptr; }
+  // r += what draws it to the goal, in the metric of a surface.
+  void add_pull(const double* goal, double* r) const {
+    surface_->add_pull(goal, shared_.workers, r);
+  }
 
   // Call after the weights have changed.
   void update() {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid/linear.h"
+#include "hold/pads.h"
 #include "parallel/reductions.h"
 #include "thin_plate/membrane.h"
 
@@ -35,6 +36,14 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   return out;
 }
 
+// The unknowns and the control vertices that may stand on pads.
+Unknowns with_pads(const ControlMesh& mesh, const Unknowns& unknowns, double pad_size) {
+  Unknowns out = unknowns;
+  for (std::size_t v = 0; v < out.vertex.size() && pad_size > 0; ++v)
+    if (may_have_pad(mesh, Index(v))) out.vertex[v] = out.any_vertex = true;
+  return out;
+}
+
 }  // namespace
 
 ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stencils,
@@ -43,6 +52,7 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
                                  const Monitor& monitor)
     : shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers),
       base_(shared_.unknowns.any_vertex ? 0 : std::min(1, options.levels)),
+      carried_(with_pads(mesh, shared_.unknowns, options.pad_size)),
       weighted_up_to_(options.levels),
       hierarchy_(workers, hierarchy_options(shared_.unknowns, options, stencils.membrane.any())) {
   for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
@@ -51,10 +61,14 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
     operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l)));
     if (l > base_) {
       transfer_matrices_.push_back(
-          AssembledTransfer::make(grid(l - 1), grid(l), stencils, shared_.unknowns, workers));
-      transfers_.push_back(std::make_unique<QuadraticTransfer<3>>(
-          grid(l - 1), grid(l), stencils, shared_.unknowns, transfer_matrices_.back().get(),
-          workers, shared_.float_slots));
+          AssembledTransfer::make(grid(l - 1), grid(l), stencils, carried_, workers));
+      const auto transfer_of = [&](const Unknowns& carried) {
+        return std::make_unique<QuadraticTransfer<3>>(grid(l - 1), grid(l), stencils, carried,
+                                                      transfer_matrices_.back().get(), workers,
+                                                      shared_.float_slots);
+      };
+      transfers_.push_back(transfer_of(shared_.unknowns));
+      vertex_transfers_.push_back(transfer_of(carried_));
     }
     hierarchy_.add(*operators_.back(), l > base_ ? transfers_.back().get() : nullptr,
                    unknowns_of(l));
@@ -98,11 +112,41 @@ void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const d
   for (std::size_t v = 0; v < w.size(); ++v)
     if (shared_.unknowns.vertex[v])
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
+  add_pull(level, r);
+}
+
+void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span<Vec3> sums) {
+  float* fine = hierarchy_.room(index(level));
+  for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { fine[i] = float(r[i]); });
+  for (int l = level; l > base_; --l) {
+    float* const coarse = hierarchy_.room(index(l - 1));
+    vertex_transfers_[index(l) - 1]->restrict_to(fine, coarse);
+    fine = coarse;
+  }
+  Array<float> vertices;
+  if (base_ > 0) {
+    vertices.resize(3 * grid(0).size() + vector_room);
+    restrict_to<float, 3>(grid(0), grid(base_), shared_.stencils, carried_, workers(),
+                          shared_.float_slots, fine, vertices.data());
+    fine = vertices.data();
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    sums[v] = Eigen::Map<const Eigen::Vector3f>(fine + 3 * v).cast<double>();
 }
 
 void ThinPlateLevels::measure(int level, const double* x, double exponent) {
   operators_[index(level)]->measure(x, exponent);
   hierarchy_.refresh(index(level), true);
+}
+
+void ThinPlateLevels::set_goal(int level, const PlateData& data) {
+  if (!is_measured(level)) return;
+  Array<double> below;
+  for (int l = base_; l <= level; ++l) {
+    if (l > base_) std::swap(below, goal_);
+    goal_.resize(3 * grid(l).size());
+    start(l, data, below, goal_);
+  }
 }
 
 double ThinPlateLevels::bending(int level, const double* x) {

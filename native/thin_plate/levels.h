@@ -55,7 +55,7 @@ class ThinPlateLevels {
   // The present weights on the levels up to this one.
   void carry_weights(int level);
 
-  // r <- W c - (K + W) x on the level's unknowns, with c the targets.
+  // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.
   void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
   // Solves from x, of which system.r is the residual, to the limits given (Hierarchy::solve).
   LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
@@ -63,12 +63,24 @@ class ThinPlateLevels {
     return hierarchy_.solve(index(level), limits, system, each);
   }
 
+  // sums <- H^T r of a level for every control vertex off all curves and inside the region, with H
+  // the prolongation of control vertices through all levels. Zero elsewhere, and always where
+  // `options` had no pads. Between solves only.
+  void restrict_to_vertices(int level, const double* r, std::span<Vec3> sums);
+
   // From here on the level is in the metric of the surface x. Once a level: later surfaces are in the
   // same, so that they are linear in what they are to come up to.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
   void measure(int level, const double* x, double exponent);
+  // Where a level that is so measured is drawn to (thin_plate/surface_differences.h): the control
+  // polyhedron, prolongated and never solved. Call before the level's residuals with other data.
+  void set_goal(int level, const PlateData& data);
+  // r += P goal, where the level is so measured.
+  void add_pull(int level, double* r) const {
+    if (is_measured(level)) operators_[index(level)]->add_pull(goal_.data(), r);
+  }
 
-  // The plate's own energy, and with tension's: what is minimized.
+  // The plate's own energy, and with tension's: what is minimized, but for the pull.
   double bending(int level, const double* x);
   double energy(int level, const double* x);
 
@@ -95,7 +107,10 @@ class ThinPlateLevels {
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;             // from base_ on
   std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from base_ + 1 on
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
+  Unknowns carried_;  // by transfers to control vertices: these too
+  std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
   int weighted_up_to_;  // the finest level that knows the present weights
+  Array<double> goal_;
   Hierarchy hierarchy_;
 };
 

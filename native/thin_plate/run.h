@@ -12,11 +12,12 @@ struct ThinPlateSolver::Run {
   ThinPlateSolver& solver;
   const PlateData& data;
   PlateState& state;
-  Array<double>& x;        // of the present level, with room for the finest
-  Array<double> r{};       // its residual
-  Array<double> below{};   // the surface of the level below
-  Loads forces_below{};    // of its hats, where they say how loads change; or empty
-  double rough_force = 0;  // of what loads carry: the forces that may be left anyway
+  Array<double>& x;                  // of the present level, with room for the finest
+  Array<double> r{};                 // its residual
+  Array<double> below{};             // the surface of the level below
+  Loads forces_below{};              // of its hats, where they say how loads change; or empty
+  double rough_force = 0;            // of what loads carry: the forces that may be left anyway
+  std::span<const double> forces{};  // on the points of the finest level; or empty
 
   ThinPlateLevels& levels() const { return solver.levels_; }
   int base() const { return levels().base(); }

@@ -122,6 +122,7 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
     levels_.carry_weights(l);
     run.keep_below(l);
     run.take_metric(l);
+    levels_.set_goal(l, data);
     PcgLimits limits = run.limits(l, tolerance(l), energy_below, x.data());
     const Loads loads = state.loads, forces_below = run.forces_below;
     run.start(l, !constraint);
@@ -160,6 +161,7 @@ void ThinPlateSolver::solve_moved(std::span<const Vec3> before, const PlateData&
     farthest = std::max(farthest, (data.targets[v] - before[v]).lpNorm<Eigen::Infinity>());
   if (farthest > negligible && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
+  levels_.set_goal(levels_.top(), data);
   levels_.put_fixed(levels_.top(), data, x.data());
   if (on_prediction) on_prediction(x.data());
   PcgLimits limits = state.limits;
@@ -206,6 +208,7 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
   Run run{*this, moving, change, difference};
   for (int l = run.base(); l <= run.top(); ++l) {
     run.keep_below(l);
+    levels_.set_goal(l, moving);
     run.start(l, true);
     if (l < run.top()) reports.push_back(run.solve(l, rough, nullptr).report);
   }
@@ -215,11 +218,14 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
 }
 
 LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance, PlateState& state,
-                                         Array<double>& x, double rough_force) {
+                                         Array<double>& x, double rough_force,
+                                         std::span<const double> forces) {
   const int top = levels_.top();
   Run run{*this, data, state, x};
   run.rough_force = rough_force;
+  run.forces = forces;
   run.r.resize(x.size());
+  levels_.set_goal(top, data);
   PcgLimits limits;
   {
     Array<double> polyhedron(x.size());

@@ -49,9 +49,11 @@ class ThinPlateSolver {
                    const OnPrediction& on_prediction);
 
   // The finest level again, from x as it is. Of what loads carry, `rough_force` may be left at control
-  // vertices even where the options ask for less.
+  // vertices even where the options ask for less. `forces`: on the level's points, 3 numbers each,
+  // where the plate does not stand alone; zero on what is no unknown.
   LevelReport solve_again(const PlateData& data, double tolerance, PlateState& state,
-                          Array<double>& x, double rough_force = 0);
+                          Array<double>& x, double rough_force = 0,
+                          std::span<const double> forces = {});
 
  private:
   struct Run;

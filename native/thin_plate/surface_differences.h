@@ -3,6 +3,10 @@
 // the place of those by control vertex, edge and face (stencil/stencils.h). The metric of the control
 // faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
 // that the plate is nearly its total curvature (docs/explanation/method.md).
+//
+// Where rings are long and thin such a plate swings farther than the mesh is thick. There it is drawn
+// to a calm surface, the goal: P, a weight a point, is part of the matrix, and P goal of what it is to
+// come up to.
 #pragma once
 
 #include "sparse/matrix.h"
@@ -28,28 +32,34 @@ class SurfaceDifferences {
     return {row[0], row[1], row[2]};
   }
 
-  // y <- (K + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which control
+  double pull(Index p) const { return double(pull_[std::size_t(p)]); }
+
+  // y <- (K + P + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which control
   // vertices count as such, in place of the level's own.
   template <class T>
   void apply(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
              Workers& workers, const T* x, T* y);
 
-  // The diagonal of K + W: 1 where the point is no unknown.
+  // The diagonal of K + P + W: 1 where the point is no unknown.
   Array<float> diagonal(const VertexWeights& weights, Workers& workers) const;
 
-  // As thin_plate_energy().
+  // r += P goal on the unknowns.
+  void add_pull(const double* goal, Workers& workers, double* r) const;
+
+  // As thin_plate_energy(): without P.
   double energy(Workers& workers, const double* x);
 
-  // Adds row p of K.
+  // Adds row p of K + P.
   void write_row(Index p, RowBuilder& row) const;
   // The products that all rows are summed from.
   std::size_t products() const;
 
-  // Bytes a point, of triangles' grids or of quads': what is kept, and what a matrix takes more than in
-  // the control metric, where equal rows share their numbers.
+  // Bytes a point, of triangles' grids or of quads': what is kept, the goal, and what a matrix takes more
+  // than in the control metric, where equal rows share their numbers.
   static constexpr std::int64_t bytes(bool quads) {
-    constexpr std::int64_t place = 29, moments = 72, unshared = 80, member = 12 + 4 + 8;
-    return place + moments + unshared + member * (quads ? 9 : 7);
+    constexpr std::int64_t place = 29, pull = 4 + 24, moments = 72, unshared = 80;
+    constexpr std::int64_t member = 12 + 4 + 8;
+    return place + pull + moments + unshared + member * (quads ? 9 : 7);
   }
 
  private:
@@ -70,7 +80,8 @@ class SurfaceDifferences {
   const std::vector<std::uint8_t> unknown_;  // one a point
   const RingTable rings_;                    // in which all points are
   const RingPlaces places_;
-  Array<float> row_;  // 3 a member of a ring
+  Array<float> row_;   // 3 a member of a ring
+  Array<float> pull_;  // P, one a point: none at control vertices, which are held
   Array<double> moment_;
   Array<float> float_moment_;
 };

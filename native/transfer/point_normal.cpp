@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/points.h"
 #include "grid/runs.h"
 
 namespace fairing {
@@ -14,10 +15,6 @@ Vec3 midpoint(const double* p, const double* p_normal, const double* q, const do
   const Point a(p), b(q), m(p_normal), n(q_normal);
   const Vec3 along = b - a;
   return 0.5 * (a + b) - 0.125 * (along.dot(m) * m - along.dot(n) * n);
-}
-
-void put(const Vec3& p, double* to) {
-  for (int a = 0; a < 3; ++a) to[a] = p[a];
 }
 
 }  // namespace
@@ -38,7 +35,7 @@ void prolong_with_normals(const GridLevel& coarse, const GridLevel& fine, Worker
         if (k % 2 == 0)
           copy_point(to, run.data() + at);
         else
-          put(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
+          put_point(midpoint(&run[at], &normals[at], &run[at + 3], &normals[at + 3]), to);
       }
     }
   });
@@ -60,11 +57,12 @@ void prolong_with_normals(const GridLevel& coarse, const GridLevel& fine, Worker
         for (int i = 1; i < (quad ? 2 * n : 2 * n - j); ++i, to += 3) {
           const int a = i / 2, b = j / 2, odd_i = i % 2, odd_j = j % 2;
           if (!odd_i || !odd_j)
-            put(between(a, b, a + odd_i, b + odd_j), to);  // of a point with itself: the point
+            put_point(between(a, b, a + odd_i, b + odd_j),
+                      to);  // of a point with itself: the point
           else if (quad)
-            put(0.5 * (between(a, b, a + 1, b + 1) + between(a + 1, b, a, b + 1)), to);
+            put_point(0.5 * (between(a, b, a + 1, b + 1) + between(a + 1, b, a, b + 1)), to);
           else
-            put(between(a + 1, b, a, b + 1), to);
+            put_point(between(a + 1, b, a, b + 1), to);
         }
     }
   });

@@ -147,7 +147,7 @@ void restrict_to(const GridLevel& coarse, const GridLevel& fine, const Stencils&
       copy_point<C>(&scratch[C * slot], x + C * std::size_t(point));
     });
     // What lands on a neighbour's difference is taken from the centre.
-    const auto give = [&](std::size_t slot, const T* z) {
+    const auto add_to_difference = [&](std::size_t slot, const T* z) {
       for (std::size_t a = 0; a < C; ++a) {
         spokes[C * slot + a] += z[a];
         centre[a] -= z[a];
@@ -163,7 +163,7 @@ void restrict_to(const GridLevel& coarse, const GridLevel& fine, const Stencils&
                            centre[a] += w;
                            z[a] = share * w;
                          }
-                         for (std::size_t m = 0; m < count; ++m) give(from[m], z);
+                         for (std::size_t m = 0; m < count; ++m) add_to_difference(from[m], z);
                        });
       return;
     }
@@ -184,7 +184,7 @@ void restrict_to(const GridLevel& coarse, const GridLevel& fine, const Stencils&
       T z[C] = {};
       for (std::size_t a = 0; a < C; ++a)
         for (std::size_t m = 0; m < 5; ++m) z[a] += T(row[m]) * c[m][a];
-      give(slot, z);
+      add_to_difference(slot, z);
       row += 5;
     });
   };

@@ -83,7 +83,7 @@ def test_only_selected_border_edges_are_marked():
 
 def test_without_a_border_edge_nothing_is_marked():
     source = sheet()
-    with pytest.raises(RuntimeError, match="No border edge is selected"):
+    with pytest.raises(RuntimeError, match="Select edges at an open border"):
         mark(source, "FREE", (5, 6))
     assert bpy.ops.object.fairing_boundary.poll()
     bpy.ops.object.mode_set(mode="OBJECT")

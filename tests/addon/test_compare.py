@@ -10,7 +10,7 @@ from scenes import CUBE, activate, add, fair, positions
 from addon.operators import compare as operator
 from addon.ui import compare
 
-NAMES = ["Box Thin Plate", "Box Total Curvature", "Box Minimum Variation"]
+NAMES = ["Box Bending", "Box Curvature", "Box Flow Lines"]
 
 
 def compared(**settings):
@@ -48,7 +48,7 @@ def test_the_panel_has_their_figures(active):
     log = draw(compare.VIEW3D_PT_fairing_compare)
     assert log[0] == "object.fairing_compare"
     rows = [log[4 + 3 * k : 7 + 3 * k] for k in range(3)]
-    assert [row[0] for row in rows] == ["Thin Plate", "Total Curvature", "Minimum Variation"]
+    assert [row[0] for row in rows] == ["Bending", "Curvature", "Flow Lines"]
     curvature = [float(row[1]) for row in rows]
     assert curvature[1] == min(curvature), "the one that has the least of it"
 

@@ -15,6 +15,8 @@ from addon.inspection import overlay
 from addon.live import registry, switch
 from addon.mesh.object import session_key
 from addon.mesh.read_curves import chains, read_curves
+from addon.ui.curves import VIEW3D_PT_fairing_curves
+from addon.ui.main import VIEW3D_PT_fairing
 
 
 def square():
@@ -104,7 +106,7 @@ def test_a_refusal_leaves_nothing_behind():
     made = scene(lambda: networks.bonnet()[:4])
     before = set(bpy.data.objects), set(bpy.data.meshes)
     answer, text = said()
-    assert answer == {"CANCELLED"} and "no two of them come nearer" in text
+    assert answer == {"CANCELLED"} and "No two of them come nearer" in text
     assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and len(made) == 4
 
 
@@ -117,7 +119,7 @@ def test_what_is_left_out_is_remembered_in_words():
     scene(lambda: [*networks.three_by_four(), networks.along("Loose", 0.4, -1.0, 0.1)])
     cage = surface(levels=1).discrete_fairing.source
     [remark] = curve_cage.remarks_of(cage)
-    assert "'Loose' ends loose at (0.1, 0.4" in remark
+    assert "'Loose' ends loose at (10 cm, 40 cm, " in remark
 
 
 def test_recompute_follows_the_curves():
@@ -225,3 +227,11 @@ def test_a_curve_with_one_point_is_no_curve():
     cage = surface(levels=1).discrete_fairing.source
     [remark] = curve_cage.remarks_of(cage)
     assert remark.startswith("'Far' encloses nothing")
+
+
+def test_curves_have_their_own_panel_alone():
+    scene(networks.three_by_four)
+    assert not VIEW3D_PT_fairing.poll(bpy.context)
+    assert VIEW3D_PT_fairing_curves.poll(bpy.context)
+    add("Cube", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert VIEW3D_PT_fairing.poll(bpy.context) and not VIEW3D_PT_fairing_curves.poll(bpy.context)

@@ -135,7 +135,7 @@ def test_a_near_miss_is_named_with_its_cure():
     assert sizes(found.cells) == [4] * 4
     said = remarks(found.network)
     assert sum("misses" in s and "raise Snap to 0.03" in s for s in said) == 3
-    assert any(s.startswith("'Row 1' misses 'High' by 0.0298 near (0.39") for s in said)
+    assert any(s.startswith("'Row 1' misses 'High' by 0.02981 near (0.39") for s in said)
     assert any(s.startswith("'High' encloses nothing") for s in said)
     assert sizes(find_cells(network([*others, high], 0.032)).cells) == [4] * 6
 
@@ -152,5 +152,5 @@ def test_a_bridge_between_two_parts_is_named():
 def test_sections_alone_enclose_nothing():
     found = find_cells(network(networks.bonnet()[:4]))
     assert not found.cells
-    assert "no two of them come nearer" in none_text(found.network)
+    assert "No two of them come nearer" in none_text(found.network)
     assert "'Section 1' encloses nothing" in none_text(found.network)

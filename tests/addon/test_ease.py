@@ -25,15 +25,16 @@ def core(monkeypatch):
     def ease(vertices, faces, *, tolerance=None, most=None, fixed=None, **options):
         asked.clear()
         asked.update(options, tolerance=tolerance, most=most, fixed=fixed, vertices=vertices)
-        strain = discrete_fairing.strain(vertices, faces, **options).lengths
+        strain = discrete_fairing.strain(vertices, faces, **options)
         moves = np.zeros_like(vertices)
         if fixed is None or not fixed[WRONG]:
             moves[WRONG, 2] = -OFF if tolerance is None else -min(OFF, tolerance)
         return SimpleNamespace(
             vertices=vertices + moves,
             moves=np.linalg.norm(moves, axis=1),
-            strain_before=strain,
-            strain_after=strain,
+            strain_before=strain.excess,
+            strain_after=strain.excess,
+            floor=strain.floor,
             amount=1.0,
             noise=0.01,
             iterations=3,
@@ -124,7 +125,7 @@ def test_what_the_core_is_asked_for(core):
     assert core["tolerance"] is None and core["most"] == 2
     assert np.flatnonzero(~core["fixed"]).tolist() == [WRONG]
     source.data.vertices.foreach_set("select", np.zeros(63, bool))
-    with pytest.raises(RuntimeError, match="no vertex is selected"):
+    with pytest.raises(RuntimeError, match="No vertex is selected"):
         bpy.ops.object.fairing_ease(use_selection=True)
 
 

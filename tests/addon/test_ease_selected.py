@@ -85,7 +85,7 @@ def test_vertices_on_borders_stay():
     moved = places(source) - before
     assert moved[WRONG].any() and not moved[EDGE].any()
     edit(source, EDGE)
-    with pytest.raises(RuntimeError, match="no vertex inside of the mesh is selected"):
+    with pytest.raises(RuntimeError, match="Select vertices inside of the mesh"):
         bpy.ops.object.fairing_ease_selected()
 
 

@@ -67,12 +67,12 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
         code = "NO_FACES"
 
     assert errors.error_text("Wire", Refusal("the mesh has no faces")) == (
-        "Wire: the mesh has no faces. Fill the edges with faces (F in Edit Mode)."
+        "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."
     )
     Refusal.code = "INCONSISTENT_ORIENTATION"
     mend = "or let Defects be Mend"
     assert mend in errors.error_text("Wire", Refusal("no"))
-    assert mend not in errors.error_text("Wire", Refusal("no"), may_mend=False)
+    assert mend not in errors.error_text("Wire", Refusal("no"), errors.WITHOUT_MENDING)
     Refusal.code = "SOMETHING_NEW"
     assert errors.error_text("Wire", Refusal("no")) == "Wire: no."
 

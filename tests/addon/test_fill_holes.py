@@ -30,7 +30,7 @@ def test_larger_holes_stay_open():
 
 def test_a_closed_mesh_has_none():
     ball()
-    with pytest.raises(RuntimeError, match="no hole: every edge has a face on both sides"):
+    with pytest.raises(RuntimeError, match="no hole, every edge has a face on both sides"):
         bpy.ops.object.fairing_fill()
 
 
@@ -83,7 +83,7 @@ def test_an_uneven_scale_is_seen():
 def test_nothing_selected_is_said():
     target = without(ball(), lambda c: c[2] > 0.7)
     edit(target, "EDGE")
-    with pytest.raises(RuntimeError, match="no border edge"):
+    with pytest.raises(RuntimeError, match="Select a border edge"):
         bpy.ops.object.fairing_fill()
     bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -137,7 +137,7 @@ def test_why_one_of_several_cannot_be_filled_is_said(capfd):
     whole.select_set(True)
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert is_closed(target.data)
-    assert "Whole: there is no hole" in capfd.readouterr().out
+    assert "Whole: Delete faces first: there is no hole" in capfd.readouterr().out
 
 
 def test_edits_during_a_run_stay():

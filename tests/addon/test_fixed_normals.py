@@ -124,7 +124,7 @@ def test_without_one_empty_nothing_is_fixed():
 
 def test_without_a_vertex_nothing_is_fixed():
     source = sheet()
-    with pytest.raises(RuntimeError, match="No vertex with faces"):
+    with pytest.raises(RuntimeError, match="Select a vertex with faces"):
         fix(source)
     assert bpy.ops.object.fairing_fix_normal.poll()
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -170,11 +170,11 @@ def test_the_other_energies_leave_them_out_and_say_so():
     settings.energy = "TOTAL_CURVATURE"
     job = Job(bpy.context, source, settings)
     assert "normals" not in job.arguments
-    assert any("only Thin Plate" in note for note in job.notes)
+    assert any("only Bending" in note for note in job.notes)
     settings.energy = "THIN_PLATE"
     job = Job(bpy.context, source, settings)
     assert job.arguments["normals"].any(axis=1).sum() == 1
-    assert not any("Thin Plate" in note for note in job.notes)
+    assert not any("Bending" in note for note in job.notes)
 
 
 def test_what_is_shorter_or_of_another_kind_fixes_nothing():
@@ -230,7 +230,7 @@ def test_the_panel_counts_them():
     assert told() == ["Normals: 2 fixed"], "in Edit Mode too"
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
-    assert told() == ["Normals: 2 fixed, by Thin Plate only"]
+    assert told() == ["Normals: 2 fixed, by Bending only"]
 
 
 def test_the_menu_has_all_three():

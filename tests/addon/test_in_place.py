@@ -203,7 +203,7 @@ def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
     fair(target, levels=2, joint="TANGENT")
     assert 95.0 < folds_at_the_rim(target) < 98.0
     said = capfd.readouterr().out
-    assert "Funnel: what was faired is folded (" in said and "Raise Tension" in said
+    assert "What was faired is folded (" in said and "Raise Tension" in said
     fair(funnel(), levels=2, joint="POSITION")
     assert "folded" not in capfd.readouterr().out, "any angle is right there"
 
@@ -247,7 +247,7 @@ def test_refusals_say_what_to_do_and_change_nothing():
     select(box, lambda _ids: False)
     assert "Select the faces" in error_of()
     bpy.ops.mesh.select_all(action="SELECT")
-    assert "Leave out some of its faces" in error_of()
+    assert "Leave out some faces of each part" in error_of()
     select(box, lambda ids: 0 in ids and 1 in ids and 2 in ids)
     assert "Select more faces" in error_of(levels=0)
     assert np.array_equal(positions(box), np.array(CUBE[0], np.float32))

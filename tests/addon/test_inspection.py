@@ -223,17 +223,23 @@ def faired_pair():
     return source, target
 
 
+def table(target, source):
+    return readout.table(readout.take(bpy.context, target, source), bpy.context.scene)
+
+
 def test_readout_has_before_and_after():
     source, target = faired_pair()
     readout.take(bpy.context, target, source)
     record = recall(target, "readout")
     assert record["after"]["deviation"] == pytest.approx(0.1, abs=1e-6)
     assert record["before"]["worst_fold"] == pytest.approx(90)
-    rows = {label: (before, after) for label, before, after in readout.table(record)}
-    assert rows["Worst fold"][1] == "90.00°" and rows["Off the vertices"] == ("", "0.1")
+    rows = {
+        label: (before, after) for label, before, after in readout.table(record, bpy.context.scene)
+    }
+    assert rows["Worst fold"][1] == "90.00°" and rows["Off the vertices"] == ("", "10 cm")
     for label in ("Total curvature", "Largest curvature", "98 % lie below"):
         before, after = rows[label]
-        assert before == "" and float(after) > 0, "of a coarse mesh it says nothing"
+        assert before == "" and float(after.split()[0]) > 0, "of a coarse mesh it says nothing"
     assert not [text for row in rows.values() for text in row if "nan" in text]
 
 
@@ -244,7 +250,9 @@ def test_the_panel_says_that_control_vertices_are_no_surface():
     said = " ".join(draw())
     assert "vertices are no surface" in said
     old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
-    assert all(before == "" for _, before, _ in readout.table(old)), "older files have more"
+    assert all(before == "" for _, before, _ in readout.table(old, bpy.context.scene)), (
+        "older files have more"
+    )
     readout.take(bpy.context, target)
     assert "no surface" not in " ".join(draw())
 
@@ -262,14 +270,10 @@ def test_readout_says_how_the_steps_went():
     }
     last = {"level": 2, "converged": True, "steps": [step, step | {"decrement": 2e-5}]}
     keep(target, "report", report | {"curvature": [{"level": 1, "steps": [step]}, last]})
-    rows = {
-        label: text for label, *text in readout.table(readout.take(bpy.context, target, source))
-    }
-    assert rows["Steps"] == ["", "2"] and rows["Last decrement"] == ["", "2.0e-05"]
+    rows = {label: text for label, *text in table(target, source)}
+    assert rows["Steps"] == ["", "2"] and rows["Left to gain"] == ["", "4e-08 %"]
     keep(target, "report", report | {"curvature": []})
-    assert "Steps" not in [
-        row[0] for row in readout.table(readout.take(bpy.context, target, source))
-    ]
+    assert "Steps" not in [row[0] for row in table(target, source)]
 
 
 def test_readout_minds_no_report_of_another_kind():
@@ -284,7 +288,7 @@ def test_readout_of_a_plain_mesh_has_no_before():
     assert bpy.ops.object.fairing_measure() == {"FINISHED"}
     record = recall(bpy.context.object, "readout")
     assert record["before"] is None
-    assert "Total curvature" in [row[0] for row in readout.table(record)]
+    assert "Total curvature" in [row[0] for row in readout.table(record, bpy.context.scene)]
 
 
 def test_readout_goes_stale_with_the_shape_only():
@@ -352,3 +356,22 @@ def test_panel_shows_the_controls_of_what_is_shown():
     assert "range_low" in draw() and "Solid" in draw() and any("hollow" in t for t in draw())
     bpy.ops.object.fairing_measure()
     assert "Worst fold" in draw() and "90.00°" in draw()
+
+
+def test_what_is_measured_is_that_of_the_world():
+    """A sphere of radius 1 in an object that is scaled by two, in a scene of centimetres."""
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32, radius=1.0)
+    ball = bpy.context.object
+    ball.scale = (2.0, 2.0, 2.0)
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    record = readout.take(bpy.context, ball)
+    assert record["after"]["largest_curvature"] == pytest.approx(0.5, rel=0.02)
+    rows = dict(row[::2] for row in readout.table(record, bpy.context.scene))
+    assert rows["Largest curvature"].split()[1] == "/m"
+    assert float(rows["Largest curvature"].split()[0]) == pytest.approx(50, rel=0.02)
+    assert display.value_text(bpy.context.scene, "GAUSS", 0.25) == "2.5e+03 /m²"
+    bpy.context.scene.unit_settings.system = "NONE"
+    assert display.value_text(bpy.context.scene, "MEAN", 0.5) == "0.5"
+    display.write_values(ball, "MEAN", bpy.context.scene.discrete_fairing_inspection)
+    mean = [value.value for value in ball.data.attributes["fair_mean_curvature"].data]
+    assert np.median(mean) == pytest.approx(0.5, rel=0.02)

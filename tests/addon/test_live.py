@@ -233,7 +233,7 @@ def test_a_region_is_that_of_the_beginning():
     for face in source.data.polygons:
         face.select = face.index in (0, 1)
     target = live(source)
-    assert not target.discrete_fairing_live.status.count("no face is selected")
+    assert not target.discrete_fairing_live.status.count("face is selected")
     before = positions(target.data)
     for face in source.data.polygons:
         face.select = False
@@ -341,7 +341,7 @@ def test_thin_plate_stands_in_where_another_energy_is_hopeless():
     target = live(source)
     target.discrete_fairing_live.levels = 4
     handlers.on_timer()
-    assert "Thin Plate while editing" in target.discrete_fairing_live.status
+    assert "Bending while editing" in target.discrete_fairing_live.status
     assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
     assert session(target).solver.energy == "thin_plate"
 

@@ -127,5 +127,5 @@ def test_edit_mode_selection_of_this_moment():
 def test_no_selected_face_is_an_error():
     source = grid()
     select_faces(source, lambda p: False)
-    with pytest.raises(RuntimeError, match="no face is selected"):
+    with pytest.raises(RuntimeError, match="No face is selected"):
         bpy.ops.object.fairing_surface(levels=1, use_selection=True)

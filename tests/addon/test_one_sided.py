@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One-sided surfaces: Thin Plate fairs a Möbius strip, and what lies on it comes with it."""
+"""One-sided surfaces: Bending fairs a Möbius strip, and what lies on it comes with it."""
 
 import bmesh
 import bpy
@@ -76,5 +76,7 @@ def test_live_and_shape_keys_follow():
 
 def test_other_energies_say_what_to_do():
     strip()
-    with pytest.raises(RuntimeError, match="only one side.*Use Thin Plate, or cut it open"):
+    with pytest.raises(
+        RuntimeError, match="Set Fairness to Bending, or cut it open.*only one side"
+    ):
         bpy.ops.object.fairing_surface(levels=2, energy="TOTAL_CURVATURE")

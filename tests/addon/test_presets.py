@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shipped presets, for the panel and for the redo panel, and the user's own."""
 
-import ast
 from pathlib import Path
 
 import bpy
@@ -12,7 +11,7 @@ from scenes import CUBE, add, fair
 
 import addon
 from addon.operators.presets import NOT_KEPT
-from addon.purposes import PRESET_FOLDER, PURPOSES
+from addon.purposes import PRESET_FOLDER, PURPOSES, preset_values
 from addon.purposes import stem as stem_of
 from addon.settings import NAMES, FairingSettings
 from addon.ui import pictures
@@ -22,13 +21,7 @@ SHIPPED = ("Default", "Character", "Hull", "Mechanical", "Panel", "Points")
 
 
 def values(name):
-    """What a preset file assigns, {setting: value}; read, not run."""
-    tree = ast.parse((FOLDER / f"{name}.py").read_text())
-    return {
-        node.targets[0].attr: ast.literal_eval(node.value)
-        for node in tree.body
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute)
-    }
+    return preset_values(FOLDER / f"{name}.py")
 
 
 def test_blender_finds_them_for_the_operator():

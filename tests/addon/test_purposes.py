@@ -7,7 +7,7 @@ import pytest
 from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, positions
 
-from addon.purposes import PURPOSES, preset_file
+from addon.purposes import PURPOSES, job_of, name_of_purpose, preset_file
 from addon.ui.main import VIEW3D_PT_fairing
 
 SURFACES = [purpose for purpose, *_ in PURPOSES if preset_file(purpose)]
@@ -20,12 +20,11 @@ def test_each_makes_its_surface(purpose):
     surface = bpy.context.active_object
     made = surface.discrete_fairing
     assert made.source == source
-    energies = {"MECHANICAL": "TOTAL_CURVATURE", "CHARACTER": "THIN_PLATE", "POINTS": "THIN_PLATE"}
-    assert made.energy == energies.get(purpose, "MINIMUM_VARIATION")
-    assert (made.interpolation == "LIMIT") == (purpose == "CHARACTER")
+    assert made.energy == ("MINIMUM_VARIATION" if purpose == "HULL" else "THIN_PLATE")
+    assert (made.interpolation == "LIMIT") == (purpose in {"CHARACTER", "PANEL"})
 
 
-@pytest.mark.parametrize("purpose", ["HULL", "PANEL", "MECHANICAL"])
+@pytest.mark.parametrize("purpose", ["HULL", "MECHANICAL"])
 def test_without_a_tolerance_vertices_are_held(purpose):
     source = add("Box", *CUBE)
     bpy.ops.object.fairing_for(purpose=purpose)
@@ -91,8 +90,11 @@ def test_a_whole_scan_loses_its_noise_in_place():
     scan = noisy_sphere()
     faces = len(scan.data.polygons)
     before = off(scan)
+    chosen = [face.index for face in scan.data.polygons][:9]
+    scan.data.polygons.foreach_set("hide", [face.index in chosen for face in scan.data.polygons])
     assert bpy.ops.object.fairing_for(purpose="SCAN_PATCH") == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    assert bpy.context.mode == "OBJECT", "where it was pressed"
+    assert [face.index for face in scan.data.polygons if face.hide] == chosen
     assert len(scan.data.polygons) == faces
     assert off(scan) < 0.25 * before
 
@@ -124,6 +126,57 @@ def test_a_refusal_is_a_sentence_and_leaves_the_mode():
     add("Triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
     with pytest.raises(RuntimeError) as refused:
         bpy.ops.object.fairing_for(purpose="SCAN_PATCH")
-    assert str(refused.value).startswith("Error: Triangle: no vertex lies inside")
+    assert str(refused.value).startswith("Error: Triangle: Select more faces")
     assert "Traceback" not in str(refused.value)
     assert bpy.context.mode == "OBJECT"
+
+
+@pytest.mark.parametrize("purpose", SURFACES)
+def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose):
+    add("Box", *CUBE)
+    bpy.ops.object.fairing_for(purpose=purpose)
+    made = bpy.context.active_object.discrete_fairing
+    assert job_of(made) == purpose
+    made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
+    assert job_of(made) == purpose, "what the panel offers leaves it the job"
+    shown = draw(VIEW3D_PT_fairing)
+    slider = {"CHARACTER": "limit", "PANEL": "limit", "POINTS": None}.get(purpose, "tolerance")
+    above = shown[: shown.index("object.fairing_recompute")]
+    assert name_of_purpose(purpose) in above and "levels" in above
+    assert [name for name in ("tolerance", "limit") if name in above] == [slider] * bool(slider)
+    assert not {"Fairness", "Vertices"} & set(above)
+    assert {"Fairness", "Vertices"} <= set(shown[shown.index("More") :])
+
+
+def test_settings_of_ones_own_are_no_job():
+    settings = bpy.context.scene.discrete_fairing
+    assert job_of(settings) == ""
+    bpy.ops.object.fairing_preset_apply(filepath=str(preset_file("HULL")))
+    assert job_of(settings) == "HULL"
+    settings.energy = "THIN_PLATE"
+    assert job_of(settings) == ""
+
+
+def test_a_scan_with_shape_keys_is_refused_in_object_mode():
+    scan = noisy_sphere()
+    scan.shape_key_add(name="Basis")
+    before = positions(scan.data)
+    with pytest.raises(RuntimeError, match="Press Tab, select all"):
+        bpy.ops.object.fairing_scan()
+    np.testing.assert_array_equal(positions(scan.data), before)
+
+
+def test_a_whole_scan_may_be_refined():
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6)
+    sheet = bpy.context.object
+    assert bpy.ops.object.fairing_scan(levels=1) == {"FINISHED"}
+    assert len(sheet.data.polygons) == 4 * 36 and bpy.context.mode == "OBJECT"
+
+
+def test_a_job_takes_selected_meshes_beside_another_active_object():
+    box = add("Box", *CUBE)
+    bpy.ops.object.light_add()
+    box.select_set(True)
+    assert bpy.context.active_object.type == "LIGHT"
+    assert bpy.ops.object.fairing_for(purpose="MECHANICAL") == {"FINISHED"}
+    assert bpy.context.active_object.discrete_fairing.source == box

@@ -194,7 +194,7 @@ def test_live_waits_for_a_group_that_is_gone():
 
 def test_a_name_that_is_nothing_is_refused():
     add("Box", *CUBE)
-    with pytest.raises(RuntimeError, match="Box: there is no vertex group.*named 'Loose'"):
+    with pytest.raises(RuntimeError, match="Box: Choose another Tolerance Group.*named 'Loose'"):
         fair(interpolation="APPROXIMATE", tolerance_group="Loose")
     assert len(bpy.data.objects) == 1
 

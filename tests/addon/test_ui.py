@@ -13,8 +13,8 @@ from addon import core, size
 from addon.choices import (
     ENERGIES,
     ENERGY_MEANINGS,
+    ENERGY_NAMES,
     INTERPOLATIONS,
-    SHORT_ENERGIES,
     SHORT_INTERPOLATIONS,
 )
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
@@ -150,7 +150,7 @@ def test_a_surface_that_is_there_has_its_settings_first():
 
 @pytest.mark.parametrize(
     ("choices", "labels"),
-    [(ENERGIES, SHORT_ENERGIES), (INTERPOLATIONS, SHORT_INTERPOLATIONS)],
+    [(ENERGIES, ENERGY_NAMES), (INTERPOLATIONS, SHORT_INTERPOLATIONS)],
 )
 def test_each_choice_has_its_picture_over_it(named, choices, labels):
     add("Box", *CUBE)

@@ -19,6 +19,7 @@ from time import perf_counter
 import bpy
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
+_BUTTON = 12  # pixels: less than a button is high
 DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
 
 
@@ -196,6 +197,59 @@ def colours(path):
 def xdotool(*words):
     """Mouse and keyboard of the X server."""
     subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
+
+
+def sidebar():
+    """The region of the sidebar."""
+    return next(region for region in view()["area"].regions if region.type == "UI")
+
+
+def button_at(region, x, y):
+    """The call in Python of the button under the mouse, once that is at a place on the screen; a
+    generator. Blender says of a button what it would copy.
+    """
+    manager = bpy.context.window_manager
+    xdotool("mousemove", x, y)
+    yield 0.1
+    manager.clipboard = ""
+    with bpy.context.temp_override(**{**view(), "region": region}):
+        if bpy.ops.ui.copy_python_command_button.poll():
+            with contextlib.suppress(RuntimeError):
+                bpy.ops.ui.copy_python_command_button()
+    return manager.clipboard
+
+
+def find_button(region, call, share, below):
+    """Where on the screen the button is whose call begins with `call`, as "bpy.ops.object.fairing_for(
+    purpose='HULL'"; a generator. It is looked for up and down from `below`, in pixels from the top of
+    the region, at a `share` of its width.
+    """
+    top, x = (
+        view()["window"].height - (region.y + region.height),
+        int(region.x + share * region.width),
+    )
+    steps = sorted(range(_BUTTON, region.height, _BUTTON), key=lambda y: abs(y - below))
+    for y in steps:
+        found = yield from button_at(region, x, top + y)
+        if found.startswith(call):
+            return x, top + y
+    raise AssertionError(f"there is no button {call}")
+
+
+class Clicks:
+    """Presses buttons of the sidebar as a user does, and counts."""
+
+    def __init__(self):
+        self.count = 0
+
+    def press(self, call, share, below):
+        """One click on a button; a generator. Looking for it is not counted: users see it."""
+        place = yield from find_button(sidebar(), call, share, below)
+        xdotool("mousemove", *place)
+        yield 0.3
+        xdotool("click", 1)
+        self.count += 1
+        yield 0.5
 
 
 def redo_panel():

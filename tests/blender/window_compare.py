@@ -25,7 +25,7 @@ def test_one_click_puts_the_energies_side_by_side():
     while running():
         assert perf_counter() - begun < PATIENCE, "the run does not end"
         yield 0.2
-    names = ["Suzanne Thin Plate", "Suzanne Total Curvature", "Suzanne Minimum Variation"]
+    names = ["Suzanne Bending", "Suzanne Curvature", "Suzanne Flow Lines"]
     places = [bpy.data.objects[name].location.x for name in names]
     assert 0.0 < places[0] < places[1] < places[2]
     with bpy.context.temp_override(**harness.view()):

@@ -3,12 +3,16 @@
 
 import importlib
 import sys
+from functools import partial
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
 import bpy
+import curve_networks
 import harness
+import jobs
 import numpy as np
 
 
@@ -17,66 +21,14 @@ def clear():
         bpy.data.objects.remove(other)
 
 
-def bezier(name, points):
-    """A curve with automatic handles, as it is drawn by hand."""
-    data = bpy.data.curves.new(name, "CURVE")
-    data.dimensions = "3D"
-    spline = data.splines.new("BEZIER")
-    spline.bezier_points.add(len(points) - 1)
-    for row, point in zip(spline.bezier_points, points, strict=True):
-        row.co = point
-        row.handle_left_type = row.handle_right_type = "AUTO"
-    made = bpy.data.objects.new(name, data)
-    bpy.context.collection.objects.link(made)
-    return made
+def drawn(network):
+    return [jobs.bezier(*curve) for curve in network()]
 
 
-def row(name, y, height):
-    return bezier(name, [(x, y, height(x, y)) for x in np.linspace(-1.2, 1.2, 7)])
-
-
-def column(name, x, height):
-    return bezier(name, [(x, y, height(x, y)) for y in np.linspace(-0.8, 0.8, 7)])
-
-
-def wave(x, y):
-    return 0.22 * np.sin(1.6 * x) + 0.25 * (1 - y**2)
-
-
-def crown(x, y):
-    return 0.4 * (1 - 0.32 * x**2) * (1 - 0.35 * y**2)
-
-
-def crossing():
-    rows = [row(f"Row {k}", y, wave) for k, y in enumerate((-0.8, 0.0, 0.8))]
-    return rows + [column(f"Column {k}", x, wave) for k, x in enumerate((-1.2, -0.4, 0.4, 1.2))]
-
-
-def bonnet():
-    sections = [column(f"Section {k}", x, crown) for k, x in ((1, -1.2), (2, -0.6), (4, 0.6))]
-    sections.append(column("Section 5", 1.2, crown))
-    return sections + [
-        row(name, y, crown) for name, y in (("Left", -0.8), ("Middle", 0.0), ("Right", 0.8))
-    ]
-
-
-def hull():
-    def beam(x):
-        return 0.72 * (1 - 0.16 * (x + 0.3) ** 2) * (1 - 0.12 * max(x, 0) ** 2)
-
-    def sheer(x):
-        return 0.45 + 0.06 * x**2
-
-    made = []
-    for k, x in enumerate(np.linspace(-1.5, 1.5, 5), 1):
-        keel = -0.42 + 0.09 * x**2
-        girth = [(-1, 1), (-0.97, 0.58), (-0.66, 0.12), (0, 0), (0.66, 0.12), (0.97, 0.58), (1, 1)]
-        points = [(x, y * beam(x), keel + z * (sheer(x) - keel)) for y, z in girth]
-        made.append(bezier(f"Frame {k}", points))
-    for name, side in (("Port", -1), ("Starboard", 1)):
-        rail = [(x, side * beam(x), sheer(x)) for x in np.linspace(-1.5, 1.5, 9)]
-        made.append(bezier(name, rail))
-    return made
+crossing, bonnet, hull, star = (
+    partial(drawn, getattr(curve_networks, name)) for name in ("crossing", "bonnet", "hull", "star")
+)
+crown = curve_networks.crown
 
 
 def waited():
@@ -139,6 +91,11 @@ def test_a_hull():
     assert len(surface.data.polygons) > 1000
 
 
+def test_cells_of_five_sides():
+    surface = yield from one_click("star", star)
+    assert len(surface.data.polygons) > 1000
+
+
 def test_a_bonnet_without_its_third_section():
     surface = yield from one_click("bonnet", bonnet)
     points = np.array([vertex.co for vertex in surface.data.vertices])
@@ -148,11 +105,11 @@ def test_a_bonnet_without_its_third_section():
 def test_a_loose_end_is_said():
     def loose():
         end = [(x, 0.4, crown(x, 0.4)) for x in np.linspace(-1.2, 0.1, 5)]
-        return [*bonnet(), bezier("Loose", end)]
+        return [*bonnet(), jobs.bezier("Loose", end)]
 
     surface = yield from one_click("loose", loose)
     remarks = surface.discrete_fairing.source.discrete_fairing_curves.remarks
-    assert remarks.startswith("'Loose' ends loose at (0.1, 0.4"), remarks
+    assert remarks.startswith("'Loose' ends loose at (10 cm, 40 cm"), remarks
 
 
 def test_the_entry_in_the_menu_add():

@@ -1,83 +1,127 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair for …, from defaults, in a window: each purpose on a model of its kind, one click after the selection."""
+"""Each job from defaults in a window, pressed with the mouse on a model of its kind, beside what Blender has for it.
 
-import importlib
+The clicks are counted from the selection to the result and to the first stripes. The models, and
+what stands beside, are those of examples/jobs.py.
+"""
+
 import sys
+import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
 import bpy
 import harness
+import jobs
 import numpy as np
 
-EVEN = np.linspace(-1, 1, 9)
+MOST_CLICKS = 3
+# where buttons are in the sidebar, roughly: a share of its width, pixels from its top
+PLACES = {
+    "hull": (0.15, 115),
+    "panel": (0.45, 115),
+    "mechanical": (0.75, 115),
+    "character": (0.15, 192),
+    "scan": (0.45, 192),
+    "points": (0.75, 192),
+    "curves": (0.45, 40),
+    "cad": (0.15, 115),
+}
+ZEBRA = (0.32, 380)
+STEP = (0.25, 230)
 
 
-def clear():
-    for other in list(bpy.data.objects):
-        bpy.data.objects.remove(other)
+def name_of_call(name):
+    """How the button of a job says what it runs."""
+    job = jobs.JOBS[name]
+    options = ", ".join(f"{key}='{value}'" for key, value in job.options.items())
+    return f"bpy.ops.{job.operator}({options}"
 
 
-def made(name, points, faces):
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(points, [], faces)
-    found = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(found)
-    return found
+def selected(name):
+    """The model, seen whole; a generator that returns it."""
+    with bpy.context.temp_override(**harness.view()):
+        model = jobs.begin(name)
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITRIGHT")
+        bpy.ops.view3d.view_orbit(angle=0.4, type="ORBITUP")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="the model is there")
+    yield from harness.open_sidebar("Fairing")
+    harness.photograph(f"job_{name}_before")
+    return model
 
 
-def sheet(height):
-    """9 × 9 vertices over a square."""
-    clear()
-    points = [(x, y, height(x, y)) for x in EVEN for y in EVEN]
-    cells = [(i, j) for i in range(8) for j in range(8)]
-    return made(
-        "Sheet",
-        points,
-        [(9 * i + j, 9 * i + 9 + j, 9 * i + 10 + j, 9 * i + 1 + j) for i, j in cells],
-    )
+def one_click(name):
+    """A generator that returns the model and what is active afterwards, in stripes; the rivals stand
+    beside.
+    """
+    model = yield from selected(name)
+    clicks = harness.Clicks()
+    yield from clicks.press(name_of_call(name), *PLACES[name])
+    yield from jobs.waited()
+    assert clicks.count == 1, "one from the selection to the result"
+    harness.photograph(f"job_{name}")
+    yield from clicks.press("bpy.ops.object.fairing_inspect(mode='ZEBRA'", *ZEBRA)
+    assert clicks.count <= MOST_CLICKS
+    result = bpy.context.view_layer.objects.active
+    assert result.discrete_fairing_inspection.mode == "ZEBRA"
+    yield 1.0
+    harness.photograph(f"job_{name}_zebra")
+    yield from beside(name, result)
+    return model, result
 
 
-def bonnet():
-    return sheet(lambda x, y: 0.35 * (1 - 0.4 * x**2) * (1 - 0.25 * y**2))
+def beside(name, result):
+    """Ours and the rivals, in stripes and in clay; a generator."""
+    with bpy.context.temp_override(**harness.view()):
+        if result.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        others = jobs.add_rivals(name, result)
+        jobs.in_stripes(*others)
+        bpy.ops.object.select_all(action="DESELECT")
+        for shown in (result, *others):
+            shown.select_set(True)
+        bpy.ops.view3d.view_selected()
+        bpy.ops.object.select_all(action="DESELECT")
+    yield 1.5
+    harness.photograph(f"job_{name}_beside")
 
 
-def hull():
-    return sheet(lambda x, y: 0.4 * (1 - 0.5 * (x + 0.2) ** 2) + 0.15 * y * np.exp(x))
+def test_hull():
+    source, surface = yield from one_click("hull")
+    assert surface.discrete_fairing.source == source
+    assert surface.discrete_fairing.energy == "MINIMUM_VARIATION"
 
 
-def points():
-    random = np.random.default_rng(1)
-    return sheet(lambda x, y: 0.4 * np.cos(x) * np.cos(y) + 0.01 * random.standard_normal())
+def test_panel():
+    source, surface = yield from one_click("panel")
+    assert surface.discrete_fairing.source == source
+    assert surface.discrete_fairing.energy == "MINIMUM_VARIATION"
 
 
-def bracket():
-    clear()
-    corners = [(x, y, z) for x in (-1, 1) for y in (-0.6, 0.6) for z in (0, 0.5)]
-    return made(
-        "Bracket",
-        corners,
-        [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)],
-    )
+def test_mechanical():
+    source, surface = yield from one_click("mechanical")
+    assert surface.discrete_fairing.source == source
+    points = np.array([vertex.co for vertex in surface.data.vertices])
+    wall = points[np.abs(points[:, 2] - 0.8) < 0.5]
+    wall = wall[np.hypot(wall[:, 0], wall[:, 1]) > 0.5]
+    assert np.abs(np.hypot(wall[:, 0], wall[:, 1]) - 1).max() < 0.01, "round between sharp edges"
 
 
-def character():
-    clear()
-    bpy.ops.mesh.primitive_monkey_add()
-    source = bpy.context.object
-    source.modifiers.new("Subdivision", "SUBSURF").levels = 3
-    return source
+def test_character():
+    source, surface = yield from one_click("character")
+    assert surface.discrete_fairing.source == source
+    assert surface.discrete_fairing.interpolation == "LIMIT"
 
 
-def scan():
-    clear()
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    source = bpy.context.object
-    random = np.random.default_rng(1)
-    for vertex in source.data.vertices:
-        vertex.co *= 1 + 0.01 * random.standard_normal()
-    return source
+def test_points():
+    source, surface = yield from one_click("points")
+    assert surface.discrete_fairing.source == source
+    assert surface.discrete_fairing.interpolation == "EXACT"
+    assert "Eased" in source.data.shape_keys.key_blocks
 
 
 def off(target):
@@ -85,78 +129,68 @@ def off(target):
     return float(np.sqrt(np.mean((np.array(radii) - 1) ** 2)))
 
 
-def one_click(purpose, model):
-    """A generator that returns the source and what is active afterwards."""
-    with bpy.context.temp_override(**harness.view()):
-        source = model()
-        bpy.context.view_layer.objects.active = source
-        source.select_set(True)
-        bpy.ops.view3d.view_selected()
-    yield from harness.open_sidebar("Fairing")
-    harness.photograph(f"job_{purpose.lower()}_before")
-    with bpy.context.temp_override(**harness.view()):
-        answer = bpy.ops.object.fairing_for("INVOKE_DEFAULT", purpose=purpose)
-    assert answer <= {"FINISHED", "RUNNING_MODAL"}, answer
-    running = importlib.import_module(f"{harness.EXTENSION}.queue").running
-    calm = 0
-    while calm < 10:  # one run may begin another
-        calm = 0 if running() else calm + 1
-        yield 0.2
-    result = bpy.context.view_layer.objects.active
-    if result.mode == "EDIT":
-        with bpy.context.temp_override(**harness.view()):
-            bpy.ops.object.mode_set(mode="OBJECT")
-    elif result != source:
-        with bpy.context.temp_override(**harness.view()):
-            bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    yield 1.0
-    harness.photograph(f"job_{purpose.lower()}")
-    return source, result
-
-
-def test_hull():
-    source, surface = yield from one_click("HULL", hull)
-    assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.energy == "MINIMUM_VARIATION"
-
-
-def test_panel():
-    source, surface = yield from one_click("PANEL", bonnet)
-    assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.energy == "MINIMUM_VARIATION"
-
-
-def test_mechanical():
-    source, surface = yield from one_click("MECHANICAL", bracket)
-    assert surface.discrete_fairing.source == source
-    box = np.array([vertex.co for vertex in surface.data.vertices])
-    assert np.abs(box.max(axis=0) - (1, 0.6, 0.5)).max() < 1e-3, "its folds stay sharp"
-
-
-def test_character():
-    source, surface = yield from one_click("CHARACTER", character)
-    assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.interpolation == "LIMIT"
-
-
-def test_points():
-    source, surface = yield from one_click("POINTS", points)
-    assert surface.discrete_fairing.source == source
-    assert surface.discrete_fairing.interpolation == "EXACT"
-    assert "Eased" in source.data.shape_keys.key_blocks
-
-
-def test_scan_patch():
-    source, same = yield from one_click("SCAN_PATCH", scan)
+def test_scan():
+    source, same = yield from one_click("scan")
     assert same == source and len(source.data.polygons) == 5120
-    assert off(source) < 0.004, off(source)
+    assert off(source) < 0.4 * jobs.NOISE, off(source)
+
+
+def test_curves():
+    _curve, surface = yield from one_click("curves")
+    cage = surface.discrete_fairing.source
+    assert (
+        len(cage.discrete_fairing_curves.curves) == 7 and not cage.discrete_fairing_curves.remarks
+    )
+
+
+def test_cad():
+    """From the selected hull to a STEP file: the job, Export STEP, and Export in the file browser."""
+    yield from selected("cad")
+    clicks = harness.Clicks()
+    yield from clicks.press(name_of_call("cad"), *PLACES["cad"])
+    yield from jobs.waited()
+    yield from clicks.press("bpy.ops.export_scene.fairing_step(", *STEP)
+    yield 2.0
+    path = Path(tempfile.mkdtemp()) / "hull.step"
+    assert written_by_browser(path), "the file browser is open"
+    clicks.count += 1
+    yield 0.5
+    yield from jobs.waited()
+    assert clicks.count <= MOST_CLICKS
+    harness.photograph("job_cad")
+    assert path.read_text(encoding="ascii").startswith("ISO-10303-21;")
+
+
+def written_by_browser(path):
+    """Presses Export in the file browser, with a name of ours."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "FILE_BROWSER":
+                region = next(region for region in area.regions if region.type == "WINDOW")
+                area.spaces.active.params.directory = str(path.parent).encode()
+                area.spaces.active.params.filename = path.name
+                with bpy.context.temp_override(window=window, area=area, region=region):
+                    bpy.ops.file.execute()
+                return True
+    return False
+
+
+def test_undo_takes_a_job_back():
+    yield from selected("panel")
+    before = sorted(o.name for o in bpy.data.objects)
+    yield from harness.Clicks().press(name_of_call("panel"), *PLACES["panel"])
+    yield from jobs.waited()
+    assert sorted(o.name for o in bpy.data.objects) != before
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+    yield 1.0
+    assert sorted(o.name for o in bpy.data.objects) == before
+    assert not bpy.data.objects[before[0]].hide_get(), "its source is to be seen again"
 
 
 def test_the_menu_on_the_button():
     with bpy.context.temp_override(**harness.view()):
-        source = bonnet()
-        bpy.context.view_layer.objects.active = source
-        source.select_set(True)
+        jobs.begin("panel")
     yield from harness.open_sidebar("Fairing")
     region = harness.view()["region"]
     harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)

@@ -98,7 +98,7 @@ void expect_chains(const ControlMesh& mesh) {
     }
     const std::set<Index> distinct(chain.vertices.begin(), chain.vertices.end());
     const bool meets_itself = !chain.closed && chain.vertices.front() == chain.vertices.back();
-    if (mesh.copied_vertex.empty()) {  // else it may touch itself
+    if (mesh.copies.vertex.empty()) {  // else it may touch itself
       EXPECT_EQ(distinct.size() + meets_itself, chain.vertices.size());
     }
   }
@@ -109,8 +109,8 @@ void expect_chains(const ControlMesh& mesh) {
 }
 
 void expect_copies(const ControlMesh& mesh) {
-  EXPECT_TRUE(std::is_sorted(mesh.copied_vertex.begin(), mesh.copied_vertex.end()));
-  EXPECT_TRUE(std::is_sorted(mesh.copied_edge.begin(), mesh.copied_edge.end()));
+  EXPECT_TRUE(std::is_sorted(mesh.copies.vertex.begin(), mesh.copies.vertex.end()));
+  EXPECT_TRUE(std::is_sorted(mesh.copies.edge.begin(), mesh.copies.edge.end()));
   for (Index v = mesh.input_vertices; v < mesh.first_centre(); ++v) {
     EXPECT_LT(mesh.original_vertex(v), mesh.input_vertices);
     EXPECT_EQ(mesh.positions[std::size_t(v)], mesh.positions[std::size_t(mesh.original_vertex(v))]);
@@ -132,7 +132,7 @@ void expect_copies(const ControlMesh& mesh) {
   for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f) {
     const Face& face = mesh.faces[std::size_t(f)];
     const Face& original =
-        mesh.faces[std::size_t(mesh.copied_face[std::size_t(f - mesh.first_copied_face())])];
+        mesh.faces[std::size_t(mesh.copies.face[std::size_t(f - mesh.first_copied_face())])];
     ASSERT_EQ(face.size, original.size);
     EXPECT_EQ(face.polygon, original.polygon);
     for (int i = 0; i < face.size; ++i) {  // at the same place, reversed, a half each

@@ -35,8 +35,8 @@ std::multiset<std::size_t> lengths_of_meetings(const ControlMesh& mesh) {
 
 TEST(Sheets, ThreePagesAtASpine) {
   const ControlMesh mesh = build(three_on_an_edge());
-  EXPECT_EQ(mesh.copied_vertex, (Ids{0, 0, 1, 1}));
-  EXPECT_EQ(mesh.copied_edge.size(), 2u);
+  EXPECT_EQ(mesh.copies.vertex, (Ids{0, 0, 1, 1}));
+  EXPECT_EQ(mesh.copies.edge.size(), 2u);
   EXPECT_EQ(mesh.edges.size(), 9u);
   EXPECT_EQ(number_sheets(mesh).count, 3);
   EXPECT_EQ(lengths_of_meetings(mesh), (std::multiset<std::size_t>{1}));
@@ -48,9 +48,9 @@ TEST(Sheets, ThreePagesAtASpine) {
 
 TEST(Sheets, CubesThatShareAnEdge) {
   const ControlMesh mesh = build(two_cubes());
-  EXPECT_EQ(mesh.copied_vertex, (Ids{2, 6}));
+  EXPECT_EQ(mesh.copies.vertex, (Ids{2, 6}));
   // Each cube closes again along the edge, which is a crease of both.
-  ASSERT_EQ(mesh.copied_edge.size(), 1u);
+  ASSERT_EQ(mesh.copies.edge.size(), 1u);
   EXPECT_FALSE(mesh.edges.back().boundary());
   EXPECT_EQ(number_sheets(mesh).count, 2);
   EXPECT_EQ(lengths_of_meetings(mesh), (std::multiset<std::size_t>{1}));
@@ -59,10 +59,10 @@ TEST(Sheets, CubesThatShareAnEdge) {
 
 TEST(Sheets, AMobiusStripIsThereTwice) {
   const ControlMesh mesh = build(mobius(5));
-  EXPECT_EQ(mesh.copied_vertex.size(), 10u);
-  EXPECT_EQ(mesh.second, std::vector<std::uint8_t>(10, 1));
-  EXPECT_EQ(mesh.copied_face, (Ids{0, 1, 2, 3, 4}));
-  EXPECT_EQ(mesh.copied_edge.size(), 15u);
+  EXPECT_EQ(mesh.copies.vertex.size(), 10u);
+  EXPECT_EQ(mesh.copies.second, std::vector<std::uint8_t>(10, 1));
+  EXPECT_EQ(mesh.copies.face, (Ids{0, 1, 2, 3, 4}));
+  EXPECT_EQ(mesh.copies.edge.size(), 15u);
   EXPECT_EQ(number_sheets(mesh).count, 1);
   ASSERT_EQ(mesh.chains.size(), 1u);  // one boundary
   EXPECT_TRUE(mesh.chains[0].closed);
@@ -90,8 +90,8 @@ TEST(Sheets, BothHalvesOfACoverHaveTheSameBoundary) {
 
 TEST(Sheets, ConesThatTouchInAPoint) {
   const ControlMesh mesh = build(hourglass());
-  EXPECT_EQ(mesh.copied_vertex, (Ids{0}));
-  EXPECT_TRUE(mesh.copied_edge.empty() && mesh.chains.empty());
+  EXPECT_EQ(mesh.copies.vertex, (Ids{0}));
+  EXPECT_TRUE(mesh.copies.edge.empty() && mesh.chains.empty());
   EXPECT_TRUE(mesh.shared(0) && mesh.shared(mesh.input_vertices) && !mesh.shared(1));
   EXPECT_TRUE(mesh.interior(0) && mesh.interior(mesh.input_vertices));
   EXPECT_TRUE(mesh.vertex_fit(0));
@@ -154,7 +154,7 @@ TEST(Sheets, WeldedPointsAreAllThereOnce) {
     const ControlMesh mesh = build(input);
     const GridLevel grid(mesh, 2);
     const Weld weld(grid);
-    EXPECT_EQ(weld.needed(), !mesh.copied_vertex.empty());
+    EXPECT_EQ(weld.needed(), !mesh.copies.vertex.empty());
     std::vector<double> points(3 * grid.size()), welded(3 * weld.size());
     std::set<Index> ids;
     for (Index p = 0; p < Index(grid.size()); ++p) {

@@ -95,7 +95,7 @@ std::map<std::string, int> outcomes(OwnedPolygonMesh (*make)(Dice&), int trials)
       const ControlMesh control =
           make_control_mesh(mesh.view(), random_features(dice, mesh), result.flipped_faces);
       expect_consistent(control);
-      if (!control.copied_face.empty()) ++count["one-sided"];
+      if (!control.copies.face.empty()) ++count["one-sided"];
     } catch (const FairingError& error) {
       ++count[name(error.code)];
       EXPECT_FALSE(error.elements.empty());

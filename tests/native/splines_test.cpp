@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "refined_surfaces.h"
+#include "splines/face_surface.h"
 
 namespace fairing::test {
 namespace {
@@ -107,6 +108,27 @@ TEST(Splines, ATriangleIsThreePatchesAroundItsCentroid) {
   EXPECT_LE(sphere_error(surface), 1e-4);
   EXPECT_LE(largest(surface.angles), 8e-4);
   for (const std::vector<LoopEdge>& loop : surface.loops) EXPECT_EQ(loop.size(), 4u);
+}
+
+// Of points over the middle of each cell: what lies on the sphere is not off, what is lifted from it
+// is by as much.
+TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
+  for (const bool quads : {true, false}) {
+    const Refined surface = quads ? strip(1, 4, on_sphere) : triangle(4, on_sphere);
+    const Lattice lattice(surface.view());
+    Topology topology = make_topology(lattice);
+    topology.kinks.assign(topology.sectors.size(), Kink::none);
+    const FaceSurface face(lattice, topology, 0);
+    const int n = lattice.n();
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < (quads ? n : n - j); ++i) {
+        const double u = (i + 0.4) / n, v = (j + 0.4) / n;
+        const Vec3 on = on_sphere(u, v);
+        EXPECT_EQ(face.height(on, -1, u, v), 0);
+        for (const double lifted : {0.01, -0.01})
+          EXPECT_NEAR(face.height((1 + lifted) * on, -1, u, v), 0.01, 1e-3);
+      }
+  }
 }
 
 TEST(Splines, ASharpLatticeSaysSo) {

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spline patches of fair surfaces: accuracy, seams, topology, refusals."""
 
+import sys
 import tracemalloc
+from pathlib import Path
 
 import control_meshes
 import discrete_fairing as df
@@ -10,9 +12,13 @@ import half_hulls
 import numpy as np
 import pytest
 from discrete_fairing import fitting
+from mesh_files import read_mesh
 from shared_data import SHARED, read_obj
 from spline_measures import basis, evaluate, radii, side_curve, volume
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benchmarks"))
+
+step_distances = pytest.importorskip("step_distances")
 CURVED = {"energy": "total_curvature"}
 SMOOTH = {
     "cube": (control_meshes.cube(), CURVED),
@@ -73,6 +79,54 @@ def test_patches_follow_the_poles_of_curvature_at_vertices(mesh, levels):
     assert patches.largest_residual <= 1e-4 * patches.size
 
 
+@pytest.mark.parametrize("valence", range(3, 13))
+def test_patches_meet_at_vertices_of_any_valence(valence):
+    patches = df.fit_patches(*star(valence), levels=6, insist=True)
+    assert not len(patches.unmet_by_fit) and not len(patches.unresolved)
+    assert patches.largest_angle <= patches.normal_tolerance
+    assert patches.largest_residual <= 1e-4 * patches.size
+
+
+def star(valence):
+    """So many triangles around the top of a dome, and quads around them."""
+    turn = 2 * np.pi * np.arange(valence) / valence
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    flat = np.concatenate([[(0, 0)], ring, 2 * ring])
+    points = np.column_stack([flat, -0.15 * (flat**2).sum(axis=1)])
+    ends = [(1 + k, 1 + (k + 1) % valence) for k in range(valence)]
+    faces = [[0, a, b] for a, b in ends]
+    return points, faces + [[a, a + valence, b + valence, b] for a, b in ends]
+
+
+SAID = [pytest.param(example_meshes.hull, id="hull")] + [
+    pytest.param(
+        lambda path=path: (read_mesh(path), None),
+        id=path.stem,
+        marks=pytest.mark.skipif(not path.is_file(), reason="no shared meshes"),
+    )
+    for path in (CAT, CAT.with_name("geometry-central__bob_small.ply"))
+]
+
+
+@pytest.mark.parametrize("mesh", SAID)
+def test_what_is_said_is_what_others_find(mesh):
+    """Patches may swing between the lattice's points: distances from the flat triangles, at 13 x 13
+    points of each patch by a basis of NumPy's own, are those of the report.
+    """
+    (points, faces), creases = mesh()
+    patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, insist=True)
+    t = np.linspace(0, 1, 13)
+    at = [evaluate(patches, p, t, t)[0].reshape(-1, 3) for p in range(len(patches))]
+    result = patches.result
+    found = step_distances.distances(
+        np.concatenate(at), result.vertices, result.triangles.astype(np.int64)
+    ).reshape(len(patches), -1)
+    assert found.max() <= 1.2 * patches.largest_residual
+    missed = found.max(axis=1) > 1.2 * patches.tolerance * patches.size
+    said = patches._fit > patches.tolerance * patches.size
+    assert not (missed & ~said).any()
+
+
 def test_one_number_is_held_against_the_tolerance():
     """What patches are off by is what they are from the refined surface, and what that is from finer
     ones: a plate's poles of curvature take more levels than there are, and this is said.
@@ -113,8 +167,10 @@ def test_patches_in_narrow_corners_do_not_fold():
     assert not len(patches.unresolved)
     assert np.degrees(patches.turned.max()) < 20
     assert np.degrees(patches.largest_angle) < 20
-    # 115 where spans at the edges had four steps of the lattice, too
-    assert len(patches.unmet_by_fit) <= 70
+    # 115 where spans at the edges had four steps of the lattice, too; 64 where edges nearly stopped
+    # at narrow corners
+    assert len(patches.unmet_by_fit) <= 56
+    assert patches.largest_residual <= 1.5e-4 * patches.size
 
 
 def test_a_tip_lower_than_the_tolerance_is_no_fold():

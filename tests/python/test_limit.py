@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from catmull_clark import subdivide
 from control_meshes import cube, grid, octahedron
+from discrete_fairing import _native
 
 RANDOM = np.random.default_rng(7)
 CUBE = cube()
@@ -134,6 +135,33 @@ def test_its_metric_is_the_same_for_any_number_of_threads(threads):
         df.fair(vertices, faces, 4, threads=threads, **options).vertices,
         df.fair(vertices, faces, 4, threads=2, **options).vertices,
     )
+
+
+def snout(sides, thickness):
+    """A flat wedge whose tip is far ahead of a fine rim: its front is of long, thin triangles."""
+    turn = 2 * np.pi * np.arange(sides) / sides
+    rim = np.stack([0 * turn, np.cos(turn), thickness * np.sin(turn)], axis=1)
+    behind = np.stack([0 * turn - 1, 1.2 * np.cos(turn), 1.2 * thickness * np.sin(turn)], axis=1)
+    vertices = np.concatenate([rim, behind, [[10, 0, 0], [-1.5, 0, 0]]])
+    tip, end = 2 * sides, 2 * sides + 1
+    faces = []
+    for k in range(sides):
+        j = (k + 1) % sides
+        faces += [
+            [k, j, tip],
+            [k, k + sides, j],
+            [j, k + sides, j + sides],
+            [j + sides, k + sides, end],
+        ]
+    return vertices, faces
+
+
+@pytest.mark.parametrize("sides", [12, 16])
+@pytest.mark.parametrize("thickness", [0.1, 0.2])
+def test_long_thin_faces_do_not_swing_through_each_other(sides, thickness):
+    found = df.fair(*snout(sides, thickness), 3, interpolation="limit")
+    triangles = np.ascontiguousarray(found.triangles, np.int32)
+    assert not len(_native._crossings(found.vertices, triangles, 0, _native.Monitor(), None))
 
 
 def test_a_share_of_the_way_and_none():

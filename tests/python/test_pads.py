@@ -78,6 +78,15 @@ def test_the_surface_is_a_linear_map_of_the_positions():
     assert error < 1e-6 * np.ptp(vertices)
 
 
+@pytest.mark.parametrize(("name", "levels", "most"), (("torus", 5, 10), ("mixed_house", 6, 12)))
+def test_forces_are_read_from_the_whole_residual(name, levels, most):
+    """Read at control vertices alone, after solves that leave enough, they took 14 and 21 iterations."""
+    report = df.fair(*getattr(meshes, name)(), levels=levels).report
+    finest = report["levels"][-1]
+    assert report["converged"] and finest["pad_corrections"] > 0
+    assert finest["iterations"] <= most
+
+
 @pytest.mark.parametrize("size", (0.5, 1.0))
 def test_threads_leave_no_trace(size):
     mesh = meshes.creature()

@@ -23,8 +23,9 @@ class Eased:
 
     vertices: (n, 3) float64, mesh units, the new positions.
     moves: (n,) float64, mesh units, how far each vertex has moved.
-    strain_before, strain_after: (n,) float64, mesh units, as Strain.lengths; NaN at corners and
+    strain_before, strain_after: (n,) float64, mesh units, as Strain.excess; NaN at corners and
     outside a region, where vertices stay.
+    floor: float, mesh units: what strain_before may be and say nothing, as Strain.floor.
     amount: float without a unit, how much has been eased; 0 with `most`.
     noise: float, mesh units: an estimate of the scatter, the root mean square distance of a vertex
     from where it belongs; 0 with `most`.
@@ -38,6 +39,7 @@ class Eased:
         self.moves = np.linalg.norm(moves, axis=1)
         self.strain_before: np.ndarray = found["strain_before"][:count]
         self.strain_after: np.ndarray = found["strain_after"][:count]
+        self.floor: float = found["floor"]
         self.amount: float = found["amount"]
         self.noise: float = found["noise"]
         self.iterations: int = found["iterations"]

@@ -160,9 +160,9 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
     return run.checked(best)
 
 
-def _faults(patches: SplinePatches, all_of_it: bool) -> tuple[int, int]:
-    """How many faces are not resolved, or miss a tolerance: by `all_of_it`, or by the fit alone."""
-    return len(patches.unresolved), len(patches.unmet if all_of_it else patches.unmet_by_fit)
+def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
+    """How many faces are not resolved, or miss a tolerance that a finer level may meet."""
+    return len(patches.unresolved), len(patches.unmet) if serves else 0
 
 
 def _finest(count, level: int) -> int:
@@ -265,7 +265,7 @@ class _Run:
             raise fairing_error(
                 "UNRESOLVED",
                 f"{len(faces)} {noun} ({listed}) {verb} a surface that folds or turns too sharply "
-                "for patches. Move or add control vertices there, or give insist=True.",
+                "for patches. Move or add control vertices, crease the edges there, or give insist=True.",
                 faces,
                 "face",
             )

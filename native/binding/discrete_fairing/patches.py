@@ -45,7 +45,8 @@ class SplinePatches:
     edge_kind: (E,) uint8, 0 smooth, 1 crease, 2 boundary.
     loop_edges: (L,) int32; loop_forward: (L,) bool; loop_offsets: (P + 1,) int64: the edges around
     each patch, counter-clockwise, from u = v = 0 along u; four, or up to eight beside triangles.
-    residual: (P,) float64, the farthest that a point of the refined surface is from its patch.
+    residual: (P,) float64, the farthest that a point of the refined surface is from its patch, or
+    the patch from that surface between its points.
     turned: (P,) float64, the sharpest angle between the normals of patch and refined surface.
     edge_error: (E,) float64, how far the curve is from the refined surface at most: across the
     surface; along it too where the edge is a crease or a border.
@@ -159,6 +160,13 @@ class SplinePatches:
     def unmet_by_fit(self) -> np.ndarray:
         """(k,) int64: those of `unmet` that miss it from the refined surface, too."""
         return self._missing(self._fit)
+
+    @property
+    def unmet_by_surface(self) -> np.ndarray:
+        """(k,) int64: the others of `unmet`: their patches meet it, but the refined surface itself
+        still moves from level to level. Finer patches do not cure that.
+        """
+        return np.setdiff1d(self.unmet, self.unmet_by_fit)
 
     def _missing(self, off: np.ndarray) -> np.ndarray:
         bad = off > self.tolerance * self.size

@@ -28,32 +28,55 @@ class Strain:
     curves the whole way, of the curve by itself: above zero on the normal's side. NaN at corners,
     at and next to ends of curves, and outside a region.
     ways: (n, 3) float64, mesh units: the whole of each way, along the surface too.
+    excess, excess_ways: (n,), (n, 3) float64, mesh units: the same, of each vertex' own: less what a
+    fair shape strains beside a curve, where no moment crosses it; and vertex after vertex, the most
+    strained first, less what those before do to their neighbours, as long as one is above the floor.
+    floor: float, mesh units: what excess may be and say nothing, three standard deviations of strains
+    by their median; a surface through few vertices strains by as much where it is fair.
+    wrong: (k,) int64, the vertices whose excess is above the floor, the worst first.
     noise: float, mesh units: the scatter along the normal that the median strain off curves stands
     for. What the shape itself strains is in it; df.ease() tells the two apart.
     """
 
-    def __init__(self, lengths: np.ndarray, ways: np.ndarray, on_curve: np.ndarray):
-        self.lengths = lengths
-        self.ways = ways
+    def __init__(self, found: dict[str, Any], count: int):
+        self.lengths: np.ndarray = found["lengths"][:count]
+        self.ways: np.ndarray = found["ways"][:count]
+        self.excess: np.ndarray = found["excess"][:count]
+        self.excess_ways: np.ndarray = found["excess_ways"][:count]
+        self.floor: float = found["floor"]
+        lengths, on_curve = self.lengths, found["on_curve"][:count]
         sizes = np.abs(lengths[~np.isnan(lengths) & (on_curve == 0)])
         self.noise = float(OF_MEDIAN / OF_SCATTER * np.median(sizes)) if len(sizes) else 0.0
 
     def worst(self, count: int = 10) -> np.ndarray:
-        """(k,) int64: the vertices of the largest strain, the largest first; at most `count`."""
-        sizes = np.where(np.isnan(self.lengths), -1.0, np.abs(self.lengths))
+        """(k,) int64: the vertices of the largest excess, the largest first; at most `count`."""
+        sizes = np.where(np.isnan(self.excess), -1.0, np.abs(self.excess))
         order = np.argsort(-sizes, kind="stable")[:count]
         return order[sizes[order] >= 0]
 
-    def report(self) -> dict[str, float | int]:
-        """The largest, with its sign, and where; the noise. Vertex -1: nothing is held."""
+    @property
+    def wrong(self) -> np.ndarray:
+        worst = self.worst(len(self.excess))
+        return worst[np.abs(self.excess[worst]) > self.floor]
+
+    def report(self) -> dict[str, Any]:
+        """The largest excess, with its sign, and where; floor, wrong vertices, noise. Vertex -1: nothing
+        is held.
+        """
         worst = self.worst(1)
         vertex = int(worst[0]) if len(worst) else -1
-        largest = float(self.lengths[vertex]) if len(worst) else 0.0
-        return {"largest": largest, "vertex": vertex, "noise": self.noise}
+        largest = float(self.excess[vertex]) if len(worst) else 0.0
+        return {
+            "largest": largest,
+            "vertex": vertex,
+            "floor": self.floor,
+            "wrong": self.wrong.tolist(),
+            "noise": self.noise,
+        }
 
     def __repr__(self) -> str:
         worst = self.worst(1)
-        largest = f", {self.lengths[worst[0]]:.3g} at vertex {worst[0]}" if len(worst) else ""
+        largest = f", {self.excess[worst[0]]:.3g} at vertex {worst[0]}" if len(worst) else ""
         return f"Strain({len(self.lengths)} vertices{largest})"
 
 
@@ -135,4 +158,4 @@ def _measured(
             points, corners, offsets, options, monitor or _native.Monitor(), progress
         )
     count = half.vertex_count if half else len(points)
-    return Strain(*(found[name][:count] for name in ("lengths", "ways", "on_curve")))
+    return Strain(found, count)

@@ -10,7 +10,8 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t most_corners = 16'384;
+// Corners of a hole with its islands, as the message has it.
+constexpr std::size_t longest_hole = 16'384;
 
 std::string named(std::size_t hole) { return "Hole " + std::to_string(hole); }
 
@@ -33,10 +34,10 @@ void require_vertices(const Hole& hole, std::size_t number, std::int64_t count) 
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
                            named(number) + " comes by vertex " + std::to_string(v) +
-                               " twice: cut it there into two holes.",
+                               " twice. Cut it there into two holes.",
                            {v}, ElementKind::vertex);
     }
-  if (corners > most_corners)
+  if (corners > longest_hole)
     throw FairingError(ErrorCode::too_large, named(number) + " has " + std::to_string(corners) +
                                                  " vertices; more than 16,384 cannot be filled.");
 }

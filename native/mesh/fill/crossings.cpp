@@ -98,12 +98,14 @@ class Cells {
 
   // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997].
   bool passes(const Vec3& from, const Vec3& to, std::size_t t) const {
-    const Vec3 way = to - from, u = corner(t, 1) - corner(t, 0), v = corner(t, 2) - corner(t, 0);
-    const Vec3 across = way.cross(v);
+    const Vec3 direction = to - from, u = corner(t, 1) - corner(t, 0),
+               v = corner(t, 2) - corner(t, 0);
+    const Vec3 across = direction.cross(v);
     const double determinant = u.dot(across);
-    if (std::abs(determinant) <= touching * u.norm() * v.norm() * way.norm()) return false;
+    if (std::abs(determinant) <= touching * u.norm() * v.norm() * direction.norm()) return false;
     const Vec3 offset = from - corner(t, 0), turned = offset.cross(u);
-    const double first = offset.dot(across) / determinant, second = way.dot(turned) / determinant;
+    const double first = offset.dot(across) / determinant,
+                 second = direction.dot(turned) / determinant;
     const double along = v.dot(turned) / determinant;
     return std::min({first, second, 1 - first - second, along, 1 - along}) > touching;
   }

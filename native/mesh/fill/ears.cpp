@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <queue>
 
+#include "base/points.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -38,11 +39,11 @@ class Ears {
       normals_[a] = normal(i);
       after_[a] = b, before_[b] = a;
       ++changes_[i];
-      gone_ = i;
+      last_cut_ = i;
       --count_;
       look_at(a), look_at(b);
     }
-    const std::size_t first = after_[gone_];
+    const std::size_t first = after_[last_cut_];
     std::size_t i = first;
     do {
       found.corners.push_back(Index(i));
@@ -70,9 +71,7 @@ class Ears {
 
   // Of unit length, of the ear at a corner; zero without area.
   Vec3 normal(std::size_t i) const {
-    const Vec3 area = side(before_[i], i).cross(side(i, after_[i]));
-    const double length = area.norm();
-    return length > 0 ? Vec3(area / length) : Vec3(Vec3::Zero());
+    return unit_or_zero(side(before_[i], i).cross(side(i, after_[i])));
   }
 
   void look_at(std::size_t i) {
@@ -87,7 +86,7 @@ class Ears {
 
   const SpacePolygon& polygon_;
   std::vector<Vec3> normals_;  // of what is behind the side from each corner
-  std::size_t count_, gone_ = 0;
+  std::size_t count_, last_cut_ = 0;
   std::vector<std::size_t> before_, after_;
   std::vector<int> changes_;
   std::priority_queue<Candidate> open_;

@@ -38,14 +38,14 @@ class OneHole {
     patch.rim = Index(ids_.size());
     for (const std::int64_t v : ids_) patch.points.push_back(rims_.point(v));
     patch.lengths.resize(ids_.size());
-    patch.beyond.resize(ids_.size());
+    patch.rim_normals.resize(ids_.size());
     for (std::size_t l = 0; l + 1 < begin_.size(); ++l) {
-      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
-        patch.beyond[i] = rims_.normal_beside(ids_[after(i, l)], ids_[i]);
-      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
+      for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i) {
+        patch.rim_normals[i] = rims_.normal_beside(ids_[after(i, l)], ids_[i]);
         patch.lengths[i] = ((patch.points[i] - patch.points[after(i, l)]).norm() +
                             (patch.points[i] - patch.points[before(i, l)]).norm()) /
                            (2 * (density > 0 ? density : 1));
+      }
       for (int sweep = 0; sweep < length_sweeps; ++sweep) even_out(patch.lengths, l);
     }
     return patch;
@@ -113,16 +113,16 @@ class OneHole {
   }
 
   void bridge(std::size_t place, std::size_t shore, std::size_t island) {
-    std::vector<Index> way;
+    std::vector<Index> detour;
     std::size_t i = shore;
     do {
-      way.push_back(Index(i));
+      detour.push_back(Index(i));
       i = after(i, island);
     } while (i != shore);
-    way.push_back(Index(shore));
-    way.push_back(walk_[place]);
+    detour.push_back(Index(shore));
+    detour.push_back(walk_[place]);
     bridges_.insert(std::minmax(walk_[place], Index(shore)));
-    walk_.insert(walk_.begin() + std::ptrdiff_t(place) + 1, way.begin(), way.end());
+    walk_.insert(walk_.begin() + std::ptrdiff_t(place) + 1, detour.begin(), detour.end());
   }
 
   SpacePolygon polygon(const std::vector<Vec3>& points,
@@ -181,7 +181,7 @@ class OneHole {
   [[noreturn]] void no_surface() const {
     throw FairingError(ErrorCode::bad_option,
                        "The islands of the hole at vertex " + std::to_string(ids_[0]) +
-                           " cannot be joined to its rim: fill it without them.",
+                           " cannot be joined to its rim. Fill it without them.",
                        {ids_[0]}, ElementKind::vertex);
   }
 

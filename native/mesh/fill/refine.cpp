@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/points.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -22,9 +23,14 @@ constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
 
 // Rounds of splits, and sweeps of relaxation in each: angles change no more after some ten, of
 // which the first few find the number of points.
-constexpr int most_rounds = 40, settled_rounds = 6, sweeps = 4;
+constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
-constexpr std::size_t most_points = 100'000'000;
+constexpr std::size_t largest_filling = 100'000'000;  // as the message has it
+
+// Passes of flips, each over what the last one has changed, and what a flip gains at least, as a cosine:
+// rounding must not go round in circles.
+constexpr int most_passes = 50;
+constexpr double least_improvement = 1e-9;
 
 // Cosine of the sharpest turn at an edge that a flip or a step may make; where some are sharper already,
 // their sum must not grow. Up to `even` around a vertex, the triangles behind its own need not be asked.
@@ -50,7 +56,7 @@ class Refinement {
   void run() {
     flip_all();
     int settled = 0;
-    for (int round = 0; round < most_rounds && settled < settled_rounds; ++round) {
+    for (int round = 0; round < most_refinements && settled < settled_rounds; ++round) {
       const std::size_t split = split_all(), collapsed = collapse_all();
       flip_all();
       const std::size_t few = mesh_.n_edges() / 100;
@@ -104,9 +110,9 @@ class Refinement {
       if (length > too_long) longest.push_back({-length, e});
     }
     std::sort(longest.begin(), longest.end());
-    if (patch_.points.size() + longest.size() > most_points)
+    if (patch_.points.size() + longest.size() > largest_filling)
       throw FairingError(ErrorCode::too_large,
-                         "The filling would have more than a hundred million vertices: lower the "
+                         "The filling would have more than a hundred million vertices. Lower the "
                          "density.");
     for (std::size_t i = 0; i < longest.size(); ++i) {
       stop_if_cancelled(i);
@@ -145,7 +151,7 @@ class Refinement {
   // Whether from(h), inside, may go where to(h) is: no edge gets long, no triangle turns over.
   bool may_collapse(Half h) {
     if (!mesh_.is_collapse_ok(h)) return false;
-    const VertexHandle gone = from(h), kept = to(h);
+    const VertexHandle removed = from(h), kept = to(h);
     Half spoke = h;
     do {
       const VertexHandle other = to(spoke), next = opposite(spoke);
@@ -154,10 +160,11 @@ class Refinement {
       const double length = (point(other) - point(kept)).norm();
       if (2 * length > too_long * (wanted(other) + wanted(kept))) return false;
       if (other != kept && next != kept) {
-        const Vec3 before = area(gone, other, next), after = area(kept, other, next);
+        const Vec3 before = area(removed, other, next), after = area(kept, other, next);
         if (before.dot(after) <= sharpest * before.norm() * after.norm()) return false;
         const Half far = mesh_.next_halfedge_handle(spoke);
-        if (turn(far, unit(after)) < std::min(turn(far, unit(before)), sharpest)) return false;
+        if (turn(far, unit_or_zero(after)) < std::min(turn(far, unit_or_zero(before)), sharpest))
+          return false;
       }
       spoke = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(spoke));
     } while (spoke != h);
@@ -168,7 +175,7 @@ class Refinement {
   void flip_all() {
     std::vector<int> open(mesh_.n_edges());
     for (std::size_t e = 0; e < open.size(); ++e) open[e] = int(e);
-    for (int pass = 0; pass < 50 && !open.empty(); ++pass) {
+    for (int pass = 0; pass < most_passes && !open.empty(); ++pass) {
       std::vector<int> next;
       for (std::size_t i = 0; i < open.size(); ++i) {
         stop_if_cancelled(i);
@@ -194,12 +201,12 @@ class Refinement {
     if (on_rim(c) && on_rim(d) && joined_(c.idx(), d.idx())) return false;
     const double now = std::max(badness(a, b, c), badness(b, a, d));
     const double then = std::max(badness(c, d, b), badness(d, c, a));
-    if (then >= now - 1e-9) return false;
+    if (then >= now - least_improvement) return false;
     // the sides b-c and a-d, c-a and d-b keep what is behind them
     const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
     const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);
-    const Vec3 old[2] = {unit(area(a, b, c)), unit(area(b, a, d))};
-    const Vec3 fresh[2] = {unit(area(c, d, b)), unit(area(d, c, a))};
+    const Vec3 old[2] = {unit_or_zero(area(a, b, c)), unit_or_zero(area(b, a, d))};
+    const Vec3 fresh[2] = {unit_or_zero(area(c, d, b)), unit_or_zero(area(d, c, a))};
     if (fresh[0].isZero() || fresh[1].isZero()) return false;
     const double before = sharpness(old[0].dot(old[1])) + sharpness(turn(bc, old[0])) +
                           sharpness(turn(ca, old[0])) + sharpness(turn(ad, old[1])) +
@@ -213,20 +220,15 @@ class Refinement {
   // Of a turn with this cosine, beyond what is allowed.
   static double sharpness(double cosine) { return std::max(0.0, sharpest - cosine); }
 
-  static Vec3 unit(const Vec3& v) {
-    const double length = v.norm();
-    return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
-  }
-
   // The cosine between a triangle's normal and the one behind its side h; 1 where nothing is there.
   double turn(Half h, const Vec3& normal) const {
     const Half back = mesh_.opposite_halfedge_handle(h);
     if (mesh_.is_boundary(back)) {
-      if (patch_.beyond.empty()) return 1;
-      const Vec3& beyond = patch_.beyond[std::size_t(from(h).idx())];
-      return beyond.isZero() ? 1 : beyond.dot(normal);
+      if (patch_.rim_normals.empty()) return 1;
+      const Vec3& behind = patch_.rim_normals[std::size_t(from(h).idx())];
+      return behind.isZero() ? 1 : behind.dot(normal);
     }
-    return unit(area(from(back), to(back), opposite(back))).dot(normal);
+    return unit_or_zero(area(from(back), to(back), opposite(back))).dot(normal);
   }
 
   void relax() {
@@ -277,10 +279,10 @@ class Refinement {
       areas_.push_back(ring_area(i, middle));
       sum += areas_.back();
     }
-    sum = unit(sum);
+    sum = unit_or_zero(sum);
     double total = 0;
     for (std::size_t i = 0; i < ring_.size(); ++i) {
-      const Vec3 normal = unit(areas_[i]);
+      const Vec3 normal = unit_or_zero(areas_[i]);
       const double upright = normal.isZero() ? -1 : normal.dot(sum);
       total += sharpness(upright);
       const Half far = mesh_.next_halfedge_handle(ring_[i]);

@@ -18,7 +18,7 @@ struct Patch {
   std::vector<Triangle> triangles;
   // Of each point of the rim the normal, of unit length or zero, of the face behind the side from it
   // to the next. Empty: there are none.
-  std::vector<Vec3> beyond;
+  std::vector<Vec3> rim_normals;
 };
 
 enum class Relaxation {

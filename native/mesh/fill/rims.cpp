@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/fill/rims.h"
 
-#include <Eigen/Geometry>
-
+#include "base/points.h"
+#include "mesh/polygon_shape.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -23,19 +23,10 @@ Rims::Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const
   }
 }
 
-Vec3 Rims::point(std::int64_t v) const {
-  const double* p = mesh_.coordinates.data() + 3 * v;
-  return {p[0], p[1], p[2]};
-}
+Vec3 Rims::point(std::int64_t v) const { return point_at(mesh_.coordinates, v); }
 
 Vec3 Rims::normal_beside(std::int64_t a, std::int64_t b) const {
-  const auto corners = mesh_.face(border_.at(side(a, b)));
-  const Vec3 origin = point(corners[0]);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-    sum += (point(corners[i]) - origin).cross(point(corners[i + 1]) - origin);
-  const double length = sum.norm();
-  return length > 0 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+  return unit_or_zero(twice_vector_area(mesh_, border_.at(side(a, b))));
 }
 
 }  // namespace fairing

@@ -15,7 +15,7 @@ namespace {
 // Corners up to which all pairs are looked at: 0.4 s. A longer polygon loses ears first; where it is
 // too long even then, it is looked at through a window of so many corners, which doubles its stride
 // whenever it is full: 5,000 corners in 7 s.
-constexpr std::size_t most_corners = 400, window_size = 128;
+constexpr std::size_t longest_whole = 400, window_size = 128;
 
 // Cosines that differ by less are one: the rounding of flat holes must not decide.
 constexpr double same_cosine = 1e-6;
@@ -38,7 +38,7 @@ struct Best {
 class Chords {
  public:
   explicit Chords(std::size_t corners) : corners_(corners) {
-    window_ = corners <= most_corners ? corners : window_size;
+    window_ = corners <= longest_whole ? corners : window_size;
     while (window_ << top_ < corners - 1) ++top_;
     const std::size_t stride = std::size_t(1) << top_;
     end_ = (corners - 1 + stride - 1) / stride * stride;
@@ -167,8 +167,8 @@ class Search {
 
 std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
   if (polygon.points.size() < 3) return {};
-  if (polygon.points.size() <= most_corners) return Search(polygon).run();
-  Shortened rest = cut_ears(polygon, most_corners);
+  if (polygon.points.size() <= longest_whole) return Search(polygon).run();
+  Shortened rest = cut_ears(polygon, longest_whole);
   SpacePolygon left;
   for (const Index corner : rest.corners)
     left.points.push_back(polygon.points[std::size_t(corner)]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/points.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -29,16 +30,14 @@ CornerOrigin origin_between(const CornerOrigin& a, const CornerOrigin& b, double
 
 CutSide cut_side(std::span<const double> coordinates, Index a, Index b,
                  std::span<const Index> vertices) {
-  const auto point = [&](Index v) {
-    return Eigen::Map<const Vec3>(&coordinates[3 * std::size_t(v)]);
-  };
+  const auto point = [&](Index v) { return point_at(coordinates, v); };
   CutSide side{std::min(a, b), std::max(a, b), {}};
-  const Vec3 begin = point(side.low), end = point(side.high), way = end - begin;
+  const Vec3 begin = point(side.low), end = point(side.high), along = end - begin;
   for (const Index v : vertices) {
     if (v == a || v == b) continue;
-    const double share = way.dot(point(v) - begin) / way.squaredNorm();
+    const double share = along.dot(point(v) - begin) / along.squaredNorm();
     const double farther = std::max((point(v) - begin).norm(), (point(v) - end).norm());
-    if (share > 0 && share < 1 && farther < way.norm()) side.between.push_back({share, v});
+    if (share > 0 && share < 1 && farther < along.norm()) side.between.push_back({share, v});
   }
   std::sort(side.between.begin(), side.between.end());
   return side;

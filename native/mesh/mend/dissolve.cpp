@@ -7,17 +7,16 @@
 #include <set>
 #include <utility>
 
+#include "base/points.h"
 #include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
 #include "mesh/mend/flat_stack.h"
+#include "mesh/mend/merge.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-// A polygon no wider than this, of its length, is a line.
-constexpr double least_width = 1e-9;
 
 // A face whose turn comes, the longest first: then its vertices go into faces that stay, rather than
 // into others that go. Its place does not depend on the order of faces.
@@ -96,7 +95,7 @@ class Dissolver {
   }
 
  private:
-  Vec3 point(Index v) const { return Eigen::Map<const Vec3>(&coordinates_[3 * std::size_t(v)]); }
+  Vec3 point(Index v) const { return point_at(coordinates_, v); }
   // Valid until the next change.
   std::span<const MendCorner> face(Index f) const {
     const Index at = changed_at_[std::size_t(f)];
@@ -116,9 +115,9 @@ class Dissolver {
           farthest = point(corner.vertex);
       return farthest;
     };
-    const Vec3 begin = farthest_from(point(loop[0].vertex)), way = farthest_from(begin) - begin;
+    const Vec3 begin = farthest_from(point(loop[0].vertex)), along = farthest_from(begin) - begin;
     return std::all_of(loop.begin(), loop.end(), [&](const MendCorner& corner) {
-      return way.cross(point(corner.vertex) - begin).norm() <= least_width * way.squaredNorm();
+      return along.cross(point(corner.vertex) - begin).norm() <= least_extent * along.squaredNorm();
     });
   }
 
@@ -238,7 +237,7 @@ class Dissolver {
     return {std::move(loop)};
   }
 
-  // Gives a flat face, if it still has this side whichever way round, the vertices inside it.
+  // Gives a flat face, if it still has this side in either direction, the vertices inside it.
   void insert(Index f, const CutSide& side) {
     const auto loop = face(f);
     Loop longer;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/points.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -76,9 +77,7 @@ class Line {
 }  // namespace
 
 CutSide longest_side(std::span<const double> coordinates, std::span<const MendCorner> loop) {
-  const auto point = [&](Index v) {
-    return Eigen::Map<const Vec3>(&coordinates[3 * std::size_t(v)]);
-  };
+  const auto point = [&](Index v) { return point_at(coordinates, v); };
   CutSide longest{};
   double most = -1;
   for (std::size_t i = 0; i < loop.size(); ++i) {

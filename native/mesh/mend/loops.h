@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces on their way through mend(): corners that know where they come from. For mesh/mend/ only.
+// Faces on their way through mend(): corners that know where they come from. For mesh/mend/, and for
+// the walks around holes (mesh/fill/holes.cpp), whose corners come from nowhere.
 #pragma once
 
 #include <span>

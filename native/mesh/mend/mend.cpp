@@ -47,9 +47,9 @@ class Mender {
       : mesh_(mesh), options_(options), merges_(std::size_t(mesh.vertex_count())) {}
 
   MendedMesh run() {
-    if (options_.weld >= 0) weld(mesh_, options_.weld, merges_);
-    merge_within_faces(mesh_, merges_);
-    if (nothing_wrong()) return {};
+    const bool welded = options_.weld >= 0 && weld(mesh_, options_.weld, merges_),
+               merged = merge_within_faces(mesh_, merges_);
+    if (!welded && !merged && nothing_wrong()) return {};
     take_faces();
     drop_duplicates();
     Dissolved dissolved = dissolve_flat_faces(mesh_.coordinates, loops_);
@@ -65,7 +65,6 @@ class Mender {
 
  private:
   bool nothing_wrong() const {
-    if (merges_.any()) return false;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
@@ -192,7 +191,7 @@ class Mender {
 
   const PolygonMesh& mesh_;
   const MendOptions& options_;
-  Merges merges_;
+  Groups merges_;
   Loops loops_;
   Ids few_, absent_, repeated_, flat_, duplicates_, merged_, lost_, far_;
   MendedMesh out_;

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
+#include "base/points.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -14,12 +15,7 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-// In a face without area, of its longest side: a shorter side has no length.
-constexpr double least_side = 1e-9;
-
-Vec3 point(const PolygonMesh& mesh, std::int64_t v) {
-  return Eigen::Map<const Vec3>(&mesh.coordinates[3 * std::size_t(v)]);
-}
+Vec3 point(const PolygonMesh& mesh, std::int64_t v) { return point_at(mesh.coordinates, v); }
 
 // Kept vertices by the cube of space that they are in, in a table of chains.
 class Cubes {
@@ -62,7 +58,7 @@ double largest_coordinate_of(const PolygonMesh& mesh, const std::vector<std::uin
 }
 
 // A face with its vertices as they are now, each once where it comes twice in a row.
-void current_face(const PolygonMesh& mesh, std::int64_t f, Merges& merges, Ids& face) {
+void current_face(const PolygonMesh& mesh, std::int64_t f, Groups& merges, Ids& face) {
   face.clear();
   for (const std::int64_t v : mesh.face(f)) {
     const std::int64_t lead = merges.lead(Index(v));
@@ -71,28 +67,21 @@ void current_face(const PolygonMesh& mesh, std::int64_t f, Merges& merges, Ids& 
   while (face.size() > 1 && face.front() == face.back()) face.pop_back();
 }
 
-bool unite_touching(const PolygonMesh& mesh, const Ids& face, Merges& merges) {
+bool unite_touching(const PolygonMesh& mesh, const Ids& face, Groups& merges) {
   bool any = false;
-  const auto unite_if_same = [&](std::int64_t a, std::int64_t b) {
-    if (a == b || point(mesh, a) != point(mesh, b)) return;
-    merges.unite(Index(a), Index(b));
-    any = true;
-  };
-  if (face.size() <= 8) {
-    for (std::size_t i = 0; i < face.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) unite_if_same(face[i], face[j]);
-    return any;
-  }
   Ids sorted = face;
   std::sort(sorted.begin(), sorted.end(), [&](std::int64_t a, std::int64_t b) {
     const Vec3 p = point(mesh, a), q = point(mesh, b);
     return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
   });
-  for (std::size_t i = 1; i < sorted.size(); ++i) unite_if_same(sorted[i - 1], sorted[i]);
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const std::int64_t a = sorted[i - 1], b = sorted[i];
+    if (a != b && point(mesh, a) == point(mesh, b)) any |= merges.unite(Index(a), Index(b));
+  }
   return any;
 }
 
-bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Merges& merges) {
+bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Groups& merges) {
   if (face.size() < 3 || !has_no_area(mesh.coordinates, face)) return false;
   const auto side = [&](std::size_t i) {
     return (point(mesh, face[i]) - point(mesh, face[(i + 1) % face.size()])).norm();
@@ -101,7 +90,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Merges& merges)
   for (std::size_t i = 0; i < face.size(); ++i) longest = std::max(longest, side(i));
   bool any = false;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    if (!(side(i) <= least_side * longest)) continue;
+    if (!(side(i) <= least_extent * longest)) continue;
     merges.unite(Index(face[i]), Index(face[(i + 1) % face.size()]));
     any = true;
   }
@@ -110,51 +99,50 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Merges& merges)
 
 }  // namespace
 
-Merges::Merges(std::size_t vertices) : lead_(vertices) {
-  std::iota(lead_.begin(), lead_.end(), Index(0));
-}
-
-void Merges::unite(Index a, Index b) {
-  const Index la = lead(a), lb = lead(b), lowest = std::min(la, lb);
-  any_ |= la != lb;
-  lead_[std::size_t(la)] = lead_[std::size_t(lb)] = lowest;
-}
-
-void weld(const PolygonMesh& mesh, double distance, Merges& merges) {
+bool weld(const PolygonMesh& mesh, double distance, Groups& merges) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   // Cubes of rounding errors' size would be without number.
-  const double side = std::max({distance, 1e-15 * largest_coordinate_of(mesh, used), 1e-300});
+  using Limits = std::numeric_limits<double>;
+  const double side =
+      std::max({distance, Limits::epsilon() * largest_coordinate_of(mesh, used), Limits::min()});
   Cubes cubes(used.size(), side);
+  bool any = false;
   for (std::size_t v = 0; v < used.size(); ++v) {
     stop_if_cancelled(v);
     if (!used[v]) continue;
     const Vec3 p = point(mesh, std::int64_t(v));
     const auto cube = cubes.at(p);
     Index lowest = Index(v);
-    for (int k = 0; k < 27; ++k)
-      cubes.visit({cube[0] + k % 3 - 1, cube[1] + k / 3 % 3 - 1, cube[2] + k / 9 - 1},
-                  [&](Index u) {
-                    if (u < lowest && (point(mesh, u) - p).norm() <= distance) lowest = u;
-                  });
+    const auto look_at = [&](Index u) {
+      if (u < lowest && (point(mesh, u) - p).norm() <= distance) lowest = u;
+    };
+    for (const double x : {-1.0, 0.0, 1.0})
+      for (const double y : {-1.0, 0.0, 1.0})
+        for (const double z : {-1.0, 0.0, 1.0})
+          cubes.visit({cube[0] + x, cube[1] + y, cube[2] + z}, look_at);
     if (lowest < Index(v))
-      merges.unite(lowest, Index(v));
+      any |= merges.unite(lowest, Index(v));
     else
       cubes.add(Index(v), p);
   }
+  return any;
 }
 
 // What was merged may leave another side without length, in the next round.
-void merge_within_faces(const PolygonMesh& mesh, Merges& merges) {
+bool merge_within_faces(const PolygonMesh& mesh, Groups& merges) {
   Ids face;
+  bool any = false;
   for (bool again = true; again;) {
     again = false;
     for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       if (names_absent_vertex(mesh.face(f), mesh.vertex_count())) continue;
       current_face(mesh, f, merges, face);
-      if (unite_touching(mesh, face, merges) || unite_short_sides(mesh, face, merges)) again = true;
+      if (unite_touching(mesh, face, merges) || unite_short_sides(mesh, face, merges))
+        any = again = true;
     }
   }
+  return any;
 }
 
 }  // namespace fairing

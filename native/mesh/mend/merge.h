@@ -2,41 +2,21 @@
 // Which vertices become one. For mesh/mend/ only.
 #pragma once
 
-#include <vector>
-
-#include "base/types.h"
+#include "mesh/groups.h"
 #include "mesh/polygon_mesh.h"
-#include "parallel/memory.h"
 
 namespace fairing {
 
-// Groups of vertices that are one, each led by its lowest.
-class Merges {
- public:
-  explicit Merges(std::size_t vertices);
-
-  Index lead(Index v) {
-    for (;;) {
-      Index& above = lead_[std::size_t(v)];
-      if (above == v) return v;
-      above = lead_[std::size_t(above)];  // so that ways stay short
-      v = above;
-    }
-  }
-  void unite(Index a, Index b);
-  bool any() const { return any_; }
-
- private:
-  Array<Index> lead_;
-  bool any_ = false;
-};
+// In a face without area, of its longest side: a shorter side has no length, and a polygon that is no
+// wider is a line.
+constexpr double least_extent = 1e-9;
 
 // Unites vertices of faces no farther apart than `distance`: each, by its id, with the lowest that
-// is kept and near enough. So none moves farther than that.
-void weld(const PolygonMesh& mesh, double distance, Merges& merges);
+// is kept and near enough. So none moves farther than that. Returns whether there are such.
+bool weld(const PolygonMesh& mesh, double distance, Groups& merges);
 
 // Unites vertices of a face at one point, and the ends of a side that is next to nothing in a face
-// without area. `mesh` has finite vertices in its faces.
-void merge_within_faces(const PolygonMesh& mesh, Merges& merges);
+// without area. `mesh` has finite vertices in its faces. Returns whether there are such.
+bool merge_within_faces(const PolygonMesh& mesh, Groups& merges);
 
 }  // namespace fairing

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "mesh/validate/checks.h"
-#include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
@@ -15,17 +14,7 @@ constexpr double largest_coordinate = 1e100;
 
 // A corner becomes up to three sides when its polygon is split, a side up to two half-edges; all
 // ids have 32 bits.
-constexpr std::size_t most_corners = (std::size_t(1) << 31) / 8;
-
-template <class Predicate>
-Ids faces_where(const PolygonMesh& mesh, Predicate predicate) {
-  Ids found;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
-    if (predicate(mesh.face(f))) found.push_back(f);
-  }
-  return found;
-}
+constexpr std::size_t largest_mesh = (std::size_t(1) << 31) / 8;
 
 bool cut_faces(std::span<const std::int64_t> offsets, std::size_t corners) {
   return !offsets.empty() && offsets.front() == 0 && offsets.back() == std::int64_t(corners) &&
@@ -55,7 +44,7 @@ bool check_sizes(const PolygonMesh& mesh, Defects& found) {
     found.emplace_back(ErrorCode::no_faces, "The mesh has no faces: there is no surface to fair.");
   else if (!cut_faces(mesh.offsets, mesh.corners.size()))
     found.push_back(bad_offsets());
-  else if (mesh.corners.size() > most_corners || mesh.coordinates.size() / 3 > most_corners)
+  else if (mesh.corners.size() > largest_mesh || mesh.coordinates.size() / 3 > largest_mesh)
     found.push_back(too_many());
   else if (mesh.coordinates.empty())
     found.emplace_back(ErrorCode::empty_mesh, "The mesh has faces but no vertices.");
@@ -156,7 +145,7 @@ std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
 
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets) {
   if (!cut_faces(offsets, corners.size())) bad_offsets().raise();
-  if (corners.size() > most_corners) too_many().raise();
+  if (corners.size() > largest_mesh) too_many().raise();
 }
 
 void require_arrays(const PolygonMesh& mesh) {

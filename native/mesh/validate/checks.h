@@ -7,8 +7,20 @@
 #include "mesh/half_edges.h"
 #include "mesh/orientation.h"
 #include "mesh/validate/check.h"
+#include "parallel/cancel.h"
 
 namespace fairing {
+
+// The faces of which `predicate` holds, given their vertices.
+template <class Predicate>
+std::vector<std::int64_t> faces_where(const PolygonMesh& mesh, const Predicate& predicate) {
+  std::vector<std::int64_t> found;
+  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
+    stop_if_cancelled(std::size_t(f));
+    if (predicate(mesh.face(f))) found.push_back(f);
+  }
+  return found;
+}
 
 // --- arrays.cpp: whether the arrays describe faces at all ---
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/points.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -10,7 +11,6 @@ namespace fairing {
 namespace {
 
 using Ids = std::vector<std::int64_t>;
-using Point = Eigen::Vector3d;
 
 constexpr double least_area = 1e-12;  // of the longest side squared
 
@@ -46,15 +46,13 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
 }  // namespace
 
 bool has_no_area(std::span<const double> coordinates, std::span<const std::int64_t> face) {
-  const auto point = [&](std::size_t i) {
-    return Point(Eigen::Map<const Point>(&coordinates[3 * std::size_t(face[i])]));
-  };
+  const auto point = [&](std::size_t i) { return point_at(coordinates, face[i]); };
   // Relative to one corner, or a small face far from the origin would drown in rounding.
-  const Point origin = point(0);
-  Point twice_area = Point::Zero(), last = point(face.size() - 1) - origin;
+  const Vec3 origin = point(0);
+  Vec3 twice_area = Vec3::Zero(), last = point(face.size() - 1) - origin;
   double longest = 0;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    const Point here = point(i) - origin;
+    const Vec3 here = point(i) - origin;
     twice_area += last.cross(here);
     longest = std::max(longest, (here - last).squaredNorm());
     last = here;
@@ -120,11 +118,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
 }
 
 void check_areas(const PolygonMesh& mesh, Defects& found) {
-  Ids bad;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
-    if (has_no_area(mesh.coordinates, mesh.face(f))) bad.push_back(f);
-  }
+  const Ids bad = faces_where(mesh, [&](auto face) { return has_no_area(mesh.coordinates, face); });
   if (bad.empty()) return;
   found.emplace_back(ErrorCode::degenerate_face,
                      listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.",

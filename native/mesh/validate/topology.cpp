@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "mesh/buckets.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
-#include "parallel/memory.h"
 
 namespace fairing {
 namespace {
@@ -20,9 +20,6 @@ std::uint64_t scramble(std::uint64_t x) {  // splitmix64
 struct Print {
   std::uint64_t hash;  // of the vertex set: a sum, so that order does not matter
   std::int32_t face;
-  bool operator<(const Print& other) const {
-    return hash != other.hash ? hash < other.hash : face < other.face;
-  }
 };
 
 Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
@@ -57,40 +54,20 @@ std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
 }  // namespace
 
 std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
-  // Faces are filed under their lowest vertex: buckets of two on average, as in HalfEdges.
-  const auto faces = std::int32_t(mesh.face_count());
-  const auto lowest = [&](std::int32_t f) {
-    const auto face = mesh.face(f);
-    return std::size_t(*std::min_element(face.begin(), face.end()));
+  // By their lowest vertices faces make buckets of two on average.
+  const auto lowest = [&](std::size_t f) { return std::ranges::min(mesh.face(std::int64_t(f))); };
+  const auto print_of = [&](std::size_t f) {
+    Print print{0, std::int32_t(f)};
+    for (std::int64_t v : mesh.face(print.face)) print.hash += scramble(std::uint64_t(v));
+    return print;
   };
-  Array<std::int32_t> start(std::size_t(mesh.vertex_count()) + 1, 0);
-  for (std::int32_t f = 0; f < faces; ++f) {
-    stop_if_cancelled(std::size_t(f));
-    ++start[lowest(f) + 1];
-  }
-  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
-
-  Array<Print> prints(std::size_t(faces), Print{});
-  Array<std::int32_t> fill(start.begin(), start.end() - 1);
-  for (std::int32_t f = 0; f < faces; ++f) {
-    stop_if_cancelled(std::size_t(f));
-    std::uint64_t hash = 0;
-    for (std::int64_t v : mesh.face(f)) hash += scramble(std::uint64_t(v));
-    prints[std::size_t(fill[lowest(f)]++)] = {hash, f};
-  }
-
+  Buckets<Print> prints(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()), lowest,
+                        print_of);
   std::vector<SameVertices> found;
-  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
-    stop_if_cancelled(v);
-    const auto begin = prints.begin() + start[v], end = prints.begin() + start[v + 1];
-    std::sort(begin, end);
-    for (auto first = begin; first != end;) {
-      const auto last =
-          std::find_if(first, end, [&](const Print& p) { return p.hash != first->hash; });
-      if (last - first > 1) collect_equal_sets(mesh, {first, last}, found);
-      first = last;
-    }
-  }
+  prints.for_equal([](const Print& a, const Print& b) { return a.hash < b.hash; },
+                   [&](std::span<const Print> same_hash) {
+                     if (same_hash.size() > 1) collect_equal_sets(mesh, same_hash, found);
+                   });
   std::sort(found.begin(), found.end(),
             [](const SameVertices& a, const SameVertices& b) { return a.face < b.face; });
   return found;

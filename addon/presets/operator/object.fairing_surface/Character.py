@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Characters, animals, soft things: through the points where Subdivision Surface passes, fairer in
-# between; sharp only where an edge is creased. A lower spacing than else keeps walls straighter.
+# between; sharp only where an edge is creased. Lower spacing and pads than else keep walls straighter.
 import bpy
 
 op = bpy.context.active_operator
@@ -12,7 +12,7 @@ op.limit = 1.0
 op.tolerance = 0.01
 op.relative_tolerance = 0.02
 op.tolerance_unit = "RELATIVE"
-op.pad_size = 1.0
+op.pad_size = 0.7
 op.tension = 0.0
 op.boundary = "CORNERS"
 op.mesh_source = "ORIGINAL"

@@ -6,7 +6,7 @@ import bpy
 op = bpy.context.active_operator
 
 op.levels = 3
-op.energy = "TOTAL_CURVATURE"
+op.energy = "THIN_PLATE"
 op.interpolation = "APPROXIMATE"
 op.limit = 1.0
 op.tolerance = 0.0

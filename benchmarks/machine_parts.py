@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Machine parts that are known: how far off are surfaces over their coarse cages? Sharp at folds from 30°
+on, for ours and for Subdivision Surface alike.
+"""
+
+import math
+from typing import Any
+
+import discrete_fairing as df
+import from_tests
+import numpy as np
+import rivals
+import table
+
+LEVELS = 3
+FOLD, CORNER = math.radians(30), math.radians(45)  # as Fair for > Mechanical has them
+ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
+
+
+def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int, int]]:
+    """Edges whose faces turn by more."""
+    normal: dict[tuple[int, int], np.ndarray] = {}
+    for face in faces:
+        a, b, c = vertices[list(face[:3])]
+        across = np.cross(b - a, c - a)
+        for k, v in enumerate(face):
+            normal[v, face[(k + 1) % len(face)]] = across / np.linalg.norm(across)
+    return [
+        (a, b)
+        for (a, b), own in normal.items()
+        if a < b and (b, a) in normal and own @ normal[b, a] < math.cos(FOLD)
+    ]
+
+
+def surface(vertices: np.ndarray, faces: list[tuple[int, ...]], tool: str) -> np.ndarray:
+    """Its points."""
+    if tool == "Subdivision Surface":
+        polygons = [list(face) for face in faces]
+        return rivals.catmull_clark(vertices, polygons, LEVELS, folds(vertices, faces))[0]
+    ours = df.fair(vertices, faces, LEVELS, energy=tool, crease_angle=FOLD, corner_angle=CORNER)
+    return ours.vertices
+
+
+def run() -> dict[str, Any]:
+    """All parts: distances in thousandths of the largest extent."""
+    result: dict[str, Any] = {}
+    rows = []
+    for name, make in from_tests.machine_parts().PARTS.items():
+        vertices, faces, off = make()
+        for tool in ("Subdivision Surface", *ENERGIES):
+            away = 1e3 * off(surface(vertices, faces, tool)) / np.ptp(vertices, axis=0).max()
+            found = {"rms": float(np.sqrt((away**2).mean())), "largest": float(away.max())}
+            result.setdefault(name, {})[tool] = found
+            rows.append([name, tool, *found.values()])
+    table.show("Machine parts: off, ‰ of the size", ["part", "surface", "rms", "largest"], rows)
+    return result

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A counting sort, in linear time.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "base/types.h"
+#include "parallel/cancel.h"
+#include "parallel/memory.h"
+
+namespace fairing {
+
+// Items by key, those of one key in the order in which they came.
+template <class Item>
+class Buckets {
+ public:
+  // Item i is item_of(i), and has the key key_of(i) < keys. Throws where the run has been cancelled.
+  template <class KeyOf, class ItemOf>
+  Buckets(std::size_t keys, std::size_t count, const KeyOf& key_of, const ItemOf& item_of)
+      : begin_(keys + 1, 0), items_(count, Item{}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      stop_if_cancelled(i);
+      ++begin_[std::size_t(key_of(i)) + 1];
+    }
+    for (std::size_t k = 1; k <= keys; ++k) begin_[k] += begin_[k - 1];
+    Array<Index> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      stop_if_cancelled(i);
+      items_[std::size_t(next[std::size_t(key_of(i))]++)] = item_of(i);
+    }
+  }
+
+  std::size_t keys() const { return begin_.size() - 1; }
+  std::span<Item> of(std::size_t key) {
+    return {items_.data() + begin_[key], items_.data() + begin_[key + 1]};
+  }
+
+  // visit(items) for all that come one after another by `less`, equal ones together, a key at a time.
+  template <class Less, class Visit>
+  void for_equal(const Less& less, const Visit& visit) {
+    for (std::size_t k = 0; k < keys(); ++k) {
+      stop_if_cancelled(k);
+      const std::span<Item> all = of(k);
+      std::sort(all.begin(), all.end(), less);
+      for (auto first = all.begin(); first != all.end();) {
+        const auto last =
+            std::find_if(first, all.end(), [&](const Item& item) { return less(*first, item); });
+        visit(std::span<Item>(first, last));
+        first = last;
+      }
+    }
+  }
+
+ private:
+  Array<Index> begin_;
+  Array<Item> items_;
+};
+
+}  // namespace fairing

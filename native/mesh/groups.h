@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers that become one, such as vertices of one part.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "base/types.h"
+#include "parallel/memory.h"
+
+namespace fairing {
+
+// Groups of 0 … count - 1, each led by its least member.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : lead_(count) {
+    std::iota(lead_.begin(), lead_.end(), Index(0));
+  }
+
+  Index lead(Index i) {
+    for (;;) {
+      Index& above = lead_[std::size_t(i)];
+      if (above == i) return i;
+      i = above = lead_[std::size_t(above)];  // so that ways stay short
+    }
+  }
+  // Whether they were two groups before.
+  bool unite(Index i, Index j) {
+    const Index a = lead(i), b = lead(j);
+    lead_[std::size_t(std::max(a, b))] = std::min(a, b);
+    return a != b;
+  }
+
+ private:
+  Array<Index> lead_;
+};
+
+}  // namespace fairing

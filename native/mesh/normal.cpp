@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/normal.h"
+
+#include <Eigen/Geometry>
+
+namespace fairing {
+
+Vec3 control_normal(const ControlMesh& mesh, Index v) {
+  Vec3 normal = Vec3::Zero();
+  for (const Spoke& spoke : mesh.ring(v)) {
+    if (spoke.face < 0) continue;
+    const Face& face = mesh.faces[std::size_t(spoke.face)];
+    const auto edge_to = [&](int corner) -> Vec3 {
+      const Index w = face.vertex[std::size_t((corner + face.size) % face.size)];
+      return mesh.positions[std::size_t(w)] - mesh.positions[std::size_t(v)];
+    };
+    normal += edge_to(spoke.corner + 1).cross(edge_to(spoke.corner - 1));
+  }
+  return normal;
+}
+
+}  // namespace fairing

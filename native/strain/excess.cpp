@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "strain/excess.h"
+
+#include <cmath>
+#include <map>
+#include <queue>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+using Way = Eigen::RowVector3d;
+
+class LettingGo {
+ public:
+  LettingGo(const Straining& of, const Columns& loads, double floor)
+      : of_(of), columns_(of.matrix.transpose()), left_(loads), floor_(floor) {
+    const Eigen::VectorXd own = of.matrix.diagonal();
+    const Eigen::VectorXd inverse =
+        own.unaryExpr([](double load) { return load > 0 ? 1 / load : 0.0; });
+    columns_ = columns_ * inverse.asDiagonal();
+    left_ = -(inverse.asDiagonal() * loads);
+    gone_.assign(std::size_t(loads.rows()), 0);
+    for (Index j = 0; j < Index(loads.rows()); ++j) {
+      double stiffness = 1;
+      for (const Index image : images_of(j))
+        if (image != j) stiffness += cosine_of(j, image) * columns_.coeff(image, j);
+      with_images_.push_back(1 / stiffness);
+    }
+  }
+
+  Columns run() {
+    Columns out = Columns::Zero(left_.rows(), 3);
+    for (Index j = 0; j < Index(left_.rows()); ++j) offer(j);
+    while (!longest_.empty()) {
+      stop_if_cancelled();
+      const auto [length, first] = longest_.top();
+      longest_.pop();
+      if (!is_free(first) || length != length_of(first)) continue;
+      const Index j = culprit(first);
+      for (const Index row : images_of(j)) {
+        out.row(row) = way(row);
+        gone_[std::size_t(row)] = 1;
+      }
+      for (const auto& [row, change] : changes(j)) {
+        left_.row(row) += change;
+        offer(row);
+      }
+      offer(first);
+    }
+    for (Index j = 0; j < Index(left_.rows()); ++j)
+      if (is_free(j)) out.row(j) = way(j);
+    return out;
+  }
+
+ private:
+  const std::vector<Index>& images_of(Index j) const { return of_.images[std::size_t(j)]; }
+  bool is_free(Index j) const { return !gone_[std::size_t(j)]; }
+  double cosine_of(Index j, Index image) const {
+    const Way normal = of_.normals.row(j);
+    return normal.isZero(0) ? 1.0 : normal.dot(of_.normals.row(image));
+  }
+  // Of a row that is let go with its images.
+  Way way(Index j) const { return with_images_[std::size_t(j)] * left_.row(j); }
+  double length_of(Index j) const { return way_length(way(j), of_.normals.row(j)); }
+  void offer(Index j) {
+    if (!is_free(j)) return;
+    if (const double length = length_of(j); length > floor_) longest_.emplace(length, j);
+  }
+
+  // What letting go of a row and its images does to all ways.
+  std::map<Index, Way> changes(Index j) const {
+    std::map<Index, Way> out;
+    for (const Index from : images_of(j))
+      for (LoadMatrix::InnerIterator entry(columns_, from); entry; ++entry)
+        out.try_emplace(Index(entry.col()), Way::Zero()).first->second -= entry.value() * way(from);
+    return out;
+  }
+
+  // A row between others that are images of each other strains by all of them, more than they do. Of
+  // it and such others, what leaves the least.
+  Index culprit(Index longest) const {
+    Index best = longest;
+    double least = left_without(longest);
+    for (LoadMatrix::InnerIterator entry(columns_, longest); entry; ++entry) {
+      const auto j = Index(entry.col());
+      if (images_of(j).size() <= images_of(longest).size()) continue;
+      if (!is_free(j) || !(length_of(j) > floor_)) continue;
+      if (const double left = left_without(j); left < least) least = left, best = j;
+    }
+    return best;
+  }
+
+  // All lengths together, more than now.
+  double left_without(Index j) const {
+    double left = 0;
+    for (const auto& [row, change] : changes(j)) {
+      const Way normal = of_.normals.row(row), before = left_.row(row);
+      left += way_length(before + change, normal) - way_length(before, normal);
+    }
+    return left;
+  }
+
+  const Straining& of_;
+  LoadMatrix columns_;  // row j: the ways that a way of j, all of it, takes off
+  Columns left_;
+  const double floor_;
+  std::vector<std::uint8_t> gone_;
+  std::vector<double> with_images_;
+  std::priority_queue<std::pair<double, Index>> longest_;  // as it was when offered
+};
+
+}  // namespace
+
+double way_length(const Way& way, const Way& normal) {
+  return normal.isZero(0) ? way.norm() : std::abs(way.dot(normal));
+}
+
+Columns ways_one_by_one(const Straining& of, const Columns& loads, double floor) {
+  return LettingGo(of, loads, floor).run();
+}
+
+}  // namespace fairing
