@@ -19,9 +19,9 @@ namespace fairing {
 constexpr std::size_t tiny_level = 1200;
 
 struct HierarchyOptions {
-  int smoother_degree = 0;                  // 0: chosen from how the solves go
-  bool always_factor = false;               // the coarsest level is ill-conditioned, however large
-  bool may_block = false;  // whether the smoother may work on blocks (block_jacobi.h)
+  int smoother_degree = 0;     // 0: chosen from how the solves go
+  bool always_factor = false;  // the coarsest level is ill-conditioned, however large
+  bool may_block = false;      // whether the smoother may work on blocks (block_jacobi.h)
   // The operators change from solve to solve: each is judged alone. A level whose factor is cheap
   // is factored sooner than it takes blocks.
   bool operators_change = false;
