@@ -21,6 +21,7 @@ PARTS = {
     "window_check": ("check", VIEWPORT, 945),
     "window_live": ("live", VIEWPORT, 945),
     "window_compare": ("compare", VIEWPORT, 945),
+    "window_job": ("job_mechanical_zebra", VIEWPORT, 945),
     "window_badge": ("badge", "560x720+1040+24", 560),
 }
 

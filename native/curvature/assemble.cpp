@@ -111,7 +111,7 @@ AssembledSystem CurvatureLevel::assemble() const {
   if (varies())
     for (std::size_t k = 0; k < root.size(); ++k) {
       const RowRun<const float> run = connection_->rows().of(vertex_run(large.centre[k]));
-      root[k] = std::sqrt(double(run.at(0, 0, 0)) + shared_.total_curvature_share);
+      root[k] = std::sqrt(double(run.at(0, 0, 0)) + share_);
     }
   visit_rows(rows_, [&](Index p, const RowRun<const float>& run, std::size_t i,
                         const std::vector<Index>& at) {
@@ -132,8 +132,7 @@ AssembledSystem CurvatureLevel::assemble() const {
   entries = {};
   const MatrixBytes held(jacobian);
   if (varies()) {
-    const SparseMatrix connection =
-        connection_matrix(connection_->rows(), shared_.total_curvature_share);
+    const SparseMatrix connection = connection_matrix(connection_->rows(), share_);
     const MatrixBytes connection_held(connection);
     const auto take_turned = [&](Index c, Index row, double entry) {
       const Index k = large.find(row / 3);

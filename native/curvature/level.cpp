@@ -16,7 +16,7 @@ constexpr std::size_t bytes_of_square = 460, most_bytes_of_square = std::size_t(
 }  // namespace
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
-    : shared_(shared), grid_(grid), rows_(grid), suits_square_(NormalMatrix::suits(rows_)) {}
+    : shared_(shared), grid_(grid), rows_(grid), square_{NormalMatrix::suits(rows_)} {}
 
 void CurvatureLevel::apply_rows(const double* x, double* y) {
   apply_square(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, x, y);
@@ -24,7 +24,7 @@ void CurvatureLevel::apply_rows(const double* x, double* y) {
 }
 
 void CurvatureLevel::apply_rows(const float* x, float* y) {
-  if (!suits_square_) {
+  if (!square_.suits) {
     apply_square(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, x, y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
     return;
@@ -34,13 +34,14 @@ void CurvatureLevel::apply_rows(const float* x, float* y) {
 
 // As it is now.
 NormalMatrix& CurvatureLevel::square() const {
-  if (!square_is_old_) return *square_;
-  if (square_vertices_ != shared_.unknowns.vertex) square_.reset();  // some were held, or let go
-  if (!square_) square_ = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
-  square_vertices_ = shared_.unknowns.vertex;
-  square_->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
-  square_is_old_ = false;
-  return *square_;
+  auto& matrix = square_.matrix;
+  if (!square_.is_old) return *matrix;
+  if (square_.vertices != shared_.unknowns.vertex) matrix.reset();  // some were held, or let go
+  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
+  square_.vertices = shared_.unknowns.vertex;
+  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
+  square_.is_old = false;
+  return *matrix;
 }
 
 template <class T>
@@ -56,8 +57,7 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
         for (std::size_t c = 0; c < 3; ++c)
           moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
     });
-    connection_->apply(shared_.total_curvature_share, shared_.workers, moment.data(),
-                       turned.data());
+    connection_->apply(share_, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
   } else {
@@ -100,9 +100,9 @@ void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<f
 SymmetricRows CurvatureLevel::rows() const {
   const std::size_t bytes = bytes_of_square * grid_.size();
   if (varies() || !NormalMatrix::is_linear(rows_) || bytes > most_bytes_of_square ||
-      !MemoryLedger::fits(square_ ? 0 : bytes))
+      !MemoryLedger::fits(square_.matrix ? 0 : bytes))
     return {};
-  if (!square_) announce_memory(bytes);
+  if (!square_.matrix) announce_memory(bytes);
   SymmetricRows out = square().rows(shared_.workers);
   for (std::size_t v = 0; v < shared_.weights.size(); ++v) out.add_to_diagonal(v, float(weight(v)));
   for (std::size_t p = 0; p < damping_.size(); ++p) out.add_to_diagonal(p, damping_[p]);
@@ -130,6 +130,11 @@ void CurvatureLevel::invert_diagonal(std::size_t i) {
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
 }
 
+void CurvatureLevel::take_share(double share) {
+  share_ = share;
+  update_diagonal();
+}
+
 // For the variation that of J^T diag(L + share W) J, which is as good a scale as its own.
 void CurvatureLevel::update_diagonal() {
   const std::size_t points = grid_.size();
@@ -138,7 +143,7 @@ void CurvatureLevel::update_diagonal() {
     weight.resize(points);
     visit_rows(connection_->rows(),
                [&](Index p, const RowRun<const float>& run, std::size_t i, const auto&) {
-                 weight[std::size_t(p)] = run.at(0, 0, i) + float(shared_.total_curvature_share);
+                 weight[std::size_t(p)] = run.at(0, 0, i) + float(share_);
                });
   }
   diagonal_.resize(points);

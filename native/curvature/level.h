@@ -19,6 +19,7 @@
 #include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
 #include "curvature/ring_jacobian.h"
+#include "hold/pads.h"
 #include "multigrid/level_operator.h"
 #include "stencil/weights.h"
 
@@ -28,14 +29,9 @@ namespace fairing {
 struct CurvatureShared {
   const ControlMesh& mesh;
   Unknowns unknowns;
-  CurvatureEnergy energy;
   Workers& workers;
   VertexWeights weights{};  // of springs at control vertices along the normals; empty: none
   double tension = 0;       // tension times area is added to the energy
-  double total_curvature_share = 0;  // minimum variation: of W beside L
-  // The unknowns and the control vertices on pads: total curvature's force is wanted there too.
-  // Null: on the unknowns alone.
-  const Unknowns* pad_rows = nullptr;
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
   std::pair<Array<double>, Array<double>> double_moments{};
@@ -50,23 +46,33 @@ struct CurvatureShared {
   }
 };
 
+// What a surface is linearized for.
+struct Functional {
+  CurvatureEnergy energy = CurvatureEnergy::total_curvature;
+  // Pads that control vertices stand on, where the force is wanted too; null: on the unknowns alone.
+  Pads* pads = nullptr;
+  bool with_axes = false;  // whether the charts' axes are wanted
+
+  bool operator==(const Functional&) const = default;
+};
+
 // What linearizing about a surface gives beside K. Numbers are zero where a point carries no fit.
 struct Linearization {
   // Minus half the energy's gradient along the normals, on the unknowns and on the control vertices
   // on pads: K h = force is the step where there are none.
   Array<double> force;
-  Array<double> normal;    // 3 a point, of unit length
-  Array<float> shape;      // 4 a point: M's orthonormal components, and the root of its area
-  bool with_axes = false;  // set beforehand: whether `axis` is wanted
-  Array<float> axis;       // 3 a point: the chart's u axis in space
+  Array<double> normal;  // 3 a point, of unit length
+  Array<float> shape;    // 4 a point: M's orthonormal components, and the root of its area
+  Array<float> axis;     // 3 a point: the chart's u axis in space
 };
 
 class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
-  // K about the surface x (3 numbers a point). Returns the energy, tension's part included.
-  double linearize(const double* x, Linearization* out = nullptr);
+  // K about the surface x (3 numbers a point), with no share of total curvature. Returns the energy,
+  // tension's part included.
+  double linearize(const double* x, const Functional& functional, Linearization* out = nullptr);
 
   // The latest energy: what surfaces are compared by. Then without tension's part.
   double fairness() const { return bending_ + tension_; }
@@ -74,9 +80,8 @@ class CurvatureLevel final : public LevelOperator {
 
   int linearizations() const { return linearizations_; }
 
-  // Call after shared.total_curvature_share has changed: nothing else of K depends on it but what
-  // apply() and assemble() look up.
-  void update_diagonal();
+  // K has so much of W beside L from here on: minimum variation only.
+  void take_share(double share);
 
   // M as it would be after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
@@ -106,12 +111,10 @@ class CurvatureLevel final : public LevelOperator {
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
   template <class T>
   void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
+  void update_diagonal();
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
-  const Unknowns& force_rows() const {
-    return shared_.pad_rows && !varies() ? *shared_.pad_rows : shared_.unknowns;
-  }
   template <class T>
   void add_damping(const T* x, T* y) const;
   double weight(std::size_t v) const {
@@ -119,17 +122,23 @@ class CurvatureLevel final : public LevelOperator {
   }
   void invert_diagonal(std::size_t i);
   bool is_tense() const { return area_ && shared_.tension > 0; }
-  bool varies() const { return shared_.energy == CurvatureEnergy::minimum_variation; }
+  bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
 
   CurvatureShared& shared_;
   const GridLevel& grid_;
+  CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
+  double share_ = 0;  // minimum variation: of W beside L
   double bending_ = 0, tension_ = 0;
   int linearizations_ = 0;
-  RingJacobian rows_;                                  // sqrt(w) J
-  mutable std::unique_ptr<NormalMatrix> square_;       // of the rows, once it has been wanted
-  mutable std::vector<std::uint8_t> square_vertices_;  // that were unknowns then
-  mutable bool square_is_old_ = true;
-  bool suits_square_;
+  RingJacobian rows_;  // sqrt(w) J
+  // Of the rows, once it has been wanted.
+  struct Square {
+    bool suits;  // passes over the level
+    bool is_old = true;
+    std::unique_ptr<NormalMatrix> matrix{};
+    std::vector<std::uint8_t> vertices{};  // that were unknowns then
+  };
+  mutable Square square_;
   std::unique_ptr<Connection> connection_;  // minimum variation only
   std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;

@@ -130,9 +130,12 @@ struct CurvatureLevel::Tensors {
   }
 };
 
-double CurvatureLevel::linearize(const double* x, Linearization* out) {
+double CurvatureLevel::linearize(const double* x, const Functional& functional,
+                                 Linearization* out) {
+  energy_ = functional.energy;
+  share_ = 0;
   const ControlMesh& mesh = shared_.mesh;
-  const CurvatureEnergy kind = shared_.energy;
+  const Unknowns& force_rows = functional.pads ? functional.pads->rows() : shared_.unknowns;
   const RegionWeight region_weight(grid_);
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
@@ -143,11 +146,11 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
   Linearization own;
   Linearization& to = out ? *out : own;
   to.force.resize(grid_.size());
-  const bool wants_points = out || varies(), wants_axis = to.with_axes || varies();
+  const bool wants_points = out || varies(), wants_axis = functional.with_axes || varies();
   if (wants_points) {
     to.normal.resize(3 * grid_.size());
     to.shape.resize(4 * grid_.size());
-    if (to.with_axes) to.axis.resize(3 * grid_.size());
+    if (functional.with_axes) to.axis.resize(3 * grid_.size());
   }
   const auto put_point = [&](std::size_t p, const Vec3& normal, const Vec3& shape, double root,
                              const Vec3& axis) {
@@ -155,7 +158,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     for (std::size_t a = 0; a < 3; ++a) {
       to.normal[3 * p + a] = normal[Eigen::Index(a)];
       to.shape[4 * p + a] = float(shape[Eigen::Index(a)]);
-      if (to.with_axes) to.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
+      if (functional.with_axes) to.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
     }
     to.shape[4 * p + 3] = float(root);
     if (varies()) tensors.put(p, shape, axis, root);
@@ -164,7 +167,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     if (!wants_points) return;
     std::fill_n(to.normal.data() + 3 * p, 3 * count, 0.0);
     std::fill_n(to.shape.data() + 4 * p, 4 * count, 0.0f);
-    if (to.with_axes) std::fill_n(to.axis.data() + 3 * p, 3 * count, 0.0f);
+    if (functional.with_axes) std::fill_n(to.axis.data() + 3 * p, 3 * count, 0.0f);
     if (varies()) tensors.clear(p, count);
   };
   if (!mesh.region.whole())  // faces outside are not visited
@@ -173,7 +176,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
         [&](std::size_t begin, std::size_t end) { clear_points(begin, end - begin); });
 
   ++linearizations_;
-  square_is_old_ = true;
+  square_.is_old = true;
   const auto body = [&](const Run& run, double* const* force, Gather& gather) {
     if (!has_fit(mesh, run)) return clear_points(run.first, run.count);
     PointScratch& point = gather.point;
@@ -181,7 +184,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     const RowRun<float> cotangents = varies() ? connection_->weights().of(run) : RowRun<float>{};
     const auto weight = [&](std::size_t i) { return weight_at(region_weight, run, i); };
     const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
-      const double e = point.store(ring, closed, kind, weight(i), rows, i, force);
+      const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
       const Vec3& normal = point.rows.point.normal;
       const Vec3 axis = wants_axis ? chart_axis(normal, ring.view(true).offset, point.rows.chart)
                                    : Vec3(Vec3::Zero());
@@ -203,7 +206,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     double of_run = 0;
     for (std::size_t i = 0; i < run.count; i += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, run.count - i);
-      fairing::linearize(rings, i, kind, wants_axis, point.lanes);
+      fairing::linearize(rings, i, energy_, wants_axis, point.lanes);
       of_run += point.store_lanes(count, weight, rows, i, force);
       for (std::size_t l = 0; l < count; ++l) {
         if (!lanes.done[l]) {
@@ -221,7 +224,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
     energy.of(run) += of_run;
   };
   accumulate_runs(
-      grid_, shared_.workers, shared_.double_slots, &force_rows(), to.force.data(),
+      grid_, shared_.workers, shared_.double_slots, &force_rows, to.force.data(),
       [&] { return Gather{point_scratch(), RingWalk(grid_, x, lift), RingLanes(grid_, x, lift)}; },
       body);
 
@@ -233,7 +236,7 @@ double CurvatureLevel::linearize(const double* x, Linearization* out) {
   if (shared_.tension > 0) {
     if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
     tension_ = area_->linearize(shared_.tension, x, wants_points ? to.normal.data() : nullptr,
-                                force_rows(), shared_.workers, to.force.data());
+                                force_rows, shared_.workers, to.force.data());
   } else {
     tension_ = 0;
   }

@@ -40,12 +40,12 @@ std::vector<double> facing_of_stars(const GridLevel& grid, const Array<double>& 
 
 }  // namespace
 
-void RoughSteps::run(const StepStart& start, CurvatureLevelReport& report) {
+void RoughSteps::run(Pads* pads, const StepStart& start, CurvatureLevelReport& report) {
   // A crumpled surface is hard for blocks too, and what they leave of a solve upsets the loads.
   it_.system.allow_blocks(false);
   run_on_points(start, report);
   if (it_.level < it_.system.finest()) return;
-  if (it_.system.pads()) go_onto_pads(start, report);
+  if (pads) go_onto(*pads, start, report);
   polish(report);
 }
 
@@ -63,21 +63,20 @@ void RoughSteps::polish(CurvatureLevelReport& report) {
 }
 
 void RoughSteps::run_on_points(const StepStart& start, CurvatureLevelReport& report) {
-  const GaussNewtonSystem::OffPads off_pads(it_.system);
-  steps_.run_damped(start, {}, report);
+  steps_.run_damped(nullptr, start, {}, report);
   if (it_.level == it_.system.finest()) unfolding_.run(start, report);
 }
 
 // The surface on pads stands if it is hardly more bent than that on points, no more folded, and as
 // near to a solution; else all vertices stay on points.
-void RoughSteps::go_onto_pads(const StepStart& start, CurvatureLevelReport& report) {
-  leave_turned_pads();
-  if (!it_.system.pads()->any()) return;
+void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelReport& report) {
+  leave_turned(pads);
+  if (!pads.any()) return;
   LinearizedSurface on_points = it_.current;
   const CurvatureLevelReport of_points = report;
   StepStart from{it_.current.points, it_.current.held, start.report};
   from.held.loads.clear();
-  steps_.run_damped(from, {}, report);
+  steps_.run_damped(&pads, from, {}, report);
   report.folds_before = of_points.folds_before;
   report.folds = unfolding_.find().count();
   const bool is_as_near = report.steps.back().length > 0 &&
@@ -85,19 +84,19 @@ void RoughSteps::go_onto_pads(const StepStart& start, CurvatureLevelReport& repo
   if (report.energy <= most_over_points * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
-  for (std::size_t v = 0; v < it_.system.pads()->places().size(); ++v) leave_pad(v);
+  for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);
   it_.current = std::move(on_points);
   report = of_points;
 }
 
-void RoughSteps::leave_turned_pads() {
+void RoughSteps::leave_turned(Pads& pads) {
   const std::vector<double> facing = facing_of_stars(it_.grid(), it_.current.linearization.normal);
   for (std::size_t v = 0; v < facing.size(); ++v)
-    if (facing[v] < least_facing) leave_pad(v);
+    if (facing[v] < least_facing) leave(pads, v);
 }
 
-void RoughSteps::leave_pad(std::size_t v) {
-  it_.system.pads()->leave(v);
+void RoughSteps::leave(Pads& pads, std::size_t v) {
+  pads.leave(v);
   if (!it_.current.held.loads.empty()) it_.current.held.loads[v].setZero();
 }
 

@@ -13,17 +13,18 @@ class RoughSteps {
   RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, TotalCurvatureSteps& steps)
       : it_(iterate), unfolding_(unfolding), steps_(steps) {}
 
-  // From `start` to the least total curvature on point forces, and on the finest level on to pads.
-  // `report` begins anew with it. Throws ErrorCode::cancelled.
-  void run(const StepStart& start, CurvatureLevelReport& report);
+  // From `start` to the least total curvature on point forces, and on the finest level on to those
+  // of `pads`, where there are any, that the surface can stand on; the others go. `report` begins
+  // anew with it. Throws ErrorCode::cancelled.
+  void run(Pads* pads, const StepStart& start, CurvatureLevelReport& report);
 
   // Takes away the pads within which the surface turns too far for them.
-  void leave_turned_pads();
+  void leave_turned(Pads& pads);
 
  private:
   void run_on_points(const StepStart& start, CurvatureLevelReport& report);
-  void go_onto_pads(const StepStart& start, CurvatureLevelReport& report);
-  void leave_pad(std::size_t v);
+  void go_onto(Pads& pads, const StepStart& start, CurvatureLevelReport& report);
+  void leave(Pads& pads, std::size_t v);
   // Plain steps to the end, where these make no folds.
   void polish(CurvatureLevelReport& report);
 

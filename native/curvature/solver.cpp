@@ -36,7 +36,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
                                      Monitor& monitor)
     : options_(options),
       hold_(std::move(hold)),
-      pads_(pads),
+      pads_{pads},
       system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
               monitor),
       iterate_{system_},
@@ -53,68 +53,79 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   report.level = level;
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
-  if (system_.stand_on(pads_)) iterate_.current.held.loads.clear();
-  system_.allow_blocks(is_plain_);
-  choose_start(iterate_, level, plate, plate_below_, report);
+  if (pads_.take()) iterate_.current.held.loads.clear();
+  system_.allow_blocks(below_.is_plain);
+  choose_start(iterate_, level, pads_.now(), plate, below_.plate, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
-  plate_below_.assign(plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size()));
-  solve_total_curvature(start, plate, report);
-  if (is_finest()) remember(report);
+  const bool is_plain = solve_total_curvature(start, plate, report);
+  below_ = {{plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size())}, is_plain};
+  if (is_finest()) {
+    report.folds = unfolding_.find().count();
+    solved_ = {report.converged && is_plain, report.energy, report.folds};
+  }
   leave_out_tension(start, plate, report);
   report.work = system_.work(level) - before;
   return report;
 }
 
-// Plain steps, which on an even mesh settle without a fold; else the mesh is rough, on finer levels
-// too. A surface that they have found stands unless the other one is as near to its solution and
-// folds less.
-void GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
+bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
                                               CurvatureLevelReport& report) {
-  if (is_plain_) steps_.run_plain(end(), long_patience, report);
-  is_plain_ &= is_settled(report);
-  if (is_plain_ && is_finest()) leave_folds(report);
-  if (!is_plain_ || report.folds > 0) {
-    const Found plain = found(report);
-    rough_.run(start, report);
-    is_plain_ &= report.folds >= plain.report.folds || report.converged < plain.report.converged;
-    if (is_plain_) go_back_to(plain, report);
-  }
+  const bool is_plain = step(start, report);
   if (is_finest() && hold_.any()) fix_held(report);
   keep_start_if_worse(start, plate, report);
   if (is_finest() && varies() && !report.kept_start) variation_.run(steps_.accurate_end(), report);
+  return is_plain;
+}
+
+// Plain steps, which on an even mesh settle without a fold; else the mesh is rough, on finer levels
+// too. A surface that they have found stands unless the other one is as near to its solution and
+// folds less.
+bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
+  if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
+  const bool is_plain = below_.is_plain && is_settled(report);
+  if (is_plain && is_finest()) leave_folds(report);
+  if (is_plain && report.folds == 0) return true;
+  const Found plain = found(report);
+  rough_.run(pads_.now(), start, report);
+  if (!is_plain ||
+      (report.folds < plain.report.folds && report.converged >= plain.report.converged))
+    return false;
+  go_back_to(plain, report);
+  return true;
 }
 
 // Where the surface of plain steps folds, pads cannot hold it: without them it may not.
 void GaussNewtonSolver::leave_folds(CurvatureLevelReport& report) {
   report.folds_before = report.folds = unfolding_.find().count();
-  if (report.folds == 0 || !system_.pads()) return;
+  if (report.folds == 0 || !pads_.now()) return;
   const Found folded = found(report);
-  rough_.leave_turned_pads();
-  steps_.run_plain(end(), short_patience, report);
+  rough_.leave_turned(*pads_.now());
+  iterate_.linearize();  // other pads
+  steps_.run_plain(pads_.now(), end(), short_patience, report);
   report.folds = unfolding_.find().count();
   if (!is_settled(report) || report.folds >= folded.report.folds) go_back_to(folded, report);
 }
 
+bool GaussNewtonSolver::OwnPads::take() {
+  if (!given || (own && places == given->places())) return false;
+  own = *given;
+  places = given->places();
+  return true;
+}
+
 GaussNewtonSolver::Found GaussNewtonSolver::found(const CurvatureLevelReport& report) {
-  return {iterate_.current, report,
-          system_.pads() ? std::optional<Pads>(*system_.pads()) : std::nullopt};
+  return {iterate_.current, report, pads_.own};
 }
 
 void GaussNewtonSolver::go_back_to(const Found& found, CurvatureLevelReport& report) {
   iterate_.current = found.surface;
   report = found.report;
-  if (found.pads) *system_.pads() = *found.pads;
+  pads_.own = found.pads;
 }
 
 StepEnd GaussNewtonSolver::end() {
   if (is_finest()) return steps_.accurate_end();
-  return {system_.pads() ? start_decrement : plain_decrement, 0};
-}
-
-void GaussNewtonSolver::remember(CurvatureLevelReport& report) {
-  solved_folds_ = report.folds = unfolding_.find().count();
-  solved_energy_ = report.energy;
-  is_sound_ = report.converged;
+  return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
 void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
@@ -170,7 +181,7 @@ bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& p
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
-  return (system_.pads() ? most_over_plate : 1.0) * report.plate_energy;
+  return (pads_.now() ? most_over_plate : 1.0) * report.plate_energy;
 }
 
 bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
@@ -179,7 +190,7 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 }
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
-bool GaussNewtonSolver::can_move() const { return is_sound_ && is_plain_ && !hold_.any(); }
+bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !hold_.any(); }
 
 void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
   for_each_index(iterate_.workers(), surface().size(),
@@ -194,26 +205,26 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
                  [&](std::size_t i) { surface()[i] += plate[i]; });
   system_.symmetrizer().points(iterate_.grid(), surface());
   iterate_.linearize();
-  iterate_.is_linearized = true;
   report.level = iterate_.level;
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
   report.start_energy = report.energy = iterate_.op().fairness();
-  if (!(report.start_energy <= unlike_energy * solved_energy_ + flat_energy)) return false;
+  if (!(report.start_energy <= unlike_energy * solved_.energy + flat_energy)) return false;
   iterate_.is_near_earlier =
-      std::abs(report.start_energy - solved_energy_) <= nearby * solved_energy_;
+      std::abs(report.start_energy - solved_.energy) <= nearby * solved_.energy;
   report.converged = true;
   const double start_tension = tension_of(surface());
   if (varies())
     variation_.run(steps_.accurate_end(), report);
   else
-    steps_.run_plain(steps_.accurate_end(), short_patience, report);
+    steps_.run_plain(pads_.now(), steps_.accurate_end(), short_patience, report);
   report.folds_before = report.folds = unfolding_.find().count();
-  is_sound_ = report.converged && report.folds <= solved_folds_ &&
-              (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);
-  solved_energy_ = report.energy;
+  solved_.is_sound =
+      report.converged && report.folds <= solved_.folds &&
+      (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);
+  solved_.energy = report.energy;
   report.start_energy -= start_tension;
   report.energy -= tension_of(surface());
-  return is_sound_;
+  return solved_.is_sound;
 }
 
 }  // namespace fairing

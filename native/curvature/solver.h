@@ -36,17 +36,38 @@ class GaussNewtonSolver {
   bool solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report);
 
   // What control vertices stand on, after the levels so far; null: on none.
-  const Pads* pads() { return system_.pads(); }
+  const Pads* pads() { return pads_.now(); }
 
   // The latest level's surface: 3 numbers a point.
   Array<double>& surface() { return iterate_.current.points; }
 
  private:
+  // What control vertices stand on: a copy of the pads given, some of which go.
+  struct OwnPads {
+    const Pads* given;  // null: on none
+    std::optional<Pads> own{};
+    std::vector<std::uint8_t> places{};  // given when it was copied
+
+    Pads* now() { return own ? &*own : nullptr; }
+    // Anew where others are given. Returns whether.
+    bool take();
+  };
   // A surface that the steps can go back to, and what its vertices stand on.
   struct Found {
     LinearizedSurface surface;
     CurvatureLevelReport report;
     std::optional<Pads> pads;
+  };
+  // What a level leaves to the next one.
+  struct Below {
+    Array<double> plate;   // the thin plate's surface
+    bool is_plain = true;  // whether plain steps led to the solution
+  };
+  // The finest level's solution, as far as control vertices may move from it.
+  struct Solved {
+    bool is_sound = false;
+    double energy = 0;
+    std::size_t folds = 0;
   };
   Found found(const CurvatureLevelReport& report);
   void go_back_to(const Found& found, CurvatureLevelReport& report);
@@ -57,10 +78,11 @@ class GaussNewtonSolver {
   // From here on held control vertices stay where they are. The surface follows by a few plain
   // steps, if these settle.
   void fix_held(CurvatureLevelReport& report);
-  void solve_total_curvature(const StepStart& start, const Array<double>& plate,
+  // Returns whether plain steps led to the surface.
+  bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
+  bool step(const StepStart& start, CurvatureLevelReport& report);
   bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
-  void remember(CurvatureLevelReport& report);
   // What the surface of a level may have of total curvature.
   double energy_bound(const CurvatureLevelReport& report);
   // Whether steps of less than the thin plate's energy have come near a solution.
@@ -76,7 +98,7 @@ class GaussNewtonSolver {
 
   GaussNewtonOptions options_;
   HoldAlongNormals hold_;
-  const Pads* pads_;
+  OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
@@ -84,13 +106,8 @@ class GaussNewtonSolver {
   Unfolding unfolding_;
   RoughSteps rough_;
   VariationSteps variation_;
-  bool is_plain_ = true;       // whether plain steps led to the latest level's surface
-  Array<double> plate_below_;  // the thin plate's surface on the level before
-
-  // Of the finest level's latest solution.
-  bool is_sound_ = false;
-  double solved_energy_ = 0;
-  std::size_t solved_folds_ = 0;
+  Below below_;
+  Solved solved_;
 };
 
 }  // namespace fairing

@@ -56,10 +56,10 @@ class Candidates {
 
   void take_if_lower() {
     it_.system.symmetrizer().points(it_.grid(), trial());
-    it_.trial.energy = it_.op().linearize(trial().data(), &it_.trial.linearization);
+    it_.trial.functional = it_.current.functional;
+    it_.system.linearize(it_.level, it_.trial);
     const double fairness = it_.op().fairness();
-    it_.is_linearized = fairness < real_gain * report_.start_energy;
-    if (!it_.is_linearized) return;
+    if (!(fairness < real_gain * report_.start_energy)) return;
     report_.start_energy = fairness;
     std::swap(it_.current, it_.trial);
   }
@@ -80,12 +80,11 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
   iterate.system.symmetrizer().points(iterate.grid(), x);
 }
 
-void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, CurvatureLevelReport& report) {
   const LinearizedSurface below = std::exchange(iterate.current, {});
   start_at_plate(iterate, level, plate);
-  iterate.linearize();
-  iterate.is_linearized = true;
+  iterate.linearize({CurvatureEnergy::total_curvature, pads});
   report.plate_energy = report.start_energy = iterate.op().fairness();
   // Among flat surfaces rounding would choose.
   if (below.points.empty() || report.start_energy < flat_energy) return;

@@ -9,9 +9,10 @@ namespace fairing {
 // iterate <- the thin plate's surface of a level, symmetrized. Not linearized.
 void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate);
 
-// Takes the iterate from the level below, whose solution it holds, to `level`. `plate` and
-// `plate_below` are the thin plate's surfaces of both levels; on the coarsest level iterate.current
-// and plate_below are empty. Candidates, of which each has to have less energy than those before:
+// Takes the iterate from the level below, whose solution it holds, to `level` and on to these pads.
+// `plate` and `plate_below` are the thin plate's surfaces of both levels; on the coarsest level
+// iterate.current and plate_below are empty. Candidates, of which each has to have less energy than
+// those before:
 //
 //   1. the thin plate's surface;
 //   2. the same plus the prolongated change (solution minus plate) of the level below;
@@ -23,7 +24,7 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 //      times that of the level below).
 //
 // Sets plate_energy and start_energy of `report`.
-void choose_start(SurfaceIterate& iterate, int level, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, CurvatureLevelReport& report);
 
 }  // namespace fairing

@@ -117,8 +117,8 @@ class TotalCurvatureMethod final : public StepMethod {
  public:
   // `damping` is null for plain steps. `patience`: steps in which plain_decrement has to be reached;
   // 0: any number.
-  TotalCurvatureMethod(SurfaceIterate& iterate, LocalDamping* damping, const StepEnd& end,
-                       int patience)
+  TotalCurvatureMethod(SurfaceIterate& iterate, Pads* pads, LocalDamping* damping,
+                       const StepEnd& end, int patience)
       : it_(iterate),
         damping_(damping),
         end_(end),
@@ -126,8 +126,7 @@ class TotalCurvatureMethod final : public StepMethod {
         anderson_({&iterate}, accelerated_steps) {
     it_.trial.points.resize(3 * it_.grid().size());
     // local damping compares tensors in space
-    it_.current.linearization.with_axes = it_.trial.linearization.with_axes = damping != nullptr;
-    if (!std::exchange(it_.is_linearized, false)) it_.linearize();
+    it_.begin({CurvatureEnergy::total_curvature, pads, damping != nullptr});
   }
 
   bool begin(CurvatureLevelReport& report) override {
@@ -141,9 +140,8 @@ class TotalCurvatureMethod final : public StepMethod {
   void find_step(StepReport& step) override {
     held_ = it_.current.held;
     const bool fresh = damping_ || it_.needs_coarse_levels(remainder_.last_decrement());
-    if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
+    if (fresh) it_.system.linearize_below(it_.level, it_.current);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
-    if (damping_) it_.system.renew(it_.level);
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
     const double share = gain / it_.current.energy;
@@ -191,7 +189,7 @@ class TotalCurvatureMethod final : public StepMethod {
 
   bool reject() override {
     anderson_.forget();
-    it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
+    it_.linearize();
     remainder_.forget();
     return damping_ != nullptr;
   }
@@ -250,28 +248,28 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
   return last.length > 0 && last.movement <= farthest && last.decrement <= decrement;
 }
 
-void TotalCurvatureSteps::run(LocalDamping* damping, const StepEnd& end, int patience,
+void TotalCurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
                               CurvatureLevelReport& report) {
-  TotalCurvatureMethod method(iterate_, damping, end, patience);
+  TotalCurvatureMethod method(iterate_, pads, damping, end, patience);
   run_steps(method, options_.max_steps, report);
   report.energy = iterate_.op().fairness();
 }
 
-void TotalCurvatureSteps::run_plain(const StepEnd& end, int patience,
+void TotalCurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
                                     CurvatureLevelReport& report) {
-  run(nullptr, end, patience, report);
+  run(pads, nullptr, end, patience, report);
 }
 
-void TotalCurvatureSteps::run_damped(const StepStart& start, const Array<float>& filled,
+void TotalCurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
                                      CurvatureLevelReport& report) {
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
-  iterate_.is_linearized = false;
+  iterate_.current.number = 0;
   report = start.report;
   report.damped = true;
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
   if (!filled.empty()) damping.hold(filled, filled_damping);
-  run(&damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
+  run(pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
 template <class Steps>
@@ -288,8 +286,10 @@ void TotalCurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
 }
 
 void TotalCurvatureSteps::polish(int patience, double energy, CurvatureLevelReport& report) {
-  try_on([&](CurvatureLevelReport& polished) { run_plain(accurate_end(), patience, polished); },
-         plain_decrement, energy, report);
+  Pads* const pads = iterate_.current.functional.pads;
+  try_on(
+      [&](CurvatureLevelReport& polished) { run_plain(pads, accurate_end(), patience, polished); },
+      plain_decrement, energy, report);
 }
 
 }  // namespace fairing

@@ -105,23 +105,25 @@ class TotalCurvatureSteps {
   TotalCurvatureSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
       : iterate_(iterate), options_(options) {}
 
-  // From iterate.current to the surface that the steps end at. `report` has the steps added, and
-  // energy, `left` and `converged` set, the latter for the end that was asked for. Throws
-  // ErrorCode::cancelled.
-  void run_plain(const StepEnd& end, int patience, CurvatureLevelReport& report);
+  // From iterate.current to the surface that the steps end at, its control vertices on these pads;
+  // null: on point forces. `report` has the steps added, and energy, `left` and `converged` set, the
+  // latter for the end that was asked for. Throws ErrorCode::cancelled.
+  void run_plain(Pads* pads, const StepEnd& end, int patience, CurvatureLevelReport& report);
   // From `start` to damped_decrement, or as far as steps gain something worth it. `report` begins
   // anew. Points that are `filled` (above zero; empty: none) are damped throughout.
-  void run_damped(const StepStart& start, const Array<float>& filled, CurvatureLevelReport& report);
+  void run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
+                  CurvatureLevelReport& report);
 
-  // Plain steps to the step tolerance. Unless they come near it, with hardly more energy than
-  // `energy`, surface and report are as before.
+  // Plain steps to the step tolerance, on what the surface stands on. Unless they come near it, with
+  // hardly more energy than `energy`, surface and report are as before.
   void polish(int patience, double energy, CurvatureLevelReport& report);
 
   // Where the surface is as near to the solution as was promised.
   StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
 
  private:
-  void run(LocalDamping* damping, const StepEnd& end, int patience, CurvatureLevelReport& report);
+  void run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
+           CurvatureLevelReport& report);
   // Takes back what `steps` have done unless they come to that decrement, with hardly more energy.
   template <class Steps>
   void try_on(Steps&& steps, double decrement, double energy, CurvatureLevelReport& report);

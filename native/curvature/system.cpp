@@ -55,7 +55,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
       max_iterations_(options.max_iterations),
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
-      shared_{mesh, unknowns, CurvatureEnergy::total_curvature, workers},
+      shared_{mesh, unknowns, workers},
       hierarchy_(workers, hierarchy_options(unknowns, options)),
       symmetrizer_(std::move(mirrors), shared_.unknowns, workers) {
   shared_.tension = options.tension;
@@ -74,15 +74,21 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;
 
-void GaussNewtonSystem::linearize_below(int level, const Array<double>& x) {
-  const Array<double>* fine = &x;
+void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
+  surface.energy =
+      op(level).linearize(surface.points.data(), surface.functional, &surface.linearization);
+  surface.number = op(level).linearizations();
+}
+
+void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& about) {
+  const Array<double>* fine = &about.points;
   Array<double> buffer[2];
   for (int l = level - 1; l >= base_; --l) {
     monitor_.check_cancelled();
     Array<double>& coarse = buffer[l % 2];
     coarse.resize(3 * grid(l).size());
     inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
-    op(l).linearize(coarse.data());
+    op(l).linearize(coarse.data(), {about.functional.energy});
     fine = &coarse;
   }
 }
@@ -99,13 +105,14 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
   }
 }
 
-PcgLimits GaussNewtonSystem::limits() const {
+PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
   PcgLimits limits;
-  const bool loads_change = is_on_pads() && !hold_;
-  const bool varies = shared_.energy == CurvatureEnergy::minimum_variation;
+  const bool loads_change = functional.pads && !hold_;
+  const bool varies = functional.energy == CurvatureEnergy::minimum_variation;
   limits.tolerance = loads_change || varies ? inner_accuracy_on_pads : inner_accuracy;
   limits.from_start = true;
   limits.by_error = loads_change;
+  limits.may_end_early = varies;
   limits.max_iterations = varies ? std::min(max_iterations_, most_of_variation) : max_iterations_;
   return limits;
 }
@@ -113,18 +120,19 @@ PcgLimits GaussNewtonSystem::limits() const {
 double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool fresh,
                                 Array<double>& h, Multipliers<1>& held, StepReport& report) {
   const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
+  const Functional& functional = about.functional;
   h.assign(points, 0.0);
   if (hold_) {
     look_along(about, held);
     take_weights(level);
   }
-  if (is_on_pads() && !hold_)
-    hierarchy_.refresh_lazily(index, fresh);
-  else if (fresh || hold_)
+  if (hold_)
     hierarchy_.refresh(index, fresh);
+  else
+    hierarchy_.refresh_lazily(index, fresh);
   LevelSolve solved;
   Array<double> with_loads;
-  const bool is_held = is_on_pads() || hold_;
+  const bool is_held = functional.pads || hold_;
   const Array<double>& force = is_held ? with_loads : about.linearization.force;
   if (is_held) {
     solved = solve_held(level, about, h, held, with_loads, report);
@@ -134,7 +142,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
       op(level).apply(x, r);
       for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
     };
-    solved = hierarchy_.solve(index, limits(), {residual, h.data(), left.data()},
+    solved = hierarchy_.solve(index, limits(functional), {residual, h.data(), left.data()},
                               [](const PcgResult&) {});
     report.iterations = solved.iterations;
   }
@@ -170,12 +178,18 @@ constexpr double nearly_there = 0.1;
 
 }  // namespace
 
+void SurfaceIterate::begin(const Functional& functional) {
+  if (current.number != op().linearizations() || !(current.functional == functional))
+    linearize(functional);
+}
+
 double SurfaceIterate::try_step(double length) {
   for_each_index(workers(), current.points.size(), [&](std::size_t i) {
     trial.points[i] = current.points[i] + length * step[i / 3] * current.linearization.normal[i];
   });
   system.symmetrizer().points(grid(), trial.points);
-  trial.energy = op().linearize(trial.points.data(), &trial.linearization);
+  trial.functional = current.functional;
+  system.linearize(level, trial);
   return trial.energy;
 }
 

@@ -47,9 +47,11 @@ class Symmetrizer {
 };
 
 struct LinearizedSurface {
-  Array<double> points;         // 3 numbers a point, in working coordinates
-  Linearization linearization;  // of the energy about `points`
+  Array<double> points;  // 3 numbers a point, in working coordinates
+  Functional functional;
+  Linearization linearization;  // of the functional about `points`
   double energy = 0;
+  int number = 0;       // which of its level's linearizations it is: K is about the latest
   Multipliers<1> held;  // what holds its control vertices; empty: not known
 };
 
@@ -77,31 +79,20 @@ class GaussNewtonSystem {
   // Whether the smoother may work on blocks from here on (Hierarchy).
   void allow_blocks(bool allowed) { hierarchy_.allow_blocks(allowed); }
 
-  // Whether a solve may leave what it does not find soon to the next step (Hierarchy).
-  void bound_effort(bool bounded) { hierarchy_.bound_effort(bounded); }
-
-  // The systems of the levels below `level` about x, a surface of that level, injected.
-  void linearize_below(int level, const Array<double>& x);
+  // The surface's linearization about its points, and with it K of `level`.
+  void linearize(int level, LinearizedSurface& surface);
+  // The systems of the levels below `level` about a surface of that level, injected.
+  void linearize_below(int level, const LinearizedSurface& about);
 
   // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
   void set_damping(int level, const Array<float>& mu);
 
-  // Control vertices stand on a copy of these pads from here on, while total curvature is
-  // minimized; null: they are held by point forces. Returns whether the widths are others than
-  // those given before. The surface has to be linearized afterwards.
-  bool stand_on(const Pads* pads);
-  // Null without pads.
-  Pads* pads() { return pads_.get(); }
   // What holds the control vertices that move, along the normals, while total curvature is
   // minimized. It must stay where it is until the next call; null: nothing does.
   void hold_by(HoldAlongNormals* hold);
   // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
   bool is_bound() const { return hold_ && hold_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
-  // While it exists, control vertices are held by point forces all the same. The surface has to be
-  // linearized after its beginning and after its end.
-  class OffPads;
-
   // Solves K h = force to a hundredth of the residual; h is symmetrized. Where control vertices
   // stand on pads or are held otherwise, the force has the loads' part beside it (solve_held.cpp):
   // `held` takes corrections, from that of the step before; empty loads start as those that fit
@@ -111,9 +102,6 @@ class GaussNewtonSystem {
   double solve(int level, const LinearizedSurface& about, bool fresh, Array<double>& h,
                Multipliers<1>& held, StepReport& report);
 
-  // What is kept from step to step is made anew: damping is another in each.
-  void renew(int level) { hierarchy_.refresh(std::size_t(level - base_), true); }
-
   // All that `level` has taken so far.
   StepWork work(int level) const;
 
@@ -121,8 +109,7 @@ class GaussNewtonSystem {
   void report_progress(int level, std::size_t steps);
 
  private:
-  PcgLimits limits() const;
-  bool is_on_pads() const { return pads_ && shared_.energy == CurvatureEnergy::total_curvature; }
+  PcgLimits limits(const Functional& functional) const;
   void look_along(const LinearizedSurface& about, const Multipliers<1>& held);
   void take_weights(int level);
   struct HeldSolve;
@@ -139,27 +126,9 @@ class GaussNewtonSystem {
   std::vector<std::unique_ptr<LevelTransfer>> transfers_;
   Hierarchy hierarchy_;
   Symmetrizer symmetrizer_;
-  std::unique_ptr<Pads> pads_;  // null: control vertices are held by point forces
-  std::vector<std::uint8_t> given_places_;
   StepWork work_;
   HoldAlongNormals* hold_ = nullptr;
   std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
-};
-
-class GaussNewtonSystem::OffPads {
- public:
-  explicit OffPads(GaussNewtonSystem& system) : system_(system), pads_(std::move(system.pads_)) {
-    system_.shared_.pad_rows = nullptr;
-  }
-  ~OffPads() {
-    system_.pads_ = std::move(pads_);
-    if (system_.pads_) system_.shared_.pad_rows = &system_.pads_->rows();
-  }
-  OffPads(const OffPads&) = delete;
-
- private:
-  GaussNewtonSystem& system_;
-  std::unique_ptr<Pads> pads_;
 };
 
 struct SurfaceIterate {
@@ -168,8 +137,6 @@ struct SurfaceIterate {
   LinearizedSurface current{};
   LinearizedSurface trial{};
   Array<double> step{};  // from `current` to the trials: along the normals, 1 number a point
-  // The level's K, and `current` as a whole, are about current.points.
-  bool is_linearized = false;
   // The next step begins so near an earlier surface of this level that coarse levels, which only
   // precondition, may stay as they are.
   bool is_near_earlier = false;
@@ -179,9 +146,13 @@ struct SurfaceIterate {
   Workers& workers() { return system.workers(); }
 
   // `current` about its points, and K.
-  void linearize() {
-    current.energy = op().linearize(current.points.data(), &current.linearization);
+  void linearize() { system.linearize(level, current); }
+  void linearize(const Functional& functional) {
+    current.functional = functional;
+    linearize();
   }
+  // The same, unless both are already.
+  void begin(const Functional& functional);
 
   // trial <- current + length step, symmetrized, and K about it. Returns its energy.
   double try_step(double length);

@@ -188,7 +188,7 @@ void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
                             CurvatureLevelReport& report) {
   StepStart filled = start;
   refill(marks, filled.points);
-  steps_.run_damped(filled, marks, report);
+  steps_.run_damped(nullptr, filled, marks, report);
 }
 
 // As the control mesh has the marked points between those around.

@@ -46,24 +46,6 @@ Bending bending_of(const Array<float>& shape, Workers& workers) {
   return out;
 }
 
-// Rows and connection of minimum variation on all levels, for as long as it exists.
-class VariationScope {
- public:
-  explicit VariationScope(GaussNewtonSystem& system) : system_(system) {
-    set(CurvatureEnergy::minimum_variation);
-  }
-  ~VariationScope() { set(CurvatureEnergy::total_curvature); }
-  VariationScope(const VariationScope&) = delete;
-
- private:
-  void set(CurvatureEnergy energy) {
-    system_.shared().energy = energy;
-    system_.shared().total_curvature_share = 0;
-    system_.bound_effort(energy == CurvatureEnergy::minimum_variation);
-  }
-  GaussNewtonSystem& system_;
-};
-
 class VariationStep final : public StepMethod {
  public:
   VariationStep(SurfaceIterate& iterate, const StepEnd& end, double& nu, const Bending& bending)
@@ -73,8 +55,7 @@ class VariationStep final : public StepMethod {
         damping_(iterate.grid(), iterate.system.shared().unknowns, iterate.workers()),
         bending_(bending) {
     it_.trial.points.resize(3 * it_.grid().size());
-    it_.current.linearization.with_axes = it_.trial.linearization.with_axes = true;
-    it_.linearize();
+    it_.linearize({CurvatureEnergy::minimum_variation, nullptr, true});
   }
 
   bool begin(CurvatureLevelReport& report) override {
@@ -85,12 +66,10 @@ class VariationStep final : public StepMethod {
 
   void find_step(StepReport& step) override {
     scale_ = it_.current.energy + flat_share * bending_.square / bending_.area;
-    it_.system.shared().total_curvature_share = nu_ * scale_ / bending_.square;
     const bool fresh = it_.needs_coarse_levels(remainder_.last_decrement());
-    if (fresh) it_.system.linearize_below(it_.level, it_.current.points);
-    // nu has changed on those that have not just been linearized
-    for (int l = fresh ? it_.level : it_.system.base(); l <= it_.level; ++l)
-      it_.system.op(l).update_diagonal();
+    if (fresh) it_.system.linearize_below(it_.level, it_.current);
+    for (int l = it_.system.base(); l <= it_.level; ++l)
+      it_.system.op(l).take_share(nu_ * scale_ / bending_.square);
     it_.system.set_damping(it_.level, damping_.mu());
     step.variation = true;
     step.energy = it_.current.energy;
@@ -136,7 +115,7 @@ class VariationStep final : public StepMethod {
   bool reject() override {
     nu_ = std::max(rejected * nu_, first_nu);
     remainder_.forget();
-    it_.op().linearize(it_.current.points.data(), &it_.current.linearization);
+    it_.linearize();
     return true;
   }
 
@@ -162,15 +141,13 @@ void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
   const Bending bending = bending_of(iterate_.current.linearization.shape, iterate_.workers());
   if (!(bending.square > flat_energy)) return;
   const Array<double> start = iterate_.current.points;
-  {
-    const VariationScope scope(iterate_.system);
-    nu_ = std::min(nu_, first_nu);
-    VariationStep method(iterate_, end, nu_, bending);
-    report.start_variation = iterate_.current.energy;
-    report.converged = report.kept_start = false;
-    run_steps(method, options_.max_steps, report);
-    report.variation = iterate_.current.energy;
-  }
+  const Functional total_curvature = iterate_.current.functional;
+  nu_ = std::min(nu_, first_nu);
+  VariationStep method(iterate_, end, nu_, bending);
+  report.start_variation = iterate_.current.energy;
+  report.converged = report.kept_start = false;
+  run_steps(method, options_.max_steps, report);
+  report.variation = iterate_.current.energy;
   if (!(report.variation <=
         equal_energy * report.start_variation + flat_share * bending.square / bending.area)) {
     iterate_.current.points = start;
@@ -179,7 +156,7 @@ void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
     report.converged = false;
     report.kept_start = true;
   }
-  iterate_.linearize();
+  iterate_.linearize(total_curvature);
   report.energy = iterate_.op().fairness();
 }
 

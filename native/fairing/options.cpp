@@ -85,7 +85,7 @@ void check_paper(const FairOptions& o) {
 
 // By default what cannot be seen is left, as it is by the thin plate.
 double FairOptions::step_tolerance_wanted() const {
-  return step_tolerance > 0 ? step_tolerance : std::clamp(0.03 * relative_residual, 1e-6, 1e-5);
+  return step_tolerance > 0 ? step_tolerance : std::clamp(0.1 * relative_residual, 1e-6, 1e-5);
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {

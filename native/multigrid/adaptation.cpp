@@ -21,11 +21,10 @@ constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which takes the hardest part away.
 constexpr int most_degree_over_factor = 12;
 
-// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 20 to
-// 1e-4, where even meshes take five to ten, and those that begin anew with other loads some more. (With
-// 0.5 a torus of 80 quads took blocks at level 5, and 0.84 s in place of 0.39.) Blocks serve better then, with this degree to begin
+// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 18 to
+// 1e-4, where even meshes take five to ten. Blocks serve better then, with this degree to begin
 // with. Odd degrees gain less than the even ones below them.
-constexpr double slow_gain = 0.45;
+constexpr double slow_gain = 0.5;
 constexpr int degree_of_blocks = 2;
 // With more, blocks cost more than what they are there for.
 constexpr int most_degree_of_blocks = 8;

@@ -70,6 +70,7 @@ void Hierarchy::refactor() {
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                             const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
+  is_bounded_ = limits.may_end_early;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
     solve_direct(solver, limits, system, out);

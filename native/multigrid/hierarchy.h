@@ -63,10 +63,6 @@ class Hierarchy {
   // Whether the smoother may work on blocks from here on; if not, those that are there go.
   void allow_blocks(bool allowed);
 
-  // Whether solves may end before they are done: then levels whose factor is not cheap are not
-  // factored, and the smoother's degree stays low.
-  void bound_effort(bool bounded) { is_bounded_ = bounded; }
-
   // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
   // largest eigenvalues have.
   void refresh(std::size_t top, bool spectrum);
@@ -125,7 +121,7 @@ class Hierarchy {
   HierarchyOptions options_;
   bool adapts_ = true;
   bool blocks_allowed_ = true;
-  bool is_bounded_ = false;
+  bool is_bounded_ = false;  // the present solve may end early
   std::vector<std::size_t> unknowns_;
   std::vector<Convergence> convergence_;  // with the diagonal
   VCycle cycle_;

@@ -27,6 +27,9 @@ struct PcgLimits {
   bool by_error = false;
   // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
   double enough = 0;
+  // Whether the caller can do with what there is at the end: then levels whose factor is not cheap are
+  // not factored, and the smoother's degree stays low.
+  bool may_end_early = false;
   // Whether the smoother may change on the way: not where how it goes says nothing of later solves.
   bool may_adapt = true;
 
@@ -49,8 +52,10 @@ struct PcgResult {
 
 // A level's linear system K x = b, and how far it is solved.
 struct LinearSystem {
-  std::function<void(const double* x, double* r)> residual;  // r <- b - K x, in double
-  double* x;                                                 // is improved in place
+  // r <- b - K x, in double. Solves call it last for the x that they end at, but where the iteration
+  // itself is in double.
+  std::function<void(const double* x, double* r)> residual;
+  double* x;  // is improved in place
   double* r;  // b - K x of x as it is, which is overwritten
 };
 

@@ -151,13 +151,13 @@ TEST(Area, JoinsTheSystemOfEitherEnergy) {
         Workers workers(2);
         const ControlMesh& mesh = all_meshes().at(name);
         const GridLevel grid(mesh, level);
-        CurvatureShared shared{mesh, some_points(mesh, 1), energy, workers};
+        CurvatureShared shared{mesh, some_points(mesh, 1), workers};
         shared.tension = tau;
-        if (energy == CurvatureEnergy::minimum_variation) shared.total_curvature_share = 0.01;
         CurvatureLevel system(shared, grid);
         Array<double> x = Lumpy(grid).x;
         Linearization surface;
-        const double whole = system.linearize(x.data(), &surface);
+        const double whole = system.linearize(x.data(), {energy}, &surface);
+        if (energy == CurvatureEnergy::minimum_variation) system.take_share(0.01);
         EXPECT_NEAR(whole - system.bending(), tau * area_of_cells(grid, x), 1e-9 * whole);
         EXPECT_EQ(whole, system.fairness());
 

@@ -55,13 +55,20 @@ struct System {
   Workers workers{2};
   CurvatureShared shared;
   CurvatureLevel level;
+  Functional functional;
 
   System(const OwnedPolygonMesh& control, int l, CurvatureEnergy energy)
       : mesh(make_control_mesh(control.view(), {})),
         lattice(mesh, l),
-        shared{mesh, all_but_control_vertices(mesh), energy, workers},
-        level(shared, lattice) {
-    shared.total_curvature_share = energy == CurvatureEnergy::minimum_variation ? 0.01 : 0.0;
+        shared{mesh, all_but_control_vertices(mesh), workers},
+        level(shared, lattice),
+        functional{energy} {}
+
+  // With a share of total curvature, unless `pure`.
+  double linearize(const Array<double>& x, Linearization* out = nullptr, bool pure = false) {
+    const double value = level.linearize(x.data(), functional, out);
+    if (functional.energy == CurvatureEnergy::minimum_variation && !pure) level.take_share(0.01);
+    return value;
   }
 };
 
@@ -75,7 +82,7 @@ TEST(CurvatureLevel, PassesAgreeWithTheMatrix) {
       for (int l = 1; l <= 3; ++l) {
         SCOPED_TRACE(name + ", level " + std::to_string(l));
         System s(control, l, energy);
-        s.level.linearize(lumpy(s.lattice, 0.01).data());
+        s.linearize(lumpy(s.lattice, 0.01));
         const AssembledSystem assembled = s.level.assemble();
         const Array<double> h = random_displacement(s.lattice, s.level.diagonal(), 3);
         Array<double> image(h.size());
@@ -99,7 +106,7 @@ TEST(CurvatureLevel, RowsAreTheMatrixWithDamping) {
     for (int l = 2; l <= 4; ++l) {
       SCOPED_TRACE(name + ", level " + std::to_string(l));
       System s(control, l, CurvatureEnergy::total_curvature);
-      s.level.linearize(lumpy(s.lattice, 0.01).data());
+      s.linearize(lumpy(s.lattice, 0.01));
       Array<float> mu(s.lattice.size());
       for (std::size_t i = 0; i < mu.size(); ++i) mu[i] = float(i % 3);
       s.level.set_damping(mu);
@@ -124,14 +131,14 @@ TEST(CurvatureLevel, RowsAreTheMatrixWithDamping) {
 
 TEST(CurvatureLevel, VariationHasNoRows) {
   System s(cube(), 2, CurvatureEnergy::minimum_variation);
-  s.level.linearize(lumpy(s.lattice, 0.01).data());
+  s.linearize(lumpy(s.lattice, 0.01));
   EXPECT_TRUE(s.level.rows().first.empty());
 }
 
 TEST(CurvatureLevel, IsSymmetricAndPositive) {
   for (const CurvatureEnergy energy : both) {
     System s(cube(), 3, energy);
-    s.level.linearize(lumpy(s.lattice, 0.01).data());
+    s.linearize(lumpy(s.lattice, 0.01));
     const Array<double> a = random_displacement(s.lattice, s.level.diagonal(), 1),
                         b = random_displacement(s.lattice, s.level.diagonal(), 2);
     Array<double> ka(a.size()), kb(b.size());
@@ -149,7 +156,6 @@ TEST(CurvatureLevel, IsSymmetricAndPositive) {
 TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
   for (const CurvatureEnergy energy : both) {
     System s(octahedron(), 5, energy);
-    s.shared.total_curvature_share = 0;
     Array<double> x(3 * s.lattice.size());
     refine_linearly(s.lattice, s.mesh.positions, x.data());
     for (std::size_t i = 0; i < x.size(); i += 3) {
@@ -158,7 +164,7 @@ TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
       p = Vec3(p.x(), 1.2 * p.y(), 1.5 * p.z());
     }
     Linearization surface;
-    s.level.linearize(x.data(), &surface);
+    s.linearize(x, &surface, true);
     const auto bump = [&](std::size_t p) {
       const Eigen::Map<const Vec3> at(x.data() + 3 * p);
       return std::exp(-4 * (at - Vec3(0.6, 0.7, 0.9)).squaredNorm());
@@ -166,7 +172,7 @@ TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
     const auto energy_at = [&](double t) {
       Array<double> moved = x;
       for (std::size_t i = 0; i < x.size(); ++i) moved[i] += t * bump(i / 3) * surface.normal[i];
-      return s.level.linearize(moved.data());
+      return s.linearize(moved, nullptr, true);
     };
     double slope = 0;
     for (std::size_t p = 0; p < s.lattice.size(); ++p) slope -= 2 * surface.force[p] * bump(p);
@@ -184,7 +190,7 @@ TEST(CurvatureLevel, SpheresAreCritical) {
       refine_linearly(s.lattice, s.mesh.positions, x.data());
       for (std::size_t i = 0; i < x.size(); i += 3) Eigen::Map<Vec3>(x.data() + i).normalize();
       Linearization surface;
-      s.level.linearize(x.data(), &surface);
+      s.linearize(x, &surface);
       for (std::size_t p = 0; p < s.lattice.size(); ++p)
         EXPECT_NEAR(surface.force[p], 0, 1e-8 * std::sqrt(double(s.level.diagonal()[p]) + 1)) << p;
     }

@@ -11,7 +11,7 @@ import pytest
 from surfaces import size_of
 
 # Steps and inner iterations of the finest level, at the most.
-MOST = {"icosahedron": (3, 30), "torus": (4, 30), "creature": (7, 65)}
+MOST = {"icosahedron": (3, 12), "torus": (4, 26), "creature": (8, 56)}
 
 
 def fair(name, **options):

@@ -169,7 +169,7 @@ def fair(
         the solution in the energy norm. 1e-4 leaves nothing to see: positions
         within 1e-4 of the mesh's size, on smooth meshes within 1e-5 in the median. Take 1e-8 for measurements.
     step_tolerance : float, share of the mesh's size
-        The Gauss-Newton steps stop when the points still have to move less than this. 0: 0.03 of
+        The Gauss-Newton steps stop when the points still have to move less than this. 0: 0.1 of
         relative_residual, from 1e-6 to 1e-5.
     max_steps : int
         The most Gauss-Newton steps on a level.
