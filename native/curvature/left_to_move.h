@@ -9,12 +9,17 @@ namespace fairing {
 
 class LeftToMove {
  public:
+  // `least_ratio`: what the solve of a step leaves of its error. Acceleration and inexact solves
+  // flatter, wherefore no smaller ratio is believed (measured: with it no sphere of a hundred is left
+  // too early, without it one is).
+  explicit LeftToMove(double least_ratio) : least_ratio_(least_ratio) {}
+
   // After a step of this decrement that would have moved no point farther than `movement`. One that
   // is not `solved` leaves as much as it has found.
   double after(double decrement, double movement, bool solved) {
     const double ratio = last_ > 0 && solved ? decrement / last_ : 1;
     const double trusted =
-        std::clamp(ratio * (has_ratio_ ? 1 : first_ratio), least_ratio, most_ratio);
+        std::clamp(ratio * (has_ratio_ ? 1 : first_ratio), least_ratio_, most_ratio);
     has_ratio_ = last_ > 0;
     last_ = decrement;
     return trusted / (1 - trusted) * movement;
@@ -30,14 +35,12 @@ class LeftToMove {
   double last_decrement() const { return last_; }
 
  private:
-  // The first ratio is of a step that was not accelerated, and flatters; so do acceleration and
-  // inexact solves, wherefore none below least_ratio is believed (measured: with it no sphere of a
-  // hundred is left too early, without it one is).
-  static constexpr double first_ratio = 10, least_ratio = 0.1;
-  // Nor any above, or a single step would be told to leave more than itself.
+  // The first ratio is of a step that was not accelerated, and flatters.
+  static constexpr double first_ratio = 10;
+  // None above is believed, or a single step would be told to leave more than itself.
   static constexpr double most_ratio = 0.5;
 
-  double last_ = 0;
+  double least_ratio_, last_ = 0;
   bool has_ratio_ = false;  // whether the step before had one
 };
 

@@ -40,6 +40,10 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
 
 }  // namespace
 
+double GaussNewtonSystem::share_left(int level, const Functional& functional) const {
+  return functional.pads && !hold_ && level == finest() ? solve_gain_of_finest : solve_gain;
+}
+
 void GaussNewtonSystem::hold_by(HoldAlongNormals* hold) {
   hold_ = hold && hold->any() ? hold : nullptr;
   shared_.weights = hold_ ? hold_->weights() : VertexWeights{};
@@ -127,7 +131,7 @@ struct GaussNewtonSystem::HeldSolve {
     PcgLimits goal = system.limits(about.functional);
     goal.tolerance =
         last ? std::clamp(goal.tolerance * first_residual / now, goal.tolerance, least_gain)
-             : (hold || level < system.finest() ? solve_gain : solve_gain_of_finest);
+             : system.share_left(level, about.functional);
     const LevelSolve solved = system.hierarchy_.solve(
         std::size_t(level - system.base_), goal,
         {[this](const double* x, double* out) { multiply(x), take_residual(x, out); }, h.data(),

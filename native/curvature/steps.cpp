@@ -123,10 +123,10 @@ class TotalCurvatureMethod final : public StepMethod {
         damping_(damping),
         end_(end),
         patience_(patience),
-        anderson_({&iterate}, accelerated_steps) {
+        anderson_({&iterate}, accelerated_steps),
+        remainder_(iterate.system.share_left(iterate.level, functional_of(pads, damping))) {
     it_.trial.points.resize(3 * it_.grid().size());
-    // local damping compares tensors in space
-    it_.begin({CurvatureEnergy::total_curvature, pads, damping != nullptr});
+    it_.begin(functional_of(pads, damping));
   }
 
   bool begin(CurvatureLevelReport& report) override {
@@ -195,6 +195,11 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
  private:
+  // Local damping compares tensors in space.
+  static Functional functional_of(Pads* pads, const LocalDamping* damping) {
+    return {CurvatureEnergy::total_curvature, pads, damping != nullptr};
+  }
+
   // Loads go along: those of a plain step would lag behind the surface, and the next step make up
   // for it. The first step's are fitted, and change from nothing known.
   void accelerate() {

@@ -93,6 +93,8 @@ class GaussNewtonSystem {
   // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
   bool is_bound() const { return hold_ && hold_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
+  // The share of its error that the solve of a step on `level` leaves.
+  double share_left(int level, const Functional& functional) const;
   // Solves K h = force to a hundredth of the residual; h is symmetrized. Where control vertices
   // stand on pads or are held otherwise, the force has the loads' part beside it (solve_held.cpp):
   // `held` takes corrections, from that of the step before; empty loads start as those that fit

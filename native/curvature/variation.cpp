@@ -53,9 +53,10 @@ class VariationStep final : public StepMethod {
         end_(end),
         nu_(nu),
         damping_(iterate.grid(), iterate.system.shared().unknowns, iterate.workers()),
-        bending_(bending) {
+        bending_(bending),
+        remainder_(iterate.system.share_left(iterate.level, of_variation)) {
     it_.trial.points.resize(3 * it_.grid().size());
-    it_.linearize({CurvatureEnergy::minimum_variation, nullptr, true});
+    it_.linearize(of_variation);
   }
 
   bool begin(CurvatureLevelReport& report) override {
@@ -120,6 +121,8 @@ class VariationStep final : public StepMethod {
   }
 
  private:
+  static constexpr Functional of_variation{CurvatureEnergy::minimum_variation, nullptr, true};
+
   SurfaceIterate& it_;
   StepEnd end_;
   double& nu_;

@@ -18,7 +18,7 @@ namespace fairing::test {
 namespace {
 
 TEST(LeftToMove, SumsTheStepsToCome) {
-  LeftToMove left;
+  LeftToMove left(0.1);
   EXPECT_EQ(left.after(1, 8, true), 8);                    // one step alone: as much again
   EXPECT_DOUBLE_EQ(left.after(0.01, 0.3, true), 0.3 / 9);  // the first ratio is believed to a tenth
   EXPECT_DOUBLE_EQ(left.after(0.002, 0.06, true), 0.06 * 0.25);
@@ -27,14 +27,14 @@ TEST(LeftToMove, SumsTheStepsToCome) {
 }
 
 TEST(LeftToMove, AStepThatIsNotSolvedLeavesItself) {
-  LeftToMove left;
+  LeftToMove left(0.1);
   left.after(1, 1, true);
   left.after(0.1, 0.1, true);
   EXPECT_EQ(left.after(0.01, 0.01, false), 0.01);
 }
 
 TEST(LeftToMove, BeginsAnewAfterARejectedStep) {
-  LeftToMove left;
+  LeftToMove left(0.1);
   left.after(1, 1, true);
   left.forget();
   EXPECT_EQ(left.last_decrement(), 0);
