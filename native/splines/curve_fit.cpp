@@ -23,9 +23,8 @@ constexpr double end_share = 0.35;
 constexpr int least_graded = 4;
 // A tangent has at least this cosine with the line of the points nearby, within the surface.
 constexpr double least_along = 0.7;
-// Where edges meet at less than 45°, none may come to their vertex with less than this
-// share of its mean speed: patches between them would fold. Elsewhere poles of curvature ask for it.
-constexpr double narrow = 0.79, slowest = 0.3;
+// Of its mean speed: no curve comes slower to a narrow corner.
+constexpr double slowest = 0.3;
 // A curve that is this close at even parameters is the lattice's own, as along creases.
 constexpr double exact = 1e-9;
 
@@ -178,8 +177,8 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
 }
 
 // Whether the curve, which is near the points at t, runs along them. Points that slide may draw its
-// end beyond its last point: there it turns back, and patches beside it fold. So they do in narrow
-// corners where it almost stops.
+// end beyond its last point: there it turns back, and patches beside it fold. So they do in corners
+// of less than 45° where it almost stops.
 bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
   const std::size_t last = data.points.size() - 1;
   for (std::size_t k = 0; k <= last; ++k) {
@@ -190,7 +189,8 @@ bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vect
   }
   const double mean = length_of(data.points);
   for (const std::size_t end : {0u, 1u})
-    if (data.corner[end] < narrow && curve.at(double(end)).tangent.norm() < slowest * mean)
+    if (data.corner[end] < std::numbers::pi / 4 &&
+        curve.at(double(end)).tangent.norm() < slowest * mean)
       return false;
   constexpr int samples_a_span = 8;
   const int count = samples_a_span * curve.spans;

@@ -5,24 +5,6 @@
 #include <cmath>
 
 namespace fairing {
-namespace {
-
-// From cell to cell towards the foot.
-constexpr int most_steps = 8;
-
-struct Step {
-  double s, t;
-};
-
-// To where `rest` is least, along the directions u and v.
-Step least_squares(const Vec3& rest, const Vec3& u, const Vec3& v) {
-  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
-  if (!(det > 1e-12 * uu * vv)) return {0, 0};
-  const double ru = rest.dot(u), rv = rest.dot(v);
-  return {(vv * ru - uv * rv) / det, (uu * rv - uv * ru) / det};
-}
-
-}  // namespace
 
 // The derivative along a direction, of second order also at the sides; false where too few points
 // lie that way.
@@ -63,10 +45,10 @@ FaceSurface::Foot FaceSurface::foot_in_quad(const Vec3& point, double i, double 
              twist = at(a + 1, b + 1) - p - u - v;
   double s = i - a, t = j - b;
   for (int round = 0; round < 2; ++round) {  // a cell is almost a parallelogram
-    const Step step =
-        least_squares(point - p - s * u - t * v - s * t * twist, u + t * twist, v + s * twist);
-    s += step.s;
-    t += step.t;
+    const Slide step =
+        slide_to(point - p - s * u - t * v - s * t * twist, u + t * twist, v + s * twist);
+    s += step.along_u;
+    t += step.along_v;
   }
   out.share = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
   out.i = a + s;
@@ -82,7 +64,7 @@ FaceSurface::Foot FaceSurface::foot_in_triangle(const Vec3& point, double i, dou
   Foot out;
   out.corner = {{{c, d}, {c + way, d}, {c, d + way}, {c, d}}};
   const Vec3 p = at(c, d);
-  const auto [s, t] = least_squares(point - p, at(c + way, d) - p, at(c, d + way) - p);
+  const auto [s, t] = slide_to(point - p, at(c + way, d) - p, at(c, d + way) - p);
   out.share = {1 - s - t, s, t, 0};
   out.i = c + way * s;
   out.j = d + way * t;
@@ -98,7 +80,7 @@ double FaceSurface::height(const Vec3& point, int corner, double u, double v, do
     j = corner == 0 ? r : corner == 1 ? k : rest;
   }
   Foot foot{};
-  for (int step = 0; step < most_steps; ++step) {
+  for (int cell = 0; cell < lattice_.n(); ++cell) {  // on the way to the foot
     foot = lattice_.quad(face_) ? foot_in_quad(point, i, j) : foot_in_triangle(point, i, j);
     const double moved = std::max(std::abs(foot.i - i), std::abs(foot.j - j));
     i = std::clamp(foot.i, 0.0, n);

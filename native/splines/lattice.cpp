@@ -83,6 +83,13 @@ Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
   return out;
 }
 
+Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v) {
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
+  if (!(det > 1e-12 * uu * vv)) return {0, 0};
+  const double ru = u.dot(rest), rv = v.dot(rest);
+  return {(vv * ru - uv * rv) / det, (uu * rv - uv * ru) / det};
+}
+
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess) {
   double reach = 0;
   for (const Vec3& p : nearby) reach = std::max(reach, (p - centre).norm());

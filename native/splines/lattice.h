@@ -58,6 +58,12 @@ class Lattice {
 // Two unit vectors that make a right-handed frame with n.
 Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n);
 
+// How far along both directions `rest` reaches, by least squares; not at all along parallel ones.
+struct Slide {
+  double along_u, along_v;
+};
+Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v);
+
 // The normal at `centre` of the surface through these points nearby: that of a height function,
 // cubic as far as their number allows, over the plane of `guess`. Refitted once.
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);

@@ -9,7 +9,8 @@ namespace fairing {
 namespace {
 
 // Of those that are fitted, each way.
-constexpr int samples_a_span = 4, least_samples = 8;
+constexpr int least_samples = 8;
+// Between normals along a side, in its parameter.
 constexpr double widest_gap = 1.0 / 64;
 
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {

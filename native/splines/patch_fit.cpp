@@ -29,8 +29,6 @@ constexpr double fold_misses = 1e6;  // of patches that fold, at least
 // Samples move to their feet and the patch is fitted again, as long as that helps.
 constexpr int least_rounds = 2, most_rounds = 8;
 constexpr double improving = 0.7;
-// Of a span, each way, in the middles of which a patch is measured.
-constexpr int parts_a_span = 4;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -130,13 +128,9 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
 void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
   for (int step = 0; step < 6; ++step) {
     const SurfacePoint p = patch.at(sample.u, sample.v);
-    const Vec3 r = sample.at - p.at;
-    const double uu = p.along_u.squaredNorm(), uv = p.along_u.dot(p.along_v),
-                 vv = p.along_v.squaredNorm(), det = uu * vv - uv * uv;
-    if (!(det > 1e-12 * uu * vv)) return;
-    const double ru = p.along_u.dot(r), rv = p.along_v.dot(r);
-    const double u = std::clamp(sample.u + (vv * ru - uv * rv) / det, 0.0, 1.0),
-                 v = std::clamp(sample.v + (uu * rv - uv * ru) / det, 0.0, 1.0);
+    const Slide slide = slide_to(sample.at - p.at, p.along_u, p.along_v);
+    const double u = std::clamp(sample.u + slide.along_u, 0.0, 1.0),
+                 v = std::clamp(sample.v + slide.along_v, 0.0, 1.0);
     const double change = std::max(std::abs(u - sample.u), std::abs(v - sample.v));
     sample.u = u;
     sample.v = v;
@@ -158,7 +152,7 @@ double move_to_feet(const SplinePatch& patch, PatchData& data) {
 // At the middles of each span's parts: where no sample is near, a patch may swing.
 void measure_between(const PatchData& data, FittedPatch& out) {
   const SplinePatch& patch = out.patch;
-  const int nu = parts_a_span * patch.spans_u, nv = parts_a_span * patch.spans_v;
+  const int nu = samples_a_span * patch.spans_u, nv = samples_a_span * patch.spans_v;
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j) {
       const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;

@@ -10,6 +10,9 @@
 
 namespace fairing {
 
+// Each way: of those that are fitted, and of the parts in whose middles a patch is measured.
+constexpr int samples_a_span = 4;
+
 struct PatchSample {
   Vec3 at, normal;  // of the lattice; zero at the tip of a kink
   double u, v;

@@ -170,7 +170,7 @@ def test_patches_in_narrow_corners_do_not_fold():
     # 115 where spans at the edges had four steps of the lattice, too; 64 where edges nearly stopped
     # at narrow corners
     assert len(patches.unmet_by_fit) <= 56
-    assert patches.largest_residual <= 1.5e-4 * patches.size
+    assert patches.largest_residual <= 2e-4 * patches.size  # 3.2e-4 then
 
 
 def test_a_tip_lower_than_the_tolerance_is_no_fold():
