@@ -63,7 +63,7 @@ TRADES = {
     "MECHANICAL": "machine parts, products",
     "CHARACTER": "animals, heads",
     "SCAN_PATCH": "noise, measured faces",
-    "POINTS": "probes, scatter",
+    "POINTS": "offsets, probes, scatter",
 }
 EASED_FIRST = {"POINTS"}
 # what the panel shows of a job, to be changed at will

@@ -60,13 +60,13 @@ def dots(strained: Strained) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def labels(
     strained: Strained, count: int, times: float, text: Callable[[float], str]
-) -> list[tuple[np.ndarray, str]]:
-    """Where each of the `count` worst has its label (3,), and what that says: `31: 4.2 mm`; `text`
-    says a length.
+) -> list[tuple[np.ndarray, str, bool]]:
+    """Where each of the `count` worst has its label (3,), what that says: `31: 4.2 mm`, and whether
+    the vertex is out of line; `text` says a length.
     """
-    ids = strained.worst(count)
+    ids, wrong = strained.worst(count), set(strained.wrong.tolist())
     places = tips(strained, ids, times)
     return [
-        (place, f"{index}: {text(abs(float(strained.lengths[index])))}")
+        (place, f"{index}: {text(abs(float(strained.lengths[index])))}", index in wrong)
         for place, index in zip(places, ids.tolist(), strict=True)
     ]

@@ -34,7 +34,7 @@ _LINE = 2.5  # pixels, of a needle
 _TEXT = 12.0  # points
 _BEHIND = 0.25  # opacity of dots that the surface hides
 _INWARDS = 0.65  # and of needles: those inwards all are, among them perhaps the worst
-_OLD = 0.4  # and of what is being measured anew
+_FAINT = 0.4  # and of what is being measured anew, and of labels of what is not out of line
 _AWAY = 8  # pixels from a needle to its label
 
 _VERTEX = """
@@ -118,7 +118,7 @@ def _draw_source(source: Object, strained: Strained, length: float, view: Any) -
     projection = np.array(view.window_matrix)
     for _ in range(2):  # over the stripes, which are pulled by one of these
         projection = pulled(projection, view.view_distance)
-    opacity = _OLD if known.is_behind(source) else 1.0
+    opacity = _FAINT if known.is_behind(source) else 1.0
     gpu.state.blend_set("ALPHA")
     try:
         for test, share in (("NONE", _BEHIND), ("LESS_EQUAL", 1.0)):
@@ -188,7 +188,6 @@ def _draw_labels() -> None:
     blf.size(0, _TEXT * _scale())
     blf.enable(0, blf.SHADOW)
     blf.shadow(0, 3, 0.0, 0.0, 0.0, 1.0)
-    blf.color(0, 1.0, 1.0, 1.0, 1.0)
     for source, strained in _seen(space):
         matrix = world_matrix(source)
         times = magnification(strained, drawing.needle_length)
@@ -196,9 +195,10 @@ def _draw_labels() -> None:
         def text(length: float) -> str:
             return length_text(context.scene, length)
 
-        for place, label in labels(strained, drawing.label_count, times, text):
+        for place, label, is_wrong in labels(strained, drawing.label_count, times, text):
             at = location_3d_to_region_2d(cast(Any, region), view, matrix @ Vector(place.tolist()))
             if at is not None:
+                blf.color(0, 1.0, 1.0, 1.0, 1.0 if is_wrong else _FAINT)
                 blf.position(0, at.x + _AWAY, at.y + _AWAY, 0)
                 blf.draw(0, label)
     blf.disable(0, blf.SHADOW)

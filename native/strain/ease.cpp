@@ -15,8 +15,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Up to so many unknowns all eigenvalues are found: 0.1 s.
-constexpr Eigen::Index few = 400;
+// Up to so many unknowns all eigenvalues are found: 0.3 s.
+constexpr Eigen::Index few = 600;
 // Of Lanczos, and vectors of signs whose mean is the trace (Hutchinson 1990). With over `few`
 // unknowns the trace is within 3 per cent, alike for all amounts.
 constexpr int lanczos_steps = 60, sign_vectors = 8;
@@ -156,6 +156,29 @@ double EaseSystem::squared_trace(double s) const {
   return sum;
 }
 
+// The kurtosis of the moves' parts along the eigenvectors, in units of the filter, is no more than
+// three standard deviations above its mean for n normal numbers about zero, whose squares over
+// their sum are Dirichlet's; for scatter in several directions it is less. Of so few that a single
+// part which is all would pass, nothing can be told.
+bool EaseSystem::may_be_scatter(double s) const {
+  if (values_.size() == 0) return true;
+  double squares = 0, fourths = 0, moved = 0, moved_squared = 0;
+  for (Eigen::Index k = 0; k < values_.size(); ++k) {
+    const double filter = s * s / (1 + s * s * values_[k]);
+    const double kept = filter * values_[k],
+                 part = of_pulls_.weight[std::size_t(k)] * filter * filter;
+    squares += kept * kept;
+    fourths += kept * kept * kept * kept;
+    moved += part;
+    moved_squared += part * part;
+  }
+  if (!(moved > 0)) return false;
+  const double n = squares * squares / fourths;
+  const double deviation = std::sqrt(24 * (n - 1) / ((n + 4) * (n + 6)));
+  const double most = n / (n + 2) * 3 * (1 + deviation);
+  return n > most && n * moved_squared <= most * moved * moved;
+}
+
 // By eigenvectors, or by conjugate gradients on the diagonal, all columns side by side.
 Columns EaseSystem::solve(double s, double shift, const Columns& wanted, const Columns& start,
                           double tolerance) const {
@@ -250,7 +273,8 @@ double cross_validated(const EaseSystem& system) {
                           ? best
                           : std::find_if(score.begin(), score.end(),
                                          [&](double of) { return of <= leeway * *best; });
-  return chosen == score.begin() ? 0 : amount[std::size_t(chosen - score.begin())];
+  const double s = amount[std::size_t(chosen - score.begin())];
+  return chosen != score.begin() && system.may_be_scatter(s) ? s : 0;
 }
 
 // Moves grow with the amount, so the ladder of amounts is halved.

@@ -43,6 +43,9 @@ class EaseSystem {
   double squared_trace(double s) const;
   // Of the scatter that an amount takes out, root mean square.
   double noise(double s) const;
+  // Whether what an amount takes out may be scatter: that is in all eigenvectors alike, where shapes
+  // that are designed are in few. Always so where eigenvectors are not known.
+  bool may_be_scatter(double s) const;
 
  private:
   // Nodes and weights of a sum over G'G's eigenvalues.
@@ -68,7 +71,7 @@ class EaseSystem {
 // The amount that robust generalized cross-validation chooses (Lukas 2006): that of Golub, Heath and
 // Wahba (1979), with a weight on how much F keeps, as the plain one now and then takes scatter for
 // shape where there are few unknowns; where scatter is faint, the smallest of about that score. 0:
-// nothing is to be told from the shape.
+// nothing is to be told from the shape, or what would be taken out cannot be scatter.
 double cross_validated(const EaseSystem& system);
 
 // The largest amount whose moves are all within bounds, by themselves; a bound of 0 asks for nothing.

@@ -77,8 +77,9 @@ def test_dots_are_two_triangles_each_and_the_worst_lies_on_top():
 
 
 def test_labels_stand_at_the_tips_of_the_worst():
-    (first, said), (_, second) = drawn.labels(strained(), 2, 10.0, text)
+    (first, said, wrong), (_, second, fair) = drawn.labels(strained(), 2, 10.0, text)
     assert (said, second) == ("1: 0.04", "3: 0.02")
+    assert wrong and not fair, "0.02 is below the floor"
     assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])
 
 
