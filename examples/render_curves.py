@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 import curve_networks  # noqa: E402
+import jobs  # noqa: E402
 from render_clay import matte  # noqa: E402
 from render_row import View, draw_rows, render_tile  # noqa: E402
 
@@ -43,7 +44,9 @@ def main(names):
 
 
 def draw_tile(make, view, part, path):
-    curves = [drawn(*curve) for curve in make()]
+    curves = [jobs.bezier(*curve) for curve in make()]
+    for curve in curves:
+        curve.select_set(True)
     bpy.context.view_layer.update()
     assert bpy.ops.object.fairing_curves(levels=LEVELS) == {"FINISHED"}
     surface = bpy.context.active_object
@@ -63,22 +66,6 @@ def draw_tile(make, view, part, path):
     else:
         zebra = replace(view, look="zebra")
         render_tile(path, "The surface in stripes", zebra, mesh, [surface], False)
-
-
-def drawn(name, points, closed):
-    """A Bézier curve with automatic handles."""
-    data = bpy.data.curves.new(name, "CURVE")
-    data.dimensions = "3D"
-    spline = data.splines.new("BEZIER")
-    spline.bezier_points.add(len(points) - 1)
-    spline.use_cyclic_u = closed
-    for row, point in zip(spline.bezier_points, points, strict=True):
-        row.co = point
-        row.handle_left_type = row.handle_right_type = "AUTO"
-    made = bpy.data.objects.new(name, data)
-    bpy.context.collection.objects.link(made)
-    made.select_set(True)
-    return made
 
 
 if __name__ == "__main__":
