@@ -112,9 +112,7 @@ def repeat_soon(context: Context, operator: Any) -> None:
     begin anew with the same properties.
     """
     call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
-    invoke_soon(
-        context, call, {name: getattr(operator, name) for name in type(operator).__annotations__}
-    )
+    invoke_soon(context, call, operator.as_keywords())
 
 
 def give_way() -> None:

@@ -313,7 +313,7 @@ def move_a_vertex(target):
 
 CHANGES = {
     "was edited": move_a_vertex,
-    "left Edit Mode": lambda _target: bpy.ops.object.mode_set(mode="OBJECT"),
+    "changed its mode": lambda _target: bpy.ops.object.mode_set(mode="OBJECT"),
     "was deleted": lambda target: bpy.data.objects.remove(target),
 }
 
