@@ -89,10 +89,16 @@ def preset_values(path: Path) -> dict[str, Any]:
 
 
 def job_of(settings: Any) -> str:
-    """The purpose that `settings` serve, all but what the panel offers; empty if none."""
+    """The purpose that `settings` serve, all but what the panel offers; empty if none. One that eases the
+    source first is not told by them: its surface has the settings of any other.
+    """
     for purpose, *_ in PURPOSES:
         path = preset_file(purpose)
-        if path is not None and _serve(settings, preset_values(path)):
+        if (
+            path is not None
+            and purpose not in EASED_FIRST
+            and _serve(settings, preset_values(path))
+        ):
             return purpose
     return ""
 

@@ -7,7 +7,7 @@ import pytest
 from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, positions
 
-from addon.purposes import PURPOSES, job_of, name_of_purpose, preset_file
+from addon.purposes import EASED_FIRST, PURPOSES, job_of, name_of_purpose, preset_file
 from addon.ui.main import VIEW3D_PT_fairing
 
 SURFACES = [purpose for purpose, *_ in PURPOSES if preset_file(purpose)]
@@ -131,7 +131,7 @@ def test_a_refusal_is_a_sentence_and_leaves_the_mode():
     assert bpy.context.mode == "OBJECT"
 
 
-@pytest.mark.parametrize("purpose", SURFACES)
+@pytest.mark.parametrize("purpose", sorted(set(SURFACES) - EASED_FIRST))
 def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose):
     add("Box", *CUBE)
     bpy.ops.object.fairing_for(purpose=purpose)
@@ -140,12 +140,20 @@ def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose)
     made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
     assert job_of(made) == purpose, "what the panel offers leaves it the job"
     shown = draw(VIEW3D_PT_fairing)
-    slider = {"CHARACTER": "limit", "PANEL": "limit", "POINTS": None}.get(purpose, "tolerance")
+    slider = {"CHARACTER": "limit", "PANEL": "limit"}.get(purpose, "tolerance")
     above = shown[: shown.index("object.fairing_recompute")]
     assert name_of_purpose(purpose) in above and "levels" in above
-    assert [name for name in ("tolerance", "limit") if name in above] == [slider] * bool(slider)
+    assert [name for name in ("tolerance", "limit") if name in above] == [slider]
     assert not {"Fairness", "Vertices"} & set(above)
     assert {"Fairness", "Vertices"} <= set(shown[shown.index("More") :])
+
+
+def test_a_surface_by_defaults_is_of_no_job():
+    add("Box", *CUBE)
+    bpy.ops.object.fairing_surface()
+    assert job_of(bpy.context.active_object.discrete_fairing) == ""
+    shown = draw(VIEW3D_PT_fairing)
+    assert {"Fairness", "Vertices"} <= set(shown[: shown.index("object.fairing_recompute")])
 
 
 def test_settings_of_ones_own_are_no_job():
