@@ -2,7 +2,6 @@
 #include "binding/runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
@@ -17,10 +16,6 @@ namespace py = pybind11;
 
 namespace fairing {
 namespace {
-
-// How long to sleep between two looks at Python: 40 progress calls a second are smooth, and cost
-// nothing beside a run.
-constexpr std::chrono::milliseconds pause(25);
 
 // What happens on Python's side of a run.
 class Watch {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "binding/running.h"
 
-#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -21,7 +20,6 @@ bool is_ending = false;
 
 // Runs end within milliseconds; a progress callback may take its time.
 constexpr std::chrono::seconds longest_end(10);
-constexpr std::chrono::milliseconds between_looks(2);
 
 }  // namespace
 
@@ -53,7 +51,7 @@ void end_runs() {
   for (RunningScope* scope = newest; scope; scope = scope->before_) scope->monitor_.cancel();
   while (newest && std::chrono::steady_clock::now() < end) {
     const py::gil_scoped_release release;
-    std::this_thread::sleep_for(between_looks);
+    std::this_thread::sleep_for(pause);
   }
 }
 

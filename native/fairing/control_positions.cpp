@@ -8,16 +8,12 @@
 
 #include "base/error.h"
 #include "base/points.h"
+#include "base/rounding.h"
 #include "mesh/validate/check.h"
 #include "mesh/vertex_pair.h"
 
 namespace fairing {
 namespace {
-
-// An axis whose eigenvalue is less than this share of the largest one is across a flat polygon: its
-// extent is rounding, and the centre has no part in it. An eigenvalue is an extent squared, so this
-// is a millionth of the polygon's length.
-constexpr double flat_axis = 1e-12;
 
 // Affine weights of the corners that give a split polygon's centre: of all such weights those with
 // the least sum of squares, 1/n + (c_k - m) . S^-1 (centre - m), where m is the corners' mean and
@@ -37,9 +33,11 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   const Vec3 along = axes.eigenvectors().transpose() * (basis[std::size_t(centre)] - mean);
+  // Across a flat polygon the extent is rounding, and the centre has no part in it. An eigenvalue is
+  // an extent squared: what is less than a millionth of the polygon's length is flat.
   Vec3 scaled = Vec3::Zero();
   for (int a = 0; a < 3; ++a)
-    if (axes.eigenvalues()[a] > flat_axis * axes.eigenvalues()[2])
+    if (axes.eigenvalues()[a] > rounding * axes.eigenvalues()[2])
       scaled[a] = along[a] / axes.eigenvalues()[a];
   const Vec3 slope = axes.eigenvectors() * scaled;
   Vec3 result = Vec3::Zero();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/rounding.h"
 #include "fairing/fair.h"
 #include "fairing/mending.h"
 #include "fairing/strain.h"
@@ -19,8 +20,6 @@ namespace {
 
 // With more input vertices the loads are those of level 1, at a quarter of the cost.
 constexpr std::int64_t on_second_level = 2000;
-// Parts of the run: up to the surface, and to the matrix of its loads.
-constexpr double surface_done = 0.2, matrix_done = 0.85;
 // Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
 constexpr int rings_apart = 9;
 
@@ -80,7 +79,7 @@ class Easing {
         at_(mending.mesh().coordinates.begin(), mending.mesh().coordinates.end()) {}
 
   EaseResult run() {
-    monitor_.enter_part(0, surface_done);
+    monitor_.enter_part(0, 0.25);
     StrainGauge::require_room(*problem_, rings_apart);
     ControlPositions control = problem_->basis;
     PlateLoads plate = loads_of(control);
@@ -122,10 +121,9 @@ class Easing {
 
   void measure_matrix() {
     gauge_.emplace(*problem_, systems_.plate(), rings_apart, [&](double begin, double end) {
-      const double part = matrix_done - surface_done;
-      monitor_.enter_part(surface_done + part * begin, surface_done + part * end);
+      monitor_.enter_part(0.25 + 0.625 * begin, 0.25 + 0.625 * end);
     });
-    monitor_.enter_part(matrix_done, 1);
+    monitor_.enter_part(0.875, 1);
     out_.iterations += gauge_->solves();
   }
 
@@ -174,7 +172,7 @@ class Easing {
     Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
     for (std::size_t i = 0; i < movable.vertices.size(); ++i)
       // less rounding, so that what is measured outside is within it
-      bounds[Eigen::Index(i)] = (1 - 1e-12) * movable.root[i] *
+      bounds[Eigen::Index(i)] = (1 - rounding) * movable.root[i] *
                                 wanted_.tolerance[std::size_t(movable.vertices[i])] /
                                 problem_->frame.scale;
     return bounds;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/error.h"
@@ -11,13 +12,9 @@
 namespace fairing {
 namespace {
 
-// In sizes of the mesh that charts were made from: with the requested accuracy relative to the
-// farthest vertex, six digits are left to the others.
+// In sizes of the mesh that charts were made from, or in the usual distance from the middle: with the
+// requested accuracy relative to the farthest vertex, six digits are left to the others.
 constexpr double far_out = 1e3;
-// Likewise; single precision, too, holds the squares.
-constexpr double out_of_reach = 1e15;
-// A vertex lies far away that is so many times as far from the middle as most are.
-constexpr double far_away = 1e3;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -53,7 +50,7 @@ std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
   const double usual = median(values);
   std::vector<std::int64_t> out;
   for (std::size_t i = 0; i < used.size(); ++i)
-    if (!(values[i] <= far_away * usual)) out.push_back(used[i]);
+    if (!(values[i] <= far_out * usual)) out.push_back(used[i]);
   return out;
 }
 
@@ -64,6 +61,8 @@ bool lies_far_out(const ControlMesh& mesh, const ControlPositions& control) {
 }
 
 void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) {
+  // in sizes of the mesh that charts were made from; single precision, too, holds the squares
+  const double out_of_reach = 1 / std::numeric_limits<double>::epsilon();
   std::vector<std::int64_t> far = vertices_outside(out_of_reach, mesh, control);
   if (far.empty()) return;
   const std::string names = listing(vertex_s, far, {"lies", "lie"});

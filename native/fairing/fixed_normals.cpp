@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "mesh/normal.h"
 #include "parallel/cancel.h"
@@ -48,8 +49,8 @@ void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& norma
   std::vector<std::int64_t> far;
   for (const FixedNormal& fixed : normals) {
     const Vec3 own = control_normal(mesh, fixed.vertex);
-    const double angle = std::atan2(own.cross(fixed.normal).norm(), own.dot(fixed.normal));
-    if (own.norm() > 0 && angle > steepest && !mesh.second_vertex(fixed.vertex))
+    if (own.norm() > 0 && angle_between(own, fixed.normal) > steepest &&
+        !mesh.second_vertex(fixed.vertex))
       far.push_back(mesh.original_vertex(fixed.vertex));
   }
   if (!far.empty())

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "base/rounding.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -15,9 +16,6 @@ constexpr double same_kind = 1e-2;
 // Columns of the least squares that are shorter than this share of the present change are left out:
 // they would be enlarged together with their errors.
 constexpr double least_column = 1e-4;
-// The normal equations of columns of length one are solved on eigenvectors with larger eigenvalues
-// than this: a flat mesh, for one, leaves directions undetermined.
-constexpr double least_determined = 1e-10;
 
 double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
   double most = 0;
@@ -54,8 +52,9 @@ RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(unit.asDiagonal() * gram *
                                                                           unit.asDiagonal());
   Eigen::Matrix<double, 7, 1> inverse;
+  // A flat mesh, for one, leaves directions undetermined.
   for (int k = 0; k < 7; ++k)
-    inverse[k] = solver.eigenvalues()[k] > least_determined ? 1 / solver.eigenvalues()[k] : 0;
+    inverse[k] = solver.eigenvalues()[k] > rounding ? 1 / solver.eigenvalues()[k] : 0;
   return unit.asDiagonal() *
          (solver.eigenvectors() * (inverse.asDiagonal() * (solver.eigenvectors().transpose() *
                                                            (unit.asDiagonal() * right))));

@@ -16,7 +16,7 @@ namespace {
 
 // The floor, in standard deviations: of a thousand strains that are nothing but scatter, three are
 // larger. And the standard deviation of a bell curve, over the median of its absolute values.
-constexpr double beyond = 3, of_median = 1.4826;
+constexpr double beyond = 3, of_median = 1.4826022185056018;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;

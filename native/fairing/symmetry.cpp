@@ -3,16 +3,16 @@
 
 #include <limits>
 
+#include "base/rounding.h"
+
 namespace fairing {
 namespace {
 
 // How far two positions in working coordinates may be apart and count as the same: what the caller's
 // own arithmetic makes at the mesh's size, and some units in the last place of world coordinates.
-constexpr double own_rounding = 1e-12, last_places = 8;
-
-double rounding(const Frame& frame) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return own_rounding + last_places * epsilon * frame.centre.norm() / frame.scale;
+double same_place(const Frame& frame) {
+  const double place = std::numeric_limits<double>::epsilon() * frame.centre.norm() / frame.scale;
+  return rounding + 8 * place;
 }
 
 // Corners, and where chains begin and end, need no test of their own: they show in the curves.
@@ -45,7 +45,7 @@ bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
 
 std::vector<Mirror> find_symmetry(const ControlMesh& mesh, const ControlPositions& control,
                                   const Frame& frame, const FairOptions& options) {
-  const double tolerance = rounding(frame);
+  const double tolerance = same_place(frame);
   return find_mirrors(mesh, tolerance, [&](const Mirror& mirror) {
     return mirrors_weights(mesh, mirror, options.weights) &&
            (options.tolerance.size() == 1 || mirrors_weights(mesh, mirror, options.tolerance)) &&
@@ -55,7 +55,7 @@ std::vector<Mirror> find_symmetry(const ControlMesh& mesh, const ControlPosition
 
 Mirrors kept_by(const ControlPositions& control, const ControlMesh& mesh, const Frame& frame,
                 const std::vector<Mirror>& mirrors) {
-  const double tolerance = rounding(frame);
+  const double tolerance = same_place(frame);
   Mirrors kept;
   for (const Mirror& mirror : mirrors)
     if (mirrors_positions(mesh, mirror, control.working, tolerance) &&

@@ -134,7 +134,7 @@ void FairingSystems::release(const ControlPositions& control, PlateState state, 
                              Report& report, Array<double>& x) {
   const double epsilon = problem_.options.paper.epsilon;
   if (!(epsilon > 0) || problem_.options.energy != Energy::thin_plate) return;
-  watch.enter(Phase::constrain, 0.8);
+  watch.enter(Phase::constrain, 0.75);
   report.constraint_rounds +=
       release_control_vertices(plate(), data_of(control), epsilon / problem_.frame.scale, state, x);
 }
@@ -150,7 +150,7 @@ SurfaceEnergies FairingSystems::energies(const double* x) {
 }
 
 void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, Report& report) {
-  watch.enter(Phase::measure, 0.2);
+  watch.enter(Phase::measure, 0.125);
   report.prediction = energies(start);
   watch.enter(Phase::solve, 0.25);
 }
@@ -158,7 +158,7 @@ void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, R
 void FairingSystems::write(const ControlPositions& control, bool measured, Stopwatch& watch,
                            Report& report, const double* x, double* world) {
   if (measured) {
-    watch.enter(Phase::measure, 0.9);
+    watch.enter(Phase::measure, 0.75);
     report.result = energies(x);
     Array<double> polyhedron(3 * finest().size());
     refine_linearly(finest(), control.working, *problem_.workers, polyhedron.data());
@@ -166,7 +166,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
   } else {
     report.result = report.polyhedron = report.prediction = {NAN, NAN};
   }
-  watch.enter(Phase::output, 0.95);
+  watch.enter(Phase::output, 0.875);
   to_world(control, finest(), problem_.frame, *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.cage, world);

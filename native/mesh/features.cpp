@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "mesh/polygon_shape.h"
 #include "mesh/sheets.h"
@@ -12,10 +13,6 @@
 
 namespace fairing {
 namespace {
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 Index other_end(const Edge& edge, Index v) {
   return edge.vertex[0] == v ? edge.vertex[1] : edge.vertex[0];

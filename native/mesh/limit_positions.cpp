@@ -149,8 +149,9 @@ RingWeights limit_mask(const PolygonRing& ring, int steps) {
   add_mask(ring, rule_of(ring, steps), steps, smooth, {2.0 / 3, 1.0 / 6}, 1, out);
   if (!is_dart(ring, steps)) return out;
   // The mask is what steps leave as it is. What is left of a start shrinks by two thirds a step at the
-  // most, the second eigenvalue for high valences: to rounding.
-  for (int k = 0; k < 100; ++k) out = before_step(ring, steps, out);
+  // most, the second eigenvalue for high valences: two steps take a binary digit at least.
+  for (int k = 0; k < 2 * std::numeric_limits<double>::digits; ++k)
+    out = before_step(ring, steps, out);
   return out;
 }
 

@@ -17,7 +17,7 @@
 namespace fairing {
 
 // For how many subdivision steps a rule stays sharp before it becomes smooth; from `always_sharp` on,
-// for ever.
+// for ever, as OpenSubdiv has it.
 constexpr double always_sharp = 10;
 
 struct Sharpness {

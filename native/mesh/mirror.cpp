@@ -10,8 +10,6 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t most_mirrors = 3;  // that are at right angles
-constexpr double right_angle = 1e-9;     // as a cosine
 // Searches a vertex over all candidate planes; symmetry is given up after that.
 constexpr std::size_t most_searches = 64;
 
@@ -314,9 +312,9 @@ std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
   if (planes.empty()) return found;
   Finder finder(mesh, tolerance);
   for (const Plane& plane : planes) {
-    if (found.size() == most_mirrors || finder.exhausted()) break;
+    if (found.size() == 3 || finder.exhausted()) break;
     const auto is_right = [&](const Mirror& other) {
-      return std::abs(other.plane.normal.dot(plane.normal)) <= right_angle;
+      return std::abs(other.plane.normal.dot(plane.normal)) <= Plane::search_reach * tolerance;
     };
     if (!std::all_of(found.begin(), found.end(), is_right)) continue;
     Mirror mirror;

@@ -10,16 +10,16 @@
 #include <numeric>
 
 #include "base/points.h"
+#include "base/rounding.h"
+#include "mesh/sharp_turn.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
 constexpr double tan_10_degrees = 0.17632698070846498;  // of 180 less what counts as concave
-constexpr double cos_60_degrees = 0.5;                  // of what counts as warped
 // Of a star's sides from its centre, relative to the root of its area.
 constexpr double least_distance = 0.01;
-constexpr double least_flatness = 1e-9;  // a triangle's projected area over its sides' squares
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -66,8 +66,6 @@ Vec3 mean(std::span<const Vec3> p) {
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Costs that differ by less, relative, are equal: rounding must not decide between triangulations.
-constexpr double tie = 1e-6;
 
 struct Diagonal {
   std::size_t i, j;  // i < j
@@ -215,7 +213,7 @@ bool PolygonShape::warped() const {
   const auto cosine = [](const Vec3& a, const Vec3& b) { return a.dot(b) / (a.norm() * b.norm()); };
   const double along_02 = cosine(corner_area(1), corner_area(3));
   const double along_13 = cosine(corner_area(0), corner_area(2));
-  return !(std::max(along_02, along_13) >= cos_60_degrees);
+  return !(std::max(along_02, along_13) >= sharp_turn);
 }
 
 double PolygonShape::badness(std::size_t i, std::size_t j, std::size_t k) const {
@@ -223,7 +221,7 @@ double PolygonShape::badness(std::size_t i, std::size_t j, std::size_t k) const 
                          (corners_[j] - corners_[k]).squaredNorm() +
                          (corners_[k] - corners_[i]).squaredNorm();
   const double twice_area = cross(plane_[j] - plane_[i], plane_[k] - plane_[i]);
-  if (!(twice_area > least_flatness * squares)) return infinite;
+  if (!(twice_area > rounding * squares)) return infinite;
   return squares / (2 * std::sqrt(3.0) * twice_area);
 }
 
@@ -235,7 +233,8 @@ std::vector<Piece> cut_polygon(const PolygonShape& shape,
   if (std::isfinite(costs.whole()))
     for (std::size_t i = 0; i + 2 < n; ++i)
       for (std::size_t j = i + 2; j < n && j - i < n - 1; ++j)
-        if (costs.with({i, j}) <= costs.whole() * (1 + tie)) best.push_back({i, j});
+        // rounding must not decide between triangulations
+        if (costs.with({i, j}) <= costs.whole() * (1 + single_rounding)) best.push_back({i, j});
   return cut(n, undisputed(best));
 }
 

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/rounding.h"
+
 namespace fairing {
 namespace {
 
@@ -27,15 +29,10 @@ Corner middle(const ControlMesh& mesh, const Face& face, int s) {
   return {0.5 * (here.along - there.along), 0.5 * (here.up - there.up)};
 }
 
-Vec3 any_orthogonal(const Vec3& n) {
-  const Vec3 axis = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
-  return n.cross(axis).normalized();
-}
-
 struct Frame {
   Vec3 x, y;
   explicit Frame(const Vec3& normal)
-      : x(any_orthogonal(normal.normalized())), y(normal.normalized().cross(x)) {}
+      : x(normal.unitOrthogonal()), y(normal.normalized().cross(x)) {}
   Vec2 project(const Vec3& p) const { return {p.dot(x), p.dot(y)}; }
 };
 
@@ -83,7 +80,7 @@ Chart TangentCharts::edge(Index e) const {
       normal += m.along.cross(m.up).normalized();
     }
   Chart chart = ChartMaker::edge(e);
-  if (!(normal.norm() > 1e-6)) return chart;
+  if (!(normal.norm() > single_rounding)) return chart;
   const Frame frame(normal);
   const Vec2 forward = frame.project(mesh().positions[std::size_t(edge.vertex[1])] -
                                      mesh().positions[std::size_t(edge.vertex[0])]);

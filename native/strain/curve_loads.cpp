@@ -9,7 +9,7 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t in_a_row = 5;
+constexpr std::size_t in_a_row = 5;  // vertices of a fourth difference
 
 // The weights of a fourth divided difference, times 4!: of the derivative.
 std::array<double, in_a_row> fourth_derivative(const std::array<double, in_a_row>& at) {

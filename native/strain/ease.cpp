@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/rounding.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -20,12 +21,9 @@ constexpr Eigen::Index few = 600;
 // Of Lanczos, and vectors of signs whose mean is the trace (Hutchinson 1990). With over `few`
 // unknowns the trace is within 3 per cent, alike for all amounts.
 constexpr int lanczos_steps = 60, sign_vectors = 8;
-// Of conjugate gradients.
-constexpr double step_tolerance = 1e-5;
-constexpr int most_steps = 500;
-// Amounts that are tried, times the mean of G's eigenvalues: ten a decade.
+constexpr double step_tolerance = 1e-5;  // of conjugate gradients, relative
+// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
-constexpr int amounts = 61;
 // How much the score keeps of what plain cross-validation says: 1 is all. On 35 vertices with little
 // scatter that chose no amount at all in three of sixteen cases, and with 0.8 in none; below, more is
 // eased than is best.
@@ -39,7 +37,6 @@ constexpr double faint = 2, leeway = 1.15;
 // Of the largest bound: how far moves may be from their copies within bounds, and change, at the end.
 constexpr double bound_tolerance = 1e-3;
 constexpr int most_rounds = 200;
-constexpr double round_tolerance = 1e-4;  // of conjugate gradients in a round
 
 // Signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
@@ -108,7 +105,7 @@ EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
     diagonal.push_back(now.dot(next));
     next -= diagonal.back() * now;
     const double left = next.norm();
-    if (k + 1 == lanczos_steps || !(left > 1e-12 * diagonal.front())) break;
+    if (k + 1 == lanczos_steps || !(left > rounding * diagonal.front())) break;
     beside.push_back(left);
     before = std::exchange(now, next / left);
   }
@@ -180,8 +177,8 @@ bool EaseSystem::may_be_scatter(double s) const {
 }
 
 // By eigenvectors, or by conjugate gradients on the diagonal, all columns side by side.
-Columns EaseSystem::solve(double s, double shift, const Columns& wanted, const Columns& start,
-                          double tolerance) const {
+Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
+                          const Columns& start) const {
   if (values_.size() > 0) {
     const VectorXd filter = (s * s * values_.array() + 1 + shift).inverse();
     return vectors_ * (filter.asDiagonal() * (vectors_.transpose() * wanted)).eval();
@@ -193,7 +190,8 @@ Columns EaseSystem::solve(double s, double shift, const Columns& wanted, const C
   Columns d = start, left = wanted - multiply(d), ahead = inverse.asDiagonal() * left;
   Eigen::RowVector3d energy = left.cwiseProduct(ahead).colwise().sum();
   const double scale = wanted.cwiseProduct(inverse.asDiagonal() * wanted).sum();
-  for (int k = 0; k < most_steps && energy.sum() > tolerance * tolerance * scale; ++k) {
+  for (Eigen::Index k = 0; k < unknowns() && energy.sum() > step_tolerance * step_tolerance * scale;
+       ++k) {
     stop_if_cancelled();
     const Columns product = multiply(ahead);
     const Eigen::RowVector3d curvature = ahead.cwiseProduct(product).colwise().sum();
@@ -216,7 +214,7 @@ Columns EaseSystem::solve(double s, double shift, const Columns& wanted, const C
 Columns EaseSystem::moves(double s) const {
   Columns none = Columns::Zero(unknowns(), 3);
   if (!(mean_ > 0) || !(s > 0)) return none;
-  return solve(s, 0, -s * s * pulls_, none, step_tolerance);
+  return solve(s, 0, -s * s * pulls_, none);
 }
 
 // The moves and their copies within bounds are drawn together by a weight between the least and the
@@ -227,7 +225,7 @@ Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   Columns within = Columns::Zero(unknowns(), 3), apart = within, d = within;
   for (int round = 0; round < most_rounds; ++round) {
     stop_if_cancelled();
-    d = solve(s, weight, wanted + weight * (within - apart), d, round_tolerance);
+    d = solve(s, weight, wanted + weight * (within - apart), d);
     apart += d;
     double left = 0;
     for (Eigen::Index j = 0; j < unknowns(); ++j) {
@@ -250,8 +248,8 @@ namespace {
 std::vector<double> ladder(const EaseSystem& system) {
   std::vector<double> out;
   if (!(system.mean() > 0)) return out;
-  double s = least_amount / system.mean();
-  for (int i = 0; i < amounts; ++i, s *= ten_a_decade) out.push_back(s);
+  for (double s = least_amount; s * least_amount < ten_a_decade; s *= ten_a_decade)
+    out.push_back(s / system.mean());
   return out;
 }
 
@@ -291,7 +289,7 @@ double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
 }
 
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {
-  for (int i = 0; i < amounts && s > 0; ++i, s /= ten_a_decade)
+  for (; s * system.mean() >= least_amount; s /= ten_a_decade)
     if (system.noise(s) <= noise) return s;
   return 0;
 }

@@ -56,8 +56,7 @@ class EaseSystem {
   void probe_eigenvalues();
   Quadrature lanczos(const Eigen::VectorXd& from) const;
   // (shift + 1 + s^2 G'G)^-1 wanted, from `start`.
-  Columns solve(double s, double shift, const Columns& wanted, const Columns& start,
-                double tolerance) const;
+  Columns solve(double s, double shift, const Columns& wanted, const Columns& start) const;
 
   LoadMatrix g_, transposed_;
   Columns loads_, pulls_;     // G'g

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strain/worst.h"
 
+#include "base/rounding.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -8,9 +9,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Of its own load: what an unknown must keep of it beside those picked before, to be told from them.
-constexpr double least_pivot = 1e-9;
 
 // Rows and columns that have been picked, and the inverse of the matrix between them, which is
 // bordered by one more each time.
@@ -30,7 +28,8 @@ class Picked {
     const MatrixXd before = inverse_.topLeftCorner(k, k);
     const VectorXd by_column = before * above, by_row = before.transpose() * beside;
     const double own = g_.coeff(row, row), pivot = own - beside.dot(by_column);
-    if (!(std::abs(pivot) > least_pivot * std::abs(own))) return false;
+    // nothing of its own load is left beside those picked before
+    if (!(std::abs(pivot) > rounding * std::abs(own))) return false;
     if (inverse_.rows() == k) inverse_.conservativeResize(2 * k + 1, 2 * k + 1);
     inverse_.topLeftCorner(k, k) = before + by_column * by_row.transpose() / pivot;
     inverse_.block(0, k, k, 1) = -by_column / pivot;

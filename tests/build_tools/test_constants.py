@@ -34,6 +34,7 @@ FACTS = """
     ahead behind here midpoint_share centre_share half middle turn
     degree full_turn root_half half_root_half tangent_of_eighth ten_a_decade
     undetermined_square thinnest_ring_square
+    too_long too_short of_median in_a_row always_sharp largest_mesh
     avx both_halves system_saves most one_call one_end one_first page megabyte
     vector_bytes float_vector_bytes index_bytes
     boundary_modes angles_an_edge corner_of directions order triangle

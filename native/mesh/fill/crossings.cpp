@@ -6,16 +6,11 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/rounding.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-// Side of a cell, in mean extents of the triangles in question; and how many along an axis at most.
-constexpr double cell_size = 2.0, most_cells = 64.0;
-
-// Barycentric, and a share of the segment: what is closer to a side than that only touches.
-constexpr double touching = 1e-9;
 
 using Box = Eigen::AlignedBox3d;
 
@@ -23,13 +18,15 @@ class Cells {
  public:
   Cells(std::span<const Vec3> points, std::span<const Triangle> triangles, std::size_t first)
       : points_(points), triangles_(triangles), first_(first) {
+    const auto count = double(triangles.size() - first);
     double extent = 0;
     for (std::size_t t = first; t < triangles.size(); ++t) {
       const Box box = box_of(t);
       whole_.extend(box);
-      extent += box.sizes().maxCoeff() / double(triangles.size() - first);
+      extent += box.sizes().maxCoeff() / count;
     }
-    size_ = std::max(cell_size * extent, whole_.sizes().maxCoeff() / most_cells);
+    // no more cells than triangles, or a large one would fill too many
+    size_ = std::max(2 * extent, whole_.sizes().maxCoeff() / std::cbrt(count));
     if (size_ > 0)
       for (std::size_t t = first; t < triangles.size(); ++t)
         each_cell(box_of(t), [&](std::int64_t cell) { inside_[cell].push_back(t); });
@@ -96,18 +93,19 @@ class Cells {
     return false;
   }
 
-  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997].
+  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997]. What is no
+  // more than rounding away from a side, barycentric, or from an end of the segment only touches.
   bool passes(const Vec3& from, const Vec3& to, std::size_t t) const {
     const Vec3 direction = to - from, u = corner(t, 1) - corner(t, 0),
                v = corner(t, 2) - corner(t, 0);
     const Vec3 across = direction.cross(v);
     const double determinant = u.dot(across);
-    if (std::abs(determinant) <= touching * u.norm() * v.norm() * direction.norm()) return false;
+    if (std::abs(determinant) <= rounding * u.norm() * v.norm() * direction.norm()) return false;
     const Vec3 offset = from - corner(t, 0), turned = offset.cross(u);
     const double first = offset.dot(across) / determinant,
                  second = direction.dot(turned) / determinant;
     const double along = v.dot(turned) / determinant;
-    return std::min({first, second, 1 - first - second, along, 1 - along}) > touching;
+    return std::min({first, second, 1 - first - second, along, 1 - along}) > rounding;
   }
 
   std::span<const Vec3> points_;

@@ -6,12 +6,11 @@
 #include <queue>
 
 #include "base/points.h"
+#include "mesh/sharp_turn.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-constexpr double smooth = 0.5;  // cosine of 60 degrees
 
 class Ears {
  public:
@@ -79,7 +78,7 @@ class Ears {
     const std::size_t a = before_[i], b = after_[i];
     const Vec3 ear = normal(i), leaving = side(i, a), arriving = side(i, b);
     for (const Vec3& behind : {normals_[a], normals_[i]})
-      if (!behind.isZero() && ear.dot(behind) < smooth) return;
+      if (!behind.isZero() && ear.dot(behind) < sharp_turn) return;
     if (ear.isZero() || !polygon_.may_join(std::min(a, b), std::max(a, b))) return;
     open_.push({leaving.dot(arriving) / (leaving.norm() * arriving.norm()), i, change});
   }

@@ -13,9 +13,6 @@
 namespace fairing {
 namespace {
 
-// How often a triangulation is looked for anew, without an edge that it had twice.
-constexpr int most_tries = 50;
-
 // Sweeps by which the wanted lengths even out along a ragged rim.
 constexpr int length_sweeps = 2;
 
@@ -53,8 +50,9 @@ class OneHole {
 
   void triangulate_into(Patch& patch) {
     walk_all(patch.points);
+    // again and again without the edges that were there twice, at most once a corner
     std::set<std::pair<std::size_t, std::size_t>> forbidden;
-    for (int tries = 0; tries < most_tries; ++tries) {
+    for (std::size_t tries = 0; tries < walk_.size(); ++tries) {
       const std::vector<Triangle> found = triangulate(polygon(patch.points, forbidden));
       if (found.empty()) break;
       if (!forbid_twins(found, forbidden)) {

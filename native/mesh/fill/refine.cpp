@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "base/points.h"
+#include "base/rounding.h"
+#include "mesh/sharp_turn.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -18,7 +20,8 @@ using Half = OpenMesh::HalfedgeHandle;
 using EdgeHandle = OpenMesh::EdgeHandle;
 using VertexHandle = OpenMesh::VertexHandle;
 
-// An edge is split, or collapsed, where that brings its length nearer to the one wanted.
+// An edge is split, or collapsed, where that brings its length nearer to the one wanted: halves of
+// 4/3 are as far from 1 as it is, and so are edges of 4/5 that become half as long again.
 constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
 
 // Rounds of splits, and sweeps of relaxation in each: angles change no more after some ten, of
@@ -27,14 +30,8 @@ constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
 constexpr std::size_t largest_filling = 100'000'000;  // as the message has it
 
-// Passes of flips, each over what the last one has changed, and what a flip gains at least, as a cosine:
-// rounding must not go round in circles.
-constexpr int most_passes = 50;
-constexpr double least_improvement = 1e-9;
-
-// Cosine of the sharpest turn at an edge that a flip or a step may make; where some are sharper already,
-// their sum must not grow. Up to `even` around a vertex, the triangles behind its own need not be asked.
-constexpr double sharpest = 0.5, even = 0.9;
+// The cosine up to which a ring is so flat that the triangles behind its own need not be asked.
+constexpr double even = 0.9;
 
 class Refinement {
  public:
@@ -161,9 +158,9 @@ class Refinement {
       if (2 * length > too_long * (wanted(other) + wanted(kept))) return false;
       if (other != kept && next != kept) {
         const Vec3 before = area(removed, other, next), after = area(kept, other, next);
-        if (before.dot(after) <= sharpest * before.norm() * after.norm()) return false;
+        if (before.dot(after) <= sharp_turn * before.norm() * after.norm()) return false;
         const Half far = mesh_.next_halfedge_handle(spoke);
-        if (turn(far, unit_or_zero(after)) < std::min(turn(far, unit_or_zero(before)), sharpest))
+        if (turn(far, unit_or_zero(after)) < std::min(turn(far, unit_or_zero(before)), sharp_turn))
           return false;
       }
       spoke = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(spoke));
@@ -175,7 +172,7 @@ class Refinement {
   void flip_all() {
     std::vector<int> open(mesh_.n_edges());
     for (std::size_t e = 0; e < open.size(); ++e) open[e] = int(e);
-    for (int pass = 0; pass < most_passes && !open.empty(); ++pass) {
+    while (!open.empty()) {  // each flip makes the worst of two angles larger, so it ends
       std::vector<int> next;
       for (std::size_t i = 0; i < open.size(); ++i) {
         stop_if_cancelled(i);
@@ -201,7 +198,7 @@ class Refinement {
     if (on_rim(c) && on_rim(d) && joined_(c.idx(), d.idx())) return false;
     const double now = std::max(badness(a, b, c), badness(b, a, d));
     const double then = std::max(badness(c, d, b), badness(d, c, a));
-    if (then >= now - least_improvement) return false;
+    if (then >= now - rounding) return false;
     // the sides b-c and a-d, c-a and d-b keep what is behind them
     const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
     const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);
@@ -217,8 +214,9 @@ class Refinement {
     return after <= before;
   }
 
-  // Of a turn with this cosine, beyond what is allowed.
-  static double sharpness(double cosine) { return std::max(0.0, sharpest - cosine); }
+  // Of a turn with this cosine, beyond what a flip or a step may make; where some are sharper already,
+  // their sum must not grow.
+  static double sharpness(double cosine) { return std::max(0.0, sharp_turn - cosine); }
 
   // The cosine between a triangle's normal and the one behind its side h; 1 where nothing is there.
   double turn(Half h, const Vec3& normal) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rounding.h"
 #include "mesh/fill/ears.h"
 #include "parallel/cancel.h"
 
@@ -16,9 +17,6 @@ namespace {
 // too long even then, it is looked at through a window of so many corners, which doubles its stride
 // whenever it is full: 5,000 corners in 7 s.
 constexpr std::size_t longest_whole = 400, window_size = 128;
-
-// Cosines that differ by less are one: the rounding of flat holes must not decide.
-constexpr double same_cosine = 1e-6;
 
 struct Best {
   double folding = std::numeric_limits<double>::infinity();  // sum over folds, of their cosines
@@ -135,10 +133,11 @@ class Search {
       best = {folding, cosine, area, Index(j), normal};
   }
 
-  // The cosine between two normals. A triangle without area has none, and is the worst.
+  // The cosine between two normals, in steps: the rounding of flat holes must not decide. A triangle
+  // without area has none, and is the worst.
   static double turn(const Vec3& normal, const Vec3& other) {
     if (other.isZero()) return 1;
-    return normal.isZero() ? -1 : std::round(normal.dot(other) / same_cosine) * same_cosine;
+    return normal.isZero() ? -1 : std::round(normal.dot(other) / single_rounding) * single_rounding;
   }
 
   std::vector<Triangle> triangles() {

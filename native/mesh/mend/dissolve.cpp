@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/points.h"
+#include "base/rounding.h"
 #include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
 #include "mesh/mend/flat_stack.h"
@@ -106,6 +107,7 @@ class Dissolver {
                               : new_origin_[std::size_t(f - loops_.count())];
   }
 
+  // As far as that can be said of a convex polygon without area, which is no wider.
   bool on_a_line(const Loop& loop) const {
     if (loop.size() == 3) return true;
     const auto farthest_from = [&](const Vec3& p) {
@@ -117,7 +119,7 @@ class Dissolver {
     };
     const Vec3 begin = farthest_from(point(loop[0].vertex)), along = farthest_from(begin) - begin;
     return std::all_of(loop.begin(), loop.end(), [&](const MendCorner& corner) {
-      return along.cross(point(corner.vertex) - begin).norm() <= least_extent * along.squaredNorm();
+      return along.cross(point(corner.vertex) - begin).norm() <= 2 * rounding * along.squaredNorm();
     });
   }
 

@@ -9,35 +9,6 @@
 namespace fairing {
 namespace {
 
-// Of so many corners a walk is searched one by one, of more by a table.
-constexpr std::size_t short_walk = 16;
-
-// The place of every vertex on the open end of a walk.
-class Places {
- public:
-  explicit Places(std::size_t size) : by_table_(size > short_walk) {}
-
-  std::ptrdiff_t find(const Loop& open, Index vertex) const {
-    if (by_table_) {
-      const auto at = table_.find(vertex);
-      return at == table_.end() ? -1 : at->second;
-    }
-    for (std::size_t i = 0; i < open.size(); ++i)
-      if (open[i].vertex == vertex) return std::ptrdiff_t(i);
-    return -1;
-  }
-  void add(Index vertex, std::size_t place) {
-    if (by_table_) table_[vertex] = std::ptrdiff_t(place);
-  }
-  void remove(Index vertex) {
-    if (by_table_) table_.erase(vertex);
-  }
-
- private:
-  bool by_table_;
-  std::unordered_map<Index, std::ptrdiff_t> table_;
-};
-
 // Whether more than one vertex comes again, doubled corners aside: then it matters where a walk begins
 // to be cut.
 bool is_ambiguous(std::span<const MendCorner> walk) {
@@ -76,22 +47,21 @@ std::size_t least_rotation(std::span<const MendCorner> walk) {
 std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
   std::vector<Loop> found;
   Loop open;
-  Places places(walk.size());
   const auto keep = [&](Loop&& loop) {
     if (loop.size() >= 3) found.push_back(std::move(loop));
   };
   const std::size_t first = is_ambiguous(walk) ? least_rotation(walk) : 0;
+  std::unordered_map<Index, std::size_t> places;  // on the open end
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const MendCorner& corner = walk[(first + i) % walk.size()];
-    const std::ptrdiff_t before = places.find(open, corner.vertex);
-    if (before < 0) {
-      places.add(corner.vertex, open.size());
+    const auto [at, is_new] = places.try_emplace(corner.vertex, open.size());
+    if (is_new) {
       open.push_back(corner);
       continue;
     }
-    Loop loop(open.begin() + before, open.end());
-    for (std::size_t k = 1; k < loop.size(); ++k) places.remove(loop[k].vertex);
-    open.resize(std::size_t(before) + 1);
+    Loop loop(open.begin() + std::ptrdiff_t(at->second), open.end());
+    for (std::size_t k = 1; k < loop.size(); ++k) places.erase(loop[k].vertex);
+    open.resize(at->second + 1);
     keep(std::move(loop));
   }
   keep(std::move(open));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/points.h"
+#include "base/rounding.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -90,7 +91,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Groups& merges)
   for (std::size_t i = 0; i < face.size(); ++i) longest = std::max(longest, side(i));
   bool any = false;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    if (!(side(i) <= least_extent * longest)) continue;
+    if (!(side(i) <= rounding * longest)) continue;
     merges.unite(Index(face[i]), Index(face[(i + 1) % face.size()]));
     any = true;
   }

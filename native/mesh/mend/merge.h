@@ -7,10 +7,6 @@
 
 namespace fairing {
 
-// In a face without area, of its longest side: a shorter side has no length, and a polygon that is no
-// wider is a line.
-constexpr double least_extent = 1e-9;
-
 // Unites vertices of faces no farther apart than `distance`: each, by its id, with the lowest that
 // is kept and near enough. So none moves farther than that. Returns whether there are such.
 bool weld(const PolygonMesh& mesh, double distance, Groups& merges);

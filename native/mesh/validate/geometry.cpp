@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "base/points.h"
+#include "base/rounding.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -11,8 +12,6 @@ namespace fairing {
 namespace {
 
 using Ids = std::vector<std::int64_t>;
-
-constexpr double least_area = 1e-12;  // of the longest side squared
 
 std::uint64_t hash(const double* point) {
   std::uint64_t h = 0;
@@ -57,7 +56,7 @@ bool has_no_area(std::span<const double> coordinates, std::span<const std::int64
     longest = std::max(longest, (here - last).squaredNorm());
     last = here;
   }
-  return !(twice_area.norm() > 2 * least_area * longest);  // so written, NaN counts as none
+  return !(twice_area.norm() > 2 * rounding * longest);  // so written, NaN counts as none
 }
 
 void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "base/types.h"
+
+namespace fairing {
+
+// From 0 to pi, of vectors of any length; 0 with a zero vector.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace fairing
