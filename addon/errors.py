@@ -141,46 +141,43 @@ def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Itera
         ) from error
 
 
-# What the core says of a surface that is usable but not exact, by a piece of its sentence: what to do, what is so.
-_UNFINISHED = (
-    (
-        "the tolerance is kept",
+# Of a surface that is usable but not exact, by the core's code: what to do, what is so.
+_UNFINISHED = {
+    "NOT_CONVERGED": (
+        "Use fewer levels, or set Fairness to Bending, for an exact answer",
+        "The surface is good to use, but could still be a little calmer",
+    ),
+    "NOT_CONVERGED_TOLERANCE": (
         "Lower the tolerance for an exact answer",
         "The tolerance is kept, but the surface could still be a little calmer",
     ),
-    (
-        "turned over at a fixed normal",
+    "NOT_CONVERGED_TURNED_OVER": (
         "Turn the fixed normals towards the faces around them, or free them",
         "At one of them the surface has turned over",
     ),
-    (
-        "fixed normals have not settled",
+    "NOT_CONVERGED_NORMALS": (
         "Fix fewer normals, or turn them towards the faces around",
         "The surface does not have all of them exactly",
     ),
-    (
-        "have not settled",
+    "NOT_CONVERGED_PADS": (
         "Lower Hold Softly for an exact answer",
         "The surface is good to use, but could still be a little calmer around its vertices",
     ),
-    (
-        "made the surface worse",
+    "NOT_CONVERGED_START": (
         "Use fewer levels, or set Fairness to Bending",
         "No fairer surface was found than the one to begin with, which you have now",
     ),
-)
-_UNFINISHED_ELSE = (
-    "Use fewer levels, or set Fairness to Bending, for an exact answer",
-    "The surface is good to use, but could still be a little calmer",
-)
+}
+
+
+def is_unfinished(warning: Mapping[str, Any]) -> bool:
+    """Whether one of the core's warnings says that the surface is not exact."""
+    return warning["code"] in _UNFINISHED
 
 
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     """One of the core's warnings, in words for the user."""
-    message = warning["message"]
-    if warning["code"] != "NOT_CONVERGED":
-        return f"{object_name}: {message}"
-    told = next((told for piece, *told in _UNFINISHED if piece in message), _UNFINISHED_ELSE)
+    told = _UNFINISHED.get(warning["code"], (warning["message"],))
     return f"{object_name}: {' '.join(map(_sentence, told))}"
 
 

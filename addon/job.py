@@ -242,7 +242,7 @@ def run_warnings(
         for warning in report["warnings"]
         if warning["code"] != "MEMORY_EXCEEDED" or report["peak_bytes"] >= NOTICED_MEMORY
     ]
-    told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
+    told = any(map(errors.is_unfinished, report["warnings"]))
     if not told and not core.has_converged(report):
         face, ratio = measures.thinnest_face(control)
         face = face if ids is None else int(ids[face])

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include "fairing/fixed_normals.h"
 #include "hold/control_hold.h"
@@ -29,57 +30,63 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
 namespace {
 
 template <class... Parts>
-std::string sentence(const char* format, Parts... parts) {
+Warning warning(const char* code, const char* format, Parts... parts) {
   char text[300];
   std::snprintf(text, sizeof text, format, parts...);
-  return text;
+  return {code, text, {}, ElementKind::mesh};
 }
 
-std::string of_tolerance(int level, double gap) {
-  return sentence(
+Warning of_tolerance(int level, double gap) {
+  return warning(
+      "NOT_CONVERGED_TOLERANCE",
       "On level %d the tolerance is kept, but the energy may be %.1e above the least one, "
-      "relative. "
-      "The surface is usable; a smaller tolerance settles sooner.",
+      "relative. The surface is usable; a smaller tolerance settles sooner.",
       level, gap);
 }
 
-std::string of_plate(const LevelReport& level, const FairOptions& options) {
+Warning of_plate(const LevelReport& level, const FairOptions& options) {
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
   if (level.normal_angle > std::numbers::pi / 2)
-    return sentence(
+    return warning(
+        "NOT_CONVERGED_TURNED_OVER",
         "On level %d the surface has turned over at a fixed normal: it looks to the other side, up "
         "to %.3g degrees away. Turn that normal towards the faces around it, or free it.",
         level.level, level.normal_angle / degree);
   if (level.normal_angle > largest_angle_left)
-    return sentence(
+    return warning(
+        "NOT_CONVERGED_NORMALS",
         "On level %d fixed normals have not settled after %d corrections: up to %.2g degrees are "
         "left. The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
         level.level, level.pad_corrections, level.normal_angle / degree);
   if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
-    return sentence(
+    return warning(
+        "NOT_CONVERGED_PADS",
         "On level %d the loads on pads have not settled after %d corrections: %.1e of them is "
-        "still "
-        "changing. The surface is usable; a smaller pad_size settles sooner.",
+        "still changing. The surface is usable; a smaller pad_size settles sooner.",
         level.level, level.pad_corrections, level.pad_force);
-  return sentence(
+  return warning(
+      "NOT_CONVERGED",
       "On level %d the solver stopped after %d iterations at a relative residual of %.1e (target: "
       "%.1e). The surface is usable.",
       level.level, level.iterations, level.residual, options.relative_residual);
 }
 
-std::string of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
+Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
   if (level.kept_start)
-    return sentence(
+    return warning(
+        "NOT_CONVERGED_START",
         "On level %d the steps made the surface worse, so it was left as they found it. Use fewer "
         "levels or the thin plate.",
         level.level);
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
   if (!std::isfinite(level.left))
-    return sentence(
+    return warning(
+        "NOT_CONVERGED",
         "On level %d no step made the surface any fairer, and nobody knows how much is left to "
         "move. Use fewer levels or the thin plate.",
         level.level);
-  return sentence(
+  return warning(
+      "NOT_CONVERGED",
       "On level %d the steps stopped, %zu of at most %d, with some %.1e of the mesh's size left to "
       "move (target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
       level.level, level.steps.size(), options.max_steps, level.left,
@@ -91,9 +98,10 @@ std::string of_steps(const CurvatureLevelReport& level, const FairOptions& optio
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report) {
   if (surface.converged()) return;
-  const std::string text = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
-                                                     : of_steps(surface.curvature.back(), options);
-  report.warnings.push_back({"NOT_CONVERGED", of + text, {}, ElementKind::mesh});
+  Warning told = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
+                                           : of_steps(surface.curvature.back(), options);
+  told.message = of + told.message;
+  report.warnings.push_back(std::move(told));
 }
 
 }  // namespace fairing

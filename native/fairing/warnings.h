@@ -17,7 +17,8 @@ void expect_memory(const Report& report);
 void warn_of_memory(const MemoryLedger& ledger, Report& report);
 
 // Adds a warning to `report` when a surface has not converged (Report::converged()), with its level,
-// what is left and what to do; `of` begins it. `surface` may be the same report.
+// what is left and what to do; `of` begins it. Its code, which begins with NOT_CONVERGED, says why.
+// `surface` may be the same report.
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report);
 

@@ -125,6 +125,24 @@ def test_every_refusal_of_the_core_begins_with_what_to_do():
             assert begins_with_an_order(remedies[code]), (code, remedies[code])
 
 
+def test_every_cause_of_an_unfinished_surface_has_words():
+    """In Blender and in the reference, by its code."""
+    source = (ADDON.parent / "native" / "fairing" / "warnings.cpp").read_text("utf-8")
+    page = (ADDON.parent / "docs" / "reference" / "errors.md").read_text("utf-8")
+    causes = set(re.findall(r'"(NOT_CONVERGED\w*)"', source))
+    assert len(causes) == 6
+    told = {}
+    for code in causes:
+        warning = {"code": code, "message": "What the core says."}
+        assert errors.is_unfinished(warning) and f"| `{code}` | none |" in page
+        told[code] = errors.warning_text("Box", warning)
+        assert begins_with_an_order(told[code].removeprefix("Box: ")), told[code]
+    assert len(set(told.values())) == 6
+    other = {"code": "ISOLATED_VERTICES", "message": "1 vertex (3) belongs to no face."}
+    assert not errors.is_unfinished(other)
+    assert errors.warning_text("Box", other) == "Box: 1 vertex (3) belongs to no face."
+
+
 def test_what_to_do_stands_before_what_is_wrong():
     class Refusal(Exception):
         code = "UNDERDETERMINED"

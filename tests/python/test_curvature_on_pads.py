@@ -42,7 +42,7 @@ def test_smooth_meshes_settle_with_hardly_more_energy(name):
 def test_crumpled_meshes_settle_too(seed):
     mesh = meshes.rough_ball(seed, 1)
     needles, pads = (fair(mesh, levels=2, pad_size=s) for s in (0, 0.5))
-    told = any(warning["code"] == "NOT_CONVERGED" for warning in pads.report["warnings"])
+    told = any(warning["code"].startswith("NOT_CONVERGED") for warning in pads.report["warnings"])
     assert comes_near(pads.report["curvature"][-1]) or told
     own = [result.report["curvature"][-1]["energy"] for result in (pads, needles)]
     assert own[0] <= 1.1 * own[1]

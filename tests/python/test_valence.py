@@ -58,7 +58,7 @@ def test_steps_end_where_rounding_begins():
     report = df.fair(*disc(4000), 2, energy="total_curvature", measure=False).report
     coarse, fine = report["curvature"]
     assert coarse["converged"] and fine["energy"] < 0.01 * fine["plate_energy"]
-    told = any(warning["code"] == "NOT_CONVERGED" for warning in report["warnings"])
+    told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
     assert fine["converged"] or told
     steps = [*coarse["steps"], *fine["steps"]]
     assert all(step["iterations"] <= 3 * (1 + step["pad_corrections"]) for step in steps)
