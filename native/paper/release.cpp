@@ -9,7 +9,7 @@ namespace {
 // Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
 // first_undamped_level: they step half as far there.
 constexpr int release_rounds = 3, first_undamped_level = 2;
-constexpr double release_damping = 0.5;
+constexpr double release_damping = 0.5;     // of such a step
 constexpr double release_tolerance = 1e-8;  // of the solves, relative residual
 
 }  // namespace

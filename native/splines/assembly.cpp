@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/angle.h"
 #include "splines/patch_data.h"
 
 namespace fairing {
@@ -46,10 +47,6 @@ struct EdgeNumbers {
     return side.reversed ? std::vector<Index>{from + 1, from} : std::vector<Index>{from, from + 1};
   }
 };
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 // A patch's normal at t of an edge that is part `part` of `parts` of its curve.
 Vec3 normal_beside(const Topology& topology, const std::vector<FittedPatch>& patches,

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace fairing {
 namespace {
 
 // How far around a point normals are fitted to, in steps of the lattice.
 constexpr int reach = 3;
-constexpr int most_samples = 64;
 // Creases that meet at less than this (its sine) do not span a plane.
 constexpr double collinear = 0.17;
 // Creases that leave the fitted tangent plane by more (its sine) are not in one: the surface has a
 // kink at their vertex, as where straight boundary edges meet at a corner.
-constexpr double in_plane = 0.34;
+constexpr double off_plane = 0.34;
 
 // Lagrange's weights at x of `count` nodes from `first` on, one apart.
 std::vector<double> interpolation(double x, int first, int count) {
@@ -26,13 +27,9 @@ std::vector<double> interpolation(double x, int first, int count) {
   return weights;
 }
 
-Vec3 across(const Vec3& normal, const Vec3& tangent) {
-  return (normal - normal.dot(tangent) * tangent).normalized();
-}
-
 }  // namespace
 
-int CurveSource::samples() const { return std::min(lattice_.n(), most_samples); }
+int CurveSource::samples() const { return std::min(lattice_.n(), steps_a_span * most_spans); }
 
 std::vector<Vec3> CurveSource::edge_points(Index e) const {
   const SideUse& use = topology_.edges[std::size_t(e)].uses.front();
@@ -72,7 +69,7 @@ CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_norm
   };
   for (const std::size_t end : {0u, 1u}) out.corner[end] = narrowest_angle(e, end == 1);
   for (int k = 0; k <= n; k += stride) {
-    if ((k < tip_steps && kink(0)) || (n - k < tip_steps && kink(1)))
+    if ((k < steps_a_span && kink(0)) || (n - k < steps_a_span && kink(1)))
       out.normals.push_back(Vec3::Zero());
     else if (k > 0 && k < n)
       out.normals.push_back(edge_normal(edge, k));
@@ -92,35 +89,31 @@ void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
   for (const SideUse& use : edge.uses)
     if (use.face == f && use.side == s) back = use.reversed;
   const bool from_end = at_end != back;
-  const Vec3 tangent = curves ? (*curves)[std::size_t(e)].curve.at(from_end ? 1.0 : 0.0).tangent *
-                                    (from_end ? -1 : 1)
-                              : end_tangent(e, from_end);
+  const Vec3 tangent =
+      curves
+          ? (*curves)[std::size_t(e)].curve.at(from_end ? 1.0 : 0.0).tangent * (from_end ? -1 : 1)
+          : end_tangent(edge.uses.front().face, edge.uses.front().side, from_end);
   tangents.push_back(tangent.normalized());
 }
 
-// Away from an end of a line of the lattice: that of the cubic through its first points.
-Vec3 CurveSource::end_tangent(Index e, bool at_end) const {
-  const SideUse& use = topology_.edges[std::size_t(e)].uses.front();
+// Away from an end of a side of the lattice: that of the cubic through its first points.
+Vec3 CurveSource::end_tangent(Index f, int s, bool at_end) const {
   const auto at = [&](int k) {
-    return lattice_.position(lattice_.point(use.face, use.side, at_end ? lattice_.n() - k : k, 0));
+    return lattice_.position(lattice_.point(f, s, at_end ? lattice_.n() - k : k, 0));
   };
   return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
 }
 
 // Between an edge and the next ones around one of its ends.
 double CurveSource::narrowest_angle(Index e, bool at_end) const {
-  const Vec3 own = end_tangent(e, at_end);
+  const std::vector<SideUse>& uses = topology_.edges[std::size_t(e)].uses;
+  const Vec3 own = end_tangent(uses.front().face, uses.front().side, at_end);
   double narrowest = std::numbers::pi;
-  for (const SideUse& use : topology_.edges[std::size_t(e)].uses) {
+  for (const SideUse& use : uses) {
     const int corners = lattice_.corners(use.face);
     const bool at_next = at_end != use.reversed;
     const int s = (use.side + (at_next ? 1 : corners - 1)) % corners;
-    const int n = lattice_.n();
-    const auto at = [&](int k) {
-      return lattice_.position(lattice_.point(use.face, s, at_next ? k : n - k, 0));
-    };
-    const Vec3 other = -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
-    narrowest = std::min(narrowest, std::atan2(own.cross(other).norm(), own.dot(other)));
+    narrowest = std::min(narrowest, angle_between(own, end_tangent(use.face, s, !at_next)));
   }
   return narrowest;
 }
@@ -171,11 +164,11 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);
     const double along = both.normalized().dot(normal);
-    if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - in_plane * in_plane))
+    if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - off_plane * off_plane))
       return both.normalized() * (along < 0 ? -1.0 : 1.0);
     if (both.norm() > collinear) return Vec3::Zero();
   }
-  if (std::abs(normal.dot(tangents.front())) > in_plane) return Vec3::Zero();
+  if (std::abs(normal.dot(tangents.front())) > off_plane) return Vec3::Zero();
   return across(normal, tangents.front());
 }
 
@@ -225,7 +218,7 @@ CurveData CurveSource::inner(Index f, int s, const FittedCurve& edge) const {
   out.points.front() = middle.at;
   if (!edge.normals.empty()) out.normals.front() = normal_at(edge, 0.5);
   const Vec3 turned = across(out.normals.front(), middle.tangent.normalized());
-  if (turned.allFinite()) out.normals.front() = turned;
+  if (!turned.isZero()) out.normals.front() = turned;
   return out;
 }
 

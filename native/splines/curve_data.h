@@ -31,7 +31,7 @@ class CurveSource {
   // Away from the vertex, along the creases that bound a sector.
   std::vector<Vec3> crease_tangents(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
-  Vec3 end_tangent(Index e, bool at_end) const;
+  Vec3 end_tangent(Index f, int s, bool at_end) const;
   double narrowest_angle(Index e, bool at_end) const;
   std::vector<Vec3> edge_points(Index e) const;
   Vec3 edge_normal(const ControlEdge& edge, int k) const;

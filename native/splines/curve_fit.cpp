@@ -6,27 +6,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/points.h"
+#include "base/rounding.h"
 #include "splines/lattice.h"
 
 namespace fairing {
 namespace {
 
-// What sliding along the curve counts, what leaving the lattice's line within the surface does, and
-// what a tangent out of the surface's tangent plane does.
-constexpr double slide = 0.1, aside = 0.2, tilt = 0.03;
-// What the middle of a halved curve counts, which other curves start from.
-constexpr double middle_weight = 10;
-constexpr int refits = 3;
+// What sliding along the curve counts, what leaving the lattice's line within the surface does. A
+// tangent out of the surface's tangent plane counts their product.
+constexpr double slide = 0.1, aside = 0.2;
+constexpr int refits = 3;  // each after the points have moved to their feet
 // Curvature has a pole at control vertices, where most energies hold the surface: spans that are
 // shorter towards both ends, by this share, follow it.
 constexpr double end_share = 0.35;
-constexpr int least_graded = 4;
-// A tangent has at least this cosine with the line of the points nearby, within the surface.
-constexpr double least_along = 0.7;
 // Of its mean speed: no curve comes slower to a narrow corner.
 constexpr double slowest = 0.3;
-// A curve that is this close at even parameters is the lattice's own, as along creases.
-constexpr double exact = 1e-9;
 
 double length_of(const std::vector<Vec3>& points) {
   double length = 0;
@@ -82,7 +77,7 @@ class CurveSystem {
       const CubicBasis b = cubic_basis(spans_, t[at]);
       Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
       if (data_.is_middle(at))
-        weight *= middle_weight;
+        weight /= slide;  // other curves start from it
       else if (!along.empty())
         weight =
             off_surface(data_, at) * (weight - (1 - slide) * along[at] * along[at].transpose());
@@ -91,7 +86,7 @@ class CurveSystem {
         rows.block<3, 3>(height * k, column) = b.value[std::size_t(i)] * weight;
         if (tilted)
           rows.block<1, 3>(height * k + 3, column) =
-              tilt * b.slope[std::size_t(i)] * data_.normals[at].transpose();
+              slide * aside * b.slope[std::size_t(i)] * data_.normals[at].transpose();
       }
       target.segment<3>(height * k) = weight * data_.points[at];
     }
@@ -122,7 +117,7 @@ double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
     const double next = std::clamp(t + c.tangent.dot(p - c.at) / square, 0.0, 1.0);
     const double change = std::abs(next - t);
     t = next;
-    if (change < 1e-10) break;
+    if (change < single_rounding) break;
   }
   return t;
 }
@@ -159,10 +154,9 @@ std::vector<double> length_parameters(const CurveData& data) {
 double graded(double share) {
   constexpr double turn = 2 * std::numbers::pi;
   double t = share;
-  for (int step = 0; step < 30; ++step) {
+  for (int step = 0; step < 6; ++step) {  // Newton's method, to rounding
     const double off = t - (1 - end_share) / turn * std::sin(turn * t) - share;
     t = std::clamp(t - off / (1 - (1 - end_share) * std::cos(turn * t)), 0.0, 1.0);
-    if (std::abs(off) < 1e-14) break;
   }
   return t;
 }
@@ -176,26 +170,23 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   return out;
 }
 
-// Whether the curve, which is near the points at t, runs along them. Points that slide may draw its
-// end beyond its last point: there it turns back, and patches beside it fold. So they do in corners
-// of less than 45° where it almost stops.
+// Whether the curve, which is near the points at t, runs along them rather than across, and nowhere
+// turns back. Points that slide may draw its end beyond its last point: there it turns back, and
+// patches beside it fold. So they do in corners of less than 45° where it almost stops.
 bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
   const std::size_t last = data.points.size() - 1;
+  Vec3 before = curve.at(0).tangent;
   for (std::size_t k = 0; k <= last; ++k) {
     Vec3 line = data.points[std::min(k + 1, last)] - data.points[k ? k - 1 : 0];
     if (!data.normals.empty()) line -= line.dot(data.normals[k]) * data.normals[k];
     const Vec3 tangent = curve.at(t[k]).tangent;
-    if (tangent.dot(line) < least_along * tangent.norm() * line.norm()) return false;
+    if (tangent.dot(line) < tangent.cross(line).norm() || tangent.dot(before) < 0) return false;
+    before = tangent;
   }
   const double mean = length_of(data.points);
   for (const std::size_t end : {0u, 1u})
     if (data.corner[end] < std::numbers::pi / 4 &&
         curve.at(double(end)).tangent.norm() < slowest * mean)
-      return false;
-  constexpr int samples_a_span = 8;
-  const int count = samples_a_span * curve.spans;
-  for (int k = 0; k < count; ++k)
-    if (curve.at(double(k) / count).tangent.dot(curve.at(double(k + 1) / count).tangent) < 0)
       return false;
   return true;
 }
@@ -227,14 +218,19 @@ FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool
 FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
-  if (even.error <= exact * length_of(data.points)) return even;
+  // the lattice's own, as along creases
+  if (even.error <= rounding * length_of(data.points)) return even;
   FittedCurve plain = fit_by_length(data, system, false);
-  if (spans < least_graded || plain.error <= tolerance) return plain;
+  if (plain.error <= tolerance) return plain;
   FittedCurve to_ends = fit_by_length(data, system, true);
   return to_ends.error < plain.error ? to_ends : plain;
 }
 
 }  // namespace
+
+Vec3 across(const Vec3& normal, const Vec3& tangent) {
+  return unit_or_zero(normal - normal.dot(tangent) * tangent);
+}
 
 Vec3 normal_at(const FittedCurve& curve, double t) {
   const auto after = std::upper_bound(curve.parameters.begin() + 1, curve.parameters.end() - 1, t);
@@ -243,7 +239,7 @@ Vec3 normal_at(const FittedCurve& curve, double t) {
   const double share = width > 0 ? (t - from) / width : 0.0;
   const Vec3 normal = (1 - share) * curve.normals[k - 1] + share * curve.normals[k];
   const Vec3 tangent = curve.curve.at(t).tangent.normalized();
-  return (normal - normal.dot(tangent) * tangent).normalized();
+  return across(normal, tangent);
 }
 
 FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
@@ -255,8 +251,8 @@ FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
   }
   for (std::size_t k = 0; k < best.normals.size(); ++k) {
     const Vec3 tangent = best.curve.at(best.parameters[k]).tangent.normalized();
-    const Vec3 across = best.normals[k] - best.normals[k].dot(tangent) * tangent;
-    if (across.norm() > 0) best.normals[k] = across.normalized();
+    if (const Vec3 turned = across(best.normals[k], tangent); !turned.isZero())
+      best.normals[k] = turned;
   }
   return best;
 }

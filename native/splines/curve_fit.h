@@ -28,6 +28,9 @@ struct FittedCurve {
   double error = 0;  // the farthest that a point is from the curve, across the surface mostly
 };
 
+// The part of a normal that stands on a unit tangent, of length one; zero where there is none.
+Vec3 across(const Vec3& normal, const Vec3& tangent);
+
 // Between those of the data; of smooth curves only.
 Vec3 normal_at(const FittedCurve& curve, double t);
 

@@ -13,24 +13,6 @@
 namespace fairing {
 namespace {
 
-// At least four steps of the lattice a span; more spans than these cost more than they gain.
-constexpr int steps_a_span = 4, most_spans = 16;
-// Where neighbours lean, their normals vary faster beside a vertex than four steps tell.
-constexpr int steps_at_edges = 2;
-// A patch that leans less at an edge is not taken where inside it turns by more, radians.
-constexpr double turned_inside = 0.17;
-// Curves and patches take these shares of the tolerance: the refined surface has one, too.
-constexpr double curve_share = 0.45, patch_share = 0.45;
-// A curve's share where patches lean by more than that share of the angle's tolerance.
-constexpr double sharper_share = 0.1, sharp_share = 0.6;
-constexpr int angle_rounds = 6;
-// Spans along an edge serve where they bring its patch to this share of what it misses.
-constexpr double serving = 0.7;
-// A lattice that turns by more (radians) between two cells folds itself: so may its patches.
-constexpr double hopeless = 0.8;
-// Directions whose bending differs by more get spans one after the other.
-constexpr double one_sided = 4;
-
 class Fitting {
  public:
   Fitting(const RefinedSurface& surface, const SplineOptions& options, Monitor& monitor)
@@ -51,15 +33,14 @@ class Fitting {
     topology_.kinks = CurveSource(lattice_, topology_).kinks(options_.normal_tolerance);
     out.lattice_turn = lattice_turns(lattice_, topology_, tolerance(), workers_);
     turns_ = out.lattice_turn;
-    monitor_.report(Phase::patches, 0.05);
+    monitor_.report(Phase::patches, 0.125);
     fit_curves(std::vector<std::uint8_t>(curves_.size(), 1));
-    monitor_.report(Phase::patches, 0.3);
+    monitor_.report(Phase::patches, 0.25);
     fit_patches();
-    monitor_.report(Phase::patches, 0.6);
+    monitor_.report(Phase::patches, 0.625);
     unfold();
-    monitor_.report(Phase::patches, 0.7);
-    refine_at_edges(0.7);
-    if (sharpen()) refine_at_edges(0.85);
+    refine_at_edges(0.75);
+    if (sharpen()) refine_at_edges(0.875);
     out.angles = edge_angles(topology_, fitted_, curves_, workers_);
     assemble(lattice_, topology_, curves_, fitted_, out);
     monitor_.report(Phase::done, 1);
@@ -68,19 +49,18 @@ class Fitting {
 
  private:
   double tolerance() const { return options_.tolerance * lattice_.size(); }
-  // A curve that is off leans as well, and patches cannot mend that either.
+  // The refined surface has the other half. A curve that is off leans as well, and patches cannot mend
+  // that either: it counts more where they lean.
   double curve_tolerance(std::size_t c) const {
-    constexpr double a_radian = 0.125;
-    return (sharper_[c] ? sharper_share : curve_share) * lattice_.size() *
-           std::min(options_.tolerance, a_radian * options_.normal_tolerance);
+    return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
+           (sharper_[c] ? 8 : 2);
   }
-  int most_on(bool part) const {
-    return std::clamp(lattice_.n() / (part ? 2 * steps_a_span : steps_a_span), 1, most_spans);
+  // On all of a face's side, or on a third's; of so many steps a span.
+  int most_on(bool part, int steps = steps_a_span) const {
+    return std::clamp(lattice_.n() / (part ? 2 * steps : steps), 1, most_spans);
   }
-
-  int most_at_edges(bool part) const {
-    return std::clamp(lattice_.n() / (part ? 2 * steps_at_edges : steps_at_edges), 1, most_spans);
-  }
+  // Where neighbours lean, their normals vary faster beside a vertex than a span's steps tell.
+  int most_at_edges(bool part) const { return most_on(part, steps_a_span / 2); }
 
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
@@ -128,9 +108,9 @@ class Fitting {
     const FaceSurface surface(lattice_, topology_, place.face);
     data.surface = &surface;
     data.corner = place.corner;
-    data.tolerance = patch_share * tolerance();
+    data.tolerance = tolerance() / 2;
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
-    data.may_fold = turns_[std::size_t(place.face)] > hopeless;
+    data.may_fold = turns_[std::size_t(place.face)] > folded;
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
     const int most = std::max({most_on(place.corner >= 0), spans_u, spans_v});
@@ -138,17 +118,13 @@ class Fitting {
       choose_fitted(lattice_, place, std::max(spans_u, spans_v), data);
       const bool grows = to_tolerance && (spans_u < most || spans_v < most);
       FittedPatch next = fit_patch(data, spans_u, spans_v, !grows);
-      const bool turns_more =
-          !to_tolerance && next.turned > std::max(turned_inside, fitted_[p].turned);
-      if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !turns_more))
+      // one that leans less at an edge, and turns by more inside, swings between its samples
+      const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
+      if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !swings))
         fitted_[p] = std::move(next);
-      if (!to_tolerance || (fitted_[p].residual <= data.tolerance && !fitted_[p].folds())) return;
-      const double more = bends_more_along_u(fitted_[p].patch);
-      const bool grow_u = spans_u < most && (more > 1 / one_sided || spans_v >= most),
-                 grow_v = spans_v < most && (more < one_sided || spans_u >= most);
-      if (!grow_u && !grow_v) return;
-      spans_u *= grow_u ? 2 : 1;
-      spans_v *= grow_v ? 2 : 1;
+      if (!grows || (fitted_[p].residual <= data.tolerance && !fitted_[p].misses.folds)) return;
+      spans_u *= spans_u < most ? 2 : 1;
+      spans_v *= spans_v < most ? 2 : 1;
     }
   }
 
@@ -161,7 +137,7 @@ class Fitting {
   void unfold() {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     for (std::size_t p = 0; p < fitted_.size(); ++p)
-      if (fitted_[p].folds() && turns_[std::size_t(topology_.patches[p].face)] <= hopeless)
+      if (fitted_[p].misses.folds && turns_[std::size_t(topology_.patches[p].face)] <= folded)
         for (const PatchSide& side : topology_.patches[p].side)
           which[std::size_t(side.curve)] = strict_[std::size_t(side.curve)] = 1;
     fit_again(which);
@@ -172,7 +148,7 @@ class Fitting {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     for (std::size_t p = 0; p < fitted_.size(); ++p)
       for (std::size_t s = 0; s < 4; ++s)
-        if (fitted_[p].side_angle[s] > sharp_share * options_.normal_tolerance) {
+        if (fitted_[p].side_angle[s] > options_.normal_tolerance / 2) {
           const std::size_t c = std::size_t(topology_.patches[p].side[s].curve);
           which[c] = sharper_[c] = 1;
         }
@@ -198,13 +174,14 @@ class Fitting {
     return true;
   }
 
+  // Ends: a patch has no more than `most_spans` each way, and is tried once with each number.
   void refine_at_edges(double done) {
-    for (int round = 0; round < angle_rounds && add_spans_at_edges(); ++round)
-      monitor_.report(Phase::patches, done + 0.1 * (round + 1) / angle_rounds);
+    do monitor_.report(Phase::patches, done);
+    while (add_spans_at_edges());
   }
 
-  // More spans where neighbours meet at too sharp an angle, along their edge if that serves; false
-  // where nothing changed.
+  // More spans where neighbours meet at too sharp an angle, along their edge if that halves what
+  // they miss, or both ways; false where nothing changed.
   bool add_spans_at_edges() {
     const std::vector<Directions> wanted =
         patches_to_refine(topology_, fitted_, curves_, options_.normal_tolerance, workers_);
@@ -213,12 +190,12 @@ class Fitting {
       if (!wanted[p].any() || settled_[p]) return;
       const int most = most_at_edges(topology_.patches[p].corner >= 0);
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
-      const double before = fitted_[p].misses;
+      const Misses before = fitted_[p].misses;
       const int more_u = std::max(spans_u, std::min(most, 2 * spans_u)),
                 more_v = std::max(spans_v, std::min(most, 2 * spans_v));
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
       if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false);
-      if (fitted_[p].misses > serving * before && (u != more_u || v != more_v))
+      if (fitted_[p].misses > Misses{before.folds, before.by / 2} && (u != more_u || v != more_v))
         fit_patch_to(p, more_u, more_v, false);
       changed[p] = fitted_[p].misses < before;
       settled_[p] = !changed[p];

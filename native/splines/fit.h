@@ -11,8 +11,8 @@
 namespace fairing {
 
 struct SplineOptions {
-  double tolerance = 1e-4;         // share of the surface's size
-  double normal_tolerance = 8e-4;  // radians, between the normals on both sides of an edge
+  double tolerance;         // share of the surface's size
+  double normal_tolerance;  // radians, between the normals on both sides of an edge
   int threads = 0;
 };
 

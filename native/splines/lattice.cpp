@@ -6,12 +6,13 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/rounding.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-constexpr int most_levels = 12;
+constexpr int most_levels = 12;  // as the message has it
 
 void require_ids(std::span<const std::int32_t> ids, std::size_t points) {
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -85,7 +86,7 @@ Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
 
 Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v) {
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
-  if (!(det > 1e-12 * uu * vv)) return {0, 0};
+  if (!(det > rounding * uu * vv)) return {0, 0};
   const double ru = u.dot(rest), rv = v.dot(rest);
   return {(vv * ru - uv * rv) / det, (uu * rv - uv * ru) / det};
 }
@@ -107,7 +108,7 @@ Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Ve
       heights[Eigen::Index(k)] = arm.dot(normal);
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-7);
+    qr.setThreshold(single_rounding);
     qr.compute(rows);
     const Eigen::VectorXd fit = qr.solve(heights);
     const Vec3 next = normal - frame * fit.head<2>();

@@ -20,6 +20,10 @@ struct RefinedSurface {
   std::span<const std::int32_t> crease_edges;      // 2 control vertices an edge
 };
 
+// A span has at least so many steps of the lattice, and samples; more spans than that each way cost more
+// than they gain.
+constexpr int steps_a_span = 4, most_spans = 16;
+
 class Lattice {
  public:
   // Throws FairingError(bad_shape) for arrays that are no whole control faces or name no vertices.

@@ -13,7 +13,7 @@ NetSystem::NetSystem(const SplinePatch& known)
     : known_(known), rows_(control_points(known.spans_u)), columns_(control_points(known.spans_v)) {
   width_ = 3 * Eigen::Index(std::min(rows_, columns_) - 2);
   const Eigen::Index size = width_ * (std::max(rows_, columns_) - 2);
-  band_.setZero(size, (reach + 1) * width_);
+  band_.setZero(size, (degree + 1) * width_);
   right_ = balance_ = Eigen::VectorXd::Zero(size);
 }
 
@@ -31,7 +31,7 @@ void NetSystem::add(std::span<const NetTerm> terms, const Eigen::Matrix3d& weigh
     if (at < 0)
       rest -= term.factor * known_.net[known_.index(term.i, term.j)];
     else
-      of[count++] = {3 * at, (reach - 3 * at / width_) * width_, term.factor};
+      of[count++] = {3 * at, (degree - 3 * at / width_) * width_, term.factor};
   }
   const Vec3 load = weight * rest;
   for (std::size_t a = 0; a < count; ++a) {
@@ -71,7 +71,7 @@ void NetSystem::add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matri
       const double factor = slow.value[std::size_t(a)] * fast.value[std::size_t(m)];
       right_.segment<3>(row) += factor * load;
       for (int b = slow_from; b <= a; ++b) {
-        const Eigen::Index column = (reach + b - a) * width_ + first;
+        const Eigen::Index column = (degree + b - a) * width_ + first;
         const double both = factor * slow.value[std::size_t(b)];
         for (Eigen::Index c = 0; c < 3; ++c) {
           double* to = &band_(row + c, column);
@@ -114,7 +114,7 @@ void NetSystem::add_third_differences(double scale) {
 bool NetSystem::factor() {
   const Eigen::Index blocks = band_.rows() / width_;
   for (Eigen::Index i = 0; i < blocks; ++i) {
-    const Eigen::Index first = std::max<Eigen::Index>(0, i - reach);
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - degree);
     for (Eigen::Index k = first; k < i; ++k) {
       auto below = block(i, k);
       for (Eigen::Index m = first; m < k; ++m)
@@ -136,13 +136,13 @@ void NetSystem::substitute(Eigen::VectorXd& x) {
   const auto part = [&](Eigen::Index i) { return x.segment(i * width_, width_); };
   for (Eigen::Index i = 0; i < blocks; ++i) {
     auto own = part(i);
-    for (Eigen::Index m = std::max<Eigen::Index>(0, i - reach); m < i; ++m)
+    for (Eigen::Index m = std::max<Eigen::Index>(0, i - degree); m < i; ++m)
       own.noalias() -= block(i, m) * part(m);
     block(i, i).triangularView<Eigen::Lower>().solveInPlace(own);
   }
   for (Eigen::Index i = blocks; i-- > 0;) {
     auto own = part(i);
-    for (Eigen::Index m = i + 1; m <= std::min(blocks - 1, i + reach); ++m)
+    for (Eigen::Index m = i + 1; m <= std::min(blocks - 1, i + degree); ++m)
       own.noalias() -= block(m, i).transpose() * part(m);
     block(i, i).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }

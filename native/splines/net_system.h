@@ -42,12 +42,12 @@ class NetSystem {
   }
   // Blocks are rows of control points; each meets itself and three before it.
   auto block(Eigen::Index row, Eigen::Index column) {
-    return band_.block(row * width_, (reach + column - row) * width_, width_, width_);
+    return band_.block(row * width_, (degree + column - row) * width_, width_, width_);
   }
   bool factor();
   void substitute(Eigen::VectorXd& x);
 
-  static constexpr Eigen::Index reach = 3;
+  static constexpr Eigen::Index degree = 3;
   const SplinePatch& known_;
   int rows_, columns_;
   Eigen::Index width_;  // of a block

@@ -8,11 +8,6 @@
 namespace fairing {
 namespace {
 
-// Of those that are fitted, each way.
-constexpr int least_samples = 8;
-// Between normals along a side, in its parameter.
-constexpr double widest_gap = 1.0 / 64;
-
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
   SplineCurve out =
       side.part == Part::whole ? curve : half_of(curve, side.part == Part::second_half);
@@ -31,7 +26,7 @@ std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& 
     add(curve.parameters[k], curve.normals[k], 1);
     if (k + 1 == curve.normals.size()) break;
     const double from = curve.parameters[k], width = curve.parameters[k + 1] - from;
-    const int parts = int(std::ceil(width / widest_gap));
+    const int parts = int(std::ceil(width * steps_a_span * most_spans));  // as dense as samples
     for (int part = 1; part < parts; ++part) {
       const double at = from + width * part / parts;
       add(at, normal_at(curve, at), 1.0 / parts);
@@ -195,7 +190,7 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
 
 void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data) {
   const int n = place.corner < 0 ? lattice.n() : lattice.n() / 2;
-  const int stride = std::max(1, n / std::max(least_samples, samples_a_span * spans));
+  const int stride = std::max(1, n / (steps_a_span * std::max(2, spans)));
   std::size_t k = 0;
   for_points(lattice, place, [&](GridPoint, double, double, int i, int j) {
     data.samples[k++].fitted = i % stride == 0 && j % stride == 0;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "base/angle.h"
+#include "base/rounding.h"
 #include "splines/net_system.h"
 
 namespace fairing {
@@ -14,25 +16,20 @@ namespace {
 // What counts beside distances along the lattice's normals: a cross derivative that leaves the
 // tangent plane of a side, and third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
-// Least squares alone favour a side. As much volume lies beyond the patch as within, where that
-// moves it by less than half of its tolerance on average.
-constexpr double most_moved = 0.5;
 // Tried one after the other until one serves. `slide` is what counts that a sample slides along the
 // patch: on poor surfaces the least lets patches fold. In narrow corners all do, unless `shear`,
 // what the cells of the net being no parallelograms counts, within the patch, keeps their rows apart.
 struct Way {
   double slide, shear;
 };
-constexpr Way ways[] = {{0.01, 0}, {0.1, 0}, {1, 0}};
-constexpr Way unfolding[] = {{0.1, 0.1}, {0.1, 1}, {1, 0.3}, {1, 1}, {1, 3}};
-constexpr double fold_misses = 1e6;  // of patches that fold, at least
-// Samples move to their feet and the patch is fitted again, as long as that helps.
-constexpr int least_rounds = 2, most_rounds = 8;
+constexpr double slides[] = {0.01, 0.1, 1};  // decades
+constexpr Way ways[] = {{slides[0], 0}, {slides[1], 0}, {slides[2], 0}};
+constexpr Way unfolding[] = {
+    {slides[1], slides[1]}, {slides[1], slides[2]}, {slides[2], slides[2]}};
+// Samples move to their feet and the patch is fitted again, as long as that brings the farthest to this
+// share of where it was.
 constexpr double improving = 0.7;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+constexpr int least_rounds = 2, most_rounds = 8;  // one round less costs angles
 
 // Sides first: v = 0 and v = 1, then the rest of u = 0 and u = 1.
 SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
@@ -120,7 +117,9 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
                      n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
-  if (!system.solve(solved, most_moved * data.tolerance)) return false;
+  // Least squares alone favour a side. As much volume lies beyond the patch as within, where that
+  // moves it by less than its tolerance on average.
+  if (!system.solve(solved, data.tolerance)) return false;
   patch = std::move(solved);
   return true;
 }
@@ -134,7 +133,7 @@ void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
     const double change = std::max(std::abs(u - sample.u), std::abs(v - sample.v));
     sample.u = u;
     sample.v = v;
-    if (change < 1e-6) return;
+    if (change < single_rounding) return;
   }
 }
 
@@ -152,7 +151,7 @@ double move_to_feet(const SplinePatch& patch, PatchData& data) {
 // At the middles of each span's parts: where no sample is near, a patch may swing.
 void measure_between(const PatchData& data, FittedPatch& out) {
   const SplinePatch& patch = out.patch;
-  const int nu = samples_a_span * patch.spans_u, nv = samples_a_span * patch.spans_v;
+  const int nu = steps_a_span * patch.spans_u, nv = steps_a_span * patch.spans_v;
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j) {
       const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
@@ -182,11 +181,10 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
   return out;
 }
 
-double misses(const PatchData& data, const FittedPatch& fitted) {
-  double angle = 0;
-  for (const double side : fitted.side_angle) angle = std::max(angle, side);
-  const double miss = std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance);
-  return fitted.folds() ? fold_misses * (1 + fitted.turned) : std::min(miss, fold_misses);
+Misses misses(const PatchData& data, const FittedPatch& fitted) {
+  if (!(fitted.turned < folded)) return {true, fitted.turned};
+  const double angle = *std::max_element(fitted.side_angle.begin(), fitted.side_angle.end());
+  return {false, std::max(fitted.residual / data.tolerance, angle / data.normal_tolerance)};
 }
 
 FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) {
@@ -220,29 +218,15 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last
   FittedPatch best = fitted_by(ways[0], data, start);
   const auto try_all = [&](std::span<const Way> others, double enough) {
     for (const Way& way : others) {
-      if (best.misses <= enough) return;
+      if (best.misses <= Misses{false, enough}) return;
       FittedPatch next = fitted_by(way, data, start);
       if (next.misses < best.misses) best = std::move(next);
     }
   };
-  try_all(std::span(ways).subspan(1), last ? 1 : fold_misses);
-  if (!data.may_fold) try_all(unfolding, fold_misses);
+  constexpr double any = std::numeric_limits<double>::infinity();
+  try_all(std::span(ways).subspan(1), last ? 1 : any);
+  if (!data.may_fold) try_all(unfolding, any);
   return best;
-}
-
-double bends_more_along_u(const SplinePatch& patch) {
-  const int nu = control_points(patch.spans_u), nv = control_points(patch.spans_v);
-  double along_u = 0, along_v = 0;
-  const auto third = [&](int i, int j, int di, int dj) {
-    const auto p = [&](int k) { return patch.net[patch.index(i + k * di, j + k * dj)]; };
-    return (p(3) - 3 * p(2) + 3 * p(1) - p(0)).norm();
-  };
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nv; ++j) {
-      if (i + 3 < nu) along_u = std::max(along_u, third(i, j, 1, 0));
-      if (j + 3 < nv) along_v = std::max(along_v, third(i, j, 0, 1));
-    }
-  return along_v > 0 ? along_u / along_v : 1e9;
 }
 
 }  // namespace fairing

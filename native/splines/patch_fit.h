@@ -3,15 +3,15 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "splines/face_surface.h"
 #include "splines/spline.h"
 
 namespace fairing {
-
-// Each way: of those that are fitted, and of the parts in whose middles a patch is measured.
-constexpr int samples_a_span = 4;
 
 struct PatchSample {
   Vec3 at, normal;  // of the lattice; zero at the tip of a kink
@@ -38,6 +38,15 @@ struct PatchData {
   bool may_fold = false;  // no time is spent against it
 };
 
+// How far a patch is off: in tolerances, or where it folds, which is worse than anything else, by the
+// angle by which it does.
+struct Misses {
+  bool folds = true;
+  double by = std::numeric_limits<double>::infinity();
+
+  auto operator<=>(const Misses&) const = default;
+};
+
 struct FittedPatch {
   SplinePatch patch;
   // The farthest that a sample is from the patch, or the patch from the surface between them.
@@ -45,10 +54,11 @@ struct FittedPatch {
   // The sharpest angle between the normals of patch and lattice, sides included; radians.
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides
-  double misses = 0;  // how many times a tolerance it is off; huge where the patch folds
-
-  bool folds() const { return !(turned < 0.5); }
+  Misses misses;
 };
+
+// A patch that turns by more against the lattice, in radians, folds. So does a lattice from cell to cell.
+constexpr double folded = std::numbers::pi / 4;
 
 // The sides are refined to the patch's spans, exactly. `last`: no patch with more spans is going to
 // be tried, so that what misses a tolerance is fitted in other ways, too.
@@ -56,8 +66,5 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last
 
 // The point of a patch at t along a side.
 SurfacePoint on_side(const SplinePatch& patch, int side, double t);
-
-// How much more a patch bends from span to span along u than along v: above one, u needs spans.
-double bends_more_along_u(const SplinePatch& patch);
 
 }  // namespace fairing

@@ -2,38 +2,15 @@
 #include "splines/topology.h"
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 #include <unordered_map>
-#include <unordered_set>
 
+#include "mesh/groups.h"
+#include "mesh/vertex_pair.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-std::uint64_t pair_key(Index a, Index b) {
-  const auto [low, high] = std::minmax(a, b);
-  return std::uint64_t(std::uint32_t(low)) << 32 | std::uint32_t(high);
-}
-
-// Finds who belongs together.
-class Unions {
- public:
-  explicit Unions(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::size_t root(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) {
-    const std::size_t ra = root(a), rb = root(b);
-    parent_[std::max(ra, rb)] = std::min(ra, rb);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // The middle point of a side belongs to its control edge alone, whatever its ends are.
 void find_edges(const Lattice& lattice, Topology& out) {
@@ -60,38 +37,38 @@ void find_edges(const Lattice& lattice, Topology& out) {
 }
 
 void find_kinds(const Lattice& lattice, Topology& out) {
-  std::unordered_set<std::uint64_t> creases;
+  std::set<VertexPair> creases;
   const auto listed = lattice.surface().crease_edges;
   for (std::size_t k = 0; k + 1 < listed.size(); k += 2)
-    creases.insert(pair_key(listed[k], listed[k + 1]));
+    creases.insert(ascending(listed[k], listed[k + 1]));
   for (ControlEdge& edge : out.edges) {
     if (edge.uses.size() == 1) continue;
     const SideUse& use = edge.uses.front();
     const Index a = lattice.point(use.face, use.side, 0, 0),
                 b = lattice.point(use.face, use.side, lattice.n(), 0);
     const bool plain = edge.uses.size() == 2 && edge.uses[0].reversed != edge.uses[1].reversed;
-    edge.kind = plain && !creases.contains(pair_key(a, b)) ? EdgeKind::smooth : EdgeKind::crease;
+    edge.kind = plain && !creases.contains(ascending(a, b)) ? EdgeKind::smooth : EdgeKind::crease;
   }
 }
 
 // Corners at one vertex that smooth edges join.
 void find_sectors(const Lattice& lattice, Topology& out) {
-  const auto corner = [](Index f, int c) { return 4 * std::size_t(f) + std::size_t(c); };
-  Unions unions(4 * std::size_t(lattice.faces()));
+  const auto corner = [](Index f, int c) { return 4 * f + c; };
+  Groups groups(4 * std::size_t(lattice.faces()));
   for (const ControlEdge& edge : out.edges) {
     if (edge.kind != EdgeKind::smooth) continue;
     const SideUse &a = edge.uses[0], &b = edge.uses[1];
     const int next_a = (a.side + 1) % lattice.corners(a.face),
               next_b = (b.side + 1) % lattice.corners(b.face);
-    unions.join(corner(a.face, a.side), corner(b.face, next_b));
-    unions.join(corner(a.face, next_a), corner(b.face, b.side));
+    groups.unite(corner(a.face, a.side), corner(b.face, next_b));
+    groups.unite(corner(a.face, next_a), corner(b.face, b.side));
   }
   out.face_sectors.resize(std::size_t(lattice.faces()));
   std::vector<Index> sector_of(4 * std::size_t(lattice.faces()), -1);
   for (Index f = 0; f < lattice.faces(); ++f) {
     stop_if_cancelled(std::size_t(f));
     for (int c = 0; c < lattice.corners(f); ++c) {
-      Index& sector = sector_of[unions.root(corner(f, c))];
+      Index& sector = sector_of[std::size_t(groups.lead(corner(f, c)))];
       if (sector < 0) {
         sector = Index(out.sectors.size());
         out.sectors.emplace_back();
@@ -148,7 +125,7 @@ bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint
   const std::array<int, 4>& steps = lattice.quad(f) ? in_quad : in_triangle;
   for (int c = 0; c < lattice.corners(f); ++c) {
     const Index sector = topology.face_sectors[std::size_t(f)][std::size_t(c)];
-    if (steps[std::size_t(c)] < tip_steps && topology.kinks[std::size_t(sector)] == Kink::sharp)
+    if (steps[std::size_t(c)] < steps_a_span && topology.kinks[std::size_t(sector)] == Kink::sharp)
       return true;
   }
   return false;

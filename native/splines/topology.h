@@ -62,11 +62,8 @@ struct Topology {
   }
 };
 
-// A kink is the tip of a cone: cells next to it turn at every level. So many of them, from the tip,
-// say nothing of a surface that is smooth elsewhere; nor do patches there.
-constexpr int tip_steps = 4;
-
-// Whether a point of a control face is in such a tip, of a sharp kink.
+// Whether a point of a control face is in the tip of a sharp kink, within a span's steps. Cells next to
+// it turn at every level: they say nothing of a surface that is smooth elsewhere, nor do patches there.
 bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p);
 
 Topology make_topology(const Lattice& lattice);

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.h"
+
 namespace fairing {
 namespace {
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 struct Cell {
   Vec3 normal;

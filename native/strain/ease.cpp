@@ -36,7 +36,7 @@ constexpr double robustness = 0.8;
 constexpr double faint = 2, leeway = 1.15;
 // Of the largest bound: how far moves may be from their copies within bounds, and change, at the end.
 constexpr double bound_tolerance = 1e-3;
-constexpr int most_rounds = 200;
+constexpr int most_rounds = 200;  // of drawing together
 
 // Signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {

@@ -23,7 +23,7 @@ Held of_fit(int columns, int levels, int threads) {
   const std::int64_t before = live_bytes();
   restart_peak();
   Monitor monitor;
-  const SplineSurface fitted = fit_splines(surface.view(), {.threads = threads}, monitor);
+  const SplineSurface fitted = fit_splines(surface.view(), {1e-4, 8e-4, threads}, monitor);
   EXPECT_EQ(fitted.patches.size(), std::size_t(columns));
   return {std::int64_t(surface.vertices.size() * sizeof(double) +
                        surface.quads.size() * sizeof(std::int32_t)),
