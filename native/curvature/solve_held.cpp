@@ -16,16 +16,15 @@ namespace {
 // coarse level ends decides where points lie along the surface. Where control vertices may move, a
 // last one is to leave as much of what the first one found as a step without pads does, and gains so
 // much at the least.
-constexpr double solve_gain = 0.1, solve_gain_of_finest = 0.3, least_gain = 0.5;
+constexpr double step_solve_gain = 0.1, solve_gain_of_finest = 0.3, least_gain = 0.5;
 // A step's loads are corrected until so much of the force is left that it began with, or, below the
-// finest level, of the loads; the next step begins with other loads anyway. Likewise the
-// multipliers, by their gap.
-constexpr double force_gain = 0.3, force_gain_of_ends = 0.1, coarse_force_tolerance = 2e-2;
-constexpr double gap_gain = 0.1;
+// finest level, of the loads; the next step begins with other loads anyway. With ends, less of both it
+// and the gap.
+constexpr double force_gain = 0.3, gain_of_ends = 0.1;
 // Solves with other loads, and with other ends; more where a factor solves. Loads that do not settle
 // with their ends make steps that burst.
-constexpr int most_corrections = 6, most_cheap_corrections = 20;
-constexpr int most_rounds = 12, most_cheap_rounds = 40;
+constexpr int most_load_corrections = 6, most_cheap_corrections = 20;
+constexpr int most_turns_of_ends = 12, most_cheap_turns = 40;
 // Loads that have been corrected so often, or have settled, tell which ends are right.
 constexpr int corrections_before_ends = 2;
 
@@ -41,7 +40,7 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
 }  // namespace
 
 double GaussNewtonSystem::share_left(int level, const Functional& functional) const {
-  return functional.pads && !hold_ && level == finest() ? solve_gain_of_finest : solve_gain;
+  return functional.pads && !hold_ && level == finest() ? solve_gain_of_finest : step_solve_gain;
 }
 
 void GaussNewtonSystem::hold_by(HoldAlongNormals* hold) {
@@ -72,28 +71,27 @@ struct GaussNewtonSystem::HeldSolve {
   Array<double>& force;  // the loads' part included
   StepReport& report;
 
-  Pads* pads = about.functional.pads;
-  HoldAlongNormals* hold = system.hold_;
-  bool bounds = hold && hold->active();
-  std::size_t vertices = std::size_t(system.mesh().vertex_count());
   NormalLoads forces{};  // left at the vertices on pads
   Multipliers<1> correction{};
   double first_force = 0, first_residual = 0, first_gap = 0;
   Array<double> r = Array<double>(h.size()), product = Array<double>(h.size(), 0.0);  // of h
 
-  const double* normal(std::size_t v) const { return about.linearization.normal.data() + 3 * v; }
+  Pads* pads() const { return about.functional.pads; }     // or null
+  HoldAlongNormals* hold() const { return system.hold_; }  // or null
+  bool bounds() const { return hold() && hold()->active(); }
+  std::size_t vertices() const { return std::size_t(system.mesh().vertex_count()); }
 
   // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.
   NormalLoads fitting_loads() const {
-    NormalLoads under = pads->gather(about.linearization.force), loads;
+    NormalLoads under = pads()->gather(about.linearization.force), loads;
     for (auto& f : under) f = -f;
-    pads->divide_by_mass<1>(under, loads);
+    pads()->divide_by_mass<1>(under, loads);
     return loads;
   }
 
   void start() {
-    if (pads) {
-      pads->set_level(system.grid(level), areas_of(about.linearization.shape, system.workers()));
+    if (pads()) {
+      pads()->set_level(system.grid(level), areas_of(about.linearization.shape, system.workers()));
       if (held.loads.empty()) held.loads = fitting_loads();
     }
     forces.assign(held.loads.size(), NormalLoads::value_type::Zero());
@@ -101,18 +99,18 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   void go_to_ends() {
-    for (std::size_t v = 0; bounds && v < vertices; ++v)
-      if (hold->on_end(v)) h[v] = hold->way(v);
+    for (std::size_t v = 0; bounds() && v < vertices(); ++v)
+      if (hold()->on_end(v)) h[v] = hold()->way(v);
   }
 
   void load() {
     force = about.linearization.force;
-    if (pads) pads->add_loads(held.loads, force.data());
+    if (pads()) pads()->add_loads(held.loads, force.data());
   }
 
   // product <- K x without the weights.
   void multiply(const double* x) {
-    system.op(level).apply_on(pads ? pads->rows() : system.shared_.unknowns, x, product.data());
+    system.op(level).apply_on(pads() ? pads()->rows() : system.shared_.unknowns, x, product.data());
   }
 
   // Of x, whose product is known.
@@ -121,8 +119,8 @@ struct GaussNewtonSystem::HeldSolve {
     for_each_index(system.workers(), h.size(),
                    [&](std::size_t i) { out[i] = force[i] - product[i]; });
     take_point_forces<1>(
-        shared.unknowns, shared.weights, pads, held.loads,
-        [&](std::size_t v) { return NormalLoads::value_type(hold->way(v) - x[v]); }, forces, out);
+        shared.unknowns, shared.weights, pads(), held.loads,
+        [&](std::size_t v) { return NormalLoads::value_type(hold()->way(v) - x[v]); }, forces, out);
   }
 
   LevelSolve solve(bool last) {
@@ -144,35 +142,35 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   bool loads_settled() {
-    if (!pads) return true;
+    if (!pads()) return true;
     NormalLoads product;
     const std::vector<double> compliance_ratio =
-        hold ? compliance_ratios(system.shared_.unknowns, system.shared_.weights, system.stiffness_,
-                                 *pads)
-             : std::vector<double>{};
-    pads->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
-    pads->multiply_mass<1>(held.loads, product);
+        hold() ? compliance_ratios(system.shared_.unknowns, system.shared_.weights,
+                                   system.stiffness_, *pads())
+               : std::vector<double>{};
+    pads()->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
+    pads()->multiply_mass<1>(held.loads, product);
     const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
                  size = std::sqrt(std::max(0.0, dot<1>(held.loads, product)));
     if (first_force == 0) first_force = left;
     const double tolerance =
         level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
-    const double gain = hold ? force_gain_of_ends : force_gain;
+    const double gain = hold() ? gain_of_ends : force_gain;
     return left <= gain * first_force || left <= tolerance * size;
   }
 
   bool bounds_settled() {
-    if (!bounds) return true;
-    const double wanted = std::max(system.wanted_gap(level), gap_gain * first_gap);
-    const bool settled = hold->settled(about.energy, wanted, h.data());
-    report.constraint_gap = hold->gap();
-    if (first_gap == 0) first_gap = hold->gap();
+    if (!bounds()) return true;
+    const double wanted = std::max(system.wanted_gap(level), gain_of_ends * first_gap);
+    const bool settled = hold()->settled(about.energy, wanted, h.data());
+    report.constraint_gap = hold()->gap();
+    if (first_gap == 0) first_gap = hold()->gap();
     return settled;
   }
 
   // Other ends: another problem, of which earlier corrections tell nothing.
   bool turn() {
-    if (!hold->turn(h.data())) return false;
+    if (!hold()->turn(h.data())) return false;
     ++report.constraint_rounds;
     system.take_weights(level);
     system.hierarchy_.refresh(std::size_t(level - system.base_), false);
@@ -181,30 +179,30 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   void correct(LoadSteps<1>& steps) {
-    if (!pads) return;
+    if (!pads()) return;
     const Multipliers<1> change = steps.change(correction);
     for (std::size_t v = 0; v < held.loads.size(); ++v) held.loads[v] += change.loads[v];
     ++report.pad_corrections;
   }
 
   bool is_out_of_corrections(const LevelSolve& solved) const {
-    const bool cheap = solved.direct && hold;
-    return report.pad_corrections >= (cheap ? most_cheap_corrections : most_corrections);
+    const bool cheap = solved.direct && hold();
+    return report.pad_corrections >= (cheap ? most_cheap_corrections : most_load_corrections);
   }
 
   bool is_out_of_rounds(const LevelSolve& solved) const {
-    return report.constraint_rounds >= (solved.direct ? most_cheap_rounds : most_rounds);
+    return report.constraint_rounds >= (solved.direct ? most_cheap_turns : most_turns_of_ends);
   }
 
   LevelSolve end(const LevelSolve& solved) {
     Array<double> of_loads(h.size(), 0.0);
-    if (pads) pads->add_loads(held.loads, of_loads.data());
-    if (hold) {
-      held.bounds = hold->sides();
+    if (pads()) pads()->add_loads(held.loads, of_loads.data());
+    if (hold()) {
+      held.bounds = hold()->sides();
       const VertexWeights& weights = system.shared_.weights;
       for (std::size_t v = 0; v < weights.size(); ++v) {
-        if (!system.shared_.unknowns.vertex[v] || (pads && pads->under(v))) continue;
-        const double spring = weights[v] * (hold->way(v) - h[v]);
+        if (!system.shared_.unknowns.vertex[v] || (pads() && pads()->under(v))) continue;
+        const double spring = weights[v] * (hold()->way(v) - h[v]);
         of_loads[v] += spring;
         force[v] += spring;
       }
@@ -216,11 +214,11 @@ struct GaussNewtonSystem::HeldSolve {
 
   LevelSolve run() {
     start();
-    LoadSteps<1> steps = load_steps<1>(pads);
-    bool last = !pads && !bounds;
+    LoadSteps<1> steps = load_steps<1>(pads());
+    bool last = !pads() && !bounds();
     int corrections = 0;  // with these ends
     load();
-    if (bounds) multiply(h.data());  // else h is zero
+    if (bounds()) multiply(h.data());  // else h is zero
     take_residual(h.data(), r.data());
     for (;;) {
       const LevelSolve solved = solve(last);
@@ -229,7 +227,7 @@ struct GaussNewtonSystem::HeldSolve {
                  turned = !bounds_settled() && tells && !is_out_of_rounds(solved) && turn();
       if (turned) corrections = 0;
       last = !turned && (loads || is_out_of_corrections(solved));
-      if (last && (solved.direct || !hold)) return end(solved);
+      if (last && (solved.direct || !hold())) return end(solved);
       if (last) continue;
       correct(steps);
       if (turned) steps.forget();

@@ -6,13 +6,20 @@
 
 namespace fairing {
 
-// Keeps weighted control vertices within their tolerances of their targets, with the energy as low
-// as that allows. The multipliers are found by steps of the augmented Lagrangian,
+// Keeps control vertices within their tolerances of their targets, with the energy as low as that
+// allows. Each hangs on a spring of weight w, which pulls it from x towards its aim a. With P the part
+// of its force w (a - x) that is not the caller's own spring's, the surface is the solution where
 //
-//   w <- max(0, (w + s) |p - c| / tolerance - s),
+//   P = lambda (target - x),   lambda >= 0,   and lambda = 0 within the ball.
 //
-// with s about as stiff as what the surface and the neighbours' weights set against the vertex: the
-// force changes by s times the way to the ball, and vanishes where the vertex stands within it.
+// A vertex of the surface's stiffness s would go from x to x', the point of the ball nearest to
+// x - P / s, and need the force F + s (x' - x) there; so its aim moves by
+//
+//   (1 + s / w) (x' - x),
+//
+// which is nothing at the solution. It is a step of semi-smooth Newton with a diagonal for the
+// surface's part. Along the ball a spring of weight lambda has the derivative of the law above, across
+// it a stiffer one is better: weights are some lambdas of the level below, and stay on a level.
 class HoldInSpace : public ControlHold {
  public:
   using ControlHold::ControlHold;
@@ -20,58 +27,31 @@ class HoldInSpace : public ControlHold {
   HoldInSpace(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns,
               std::span<const double> weights, double unit, std::vector<double> tolerances);
 
-  // What the weights draw control vertices to.
+  // Where the springs pull control vertices.
   std::span<const Vec3> aims() const { return aims_.empty() ? targets_ : aims_; }
 
-  // The first weights, from the forces that hold this surface; false where there are weights
-  // already.
-  bool begin(const double* x);
-  // Whether the duality gap of this surface and the weights it was solved with is `wanted`.
+  // New springs, from the forces that settled() has found last; their aims are corrected.
+  void renew(const double* x);
+  // Whether the duality gap is `wanted`, with the vertices where the springs have them.
   bool settled(double energy, double wanted, const double* x);
-  // Whether vertices were so far outside then that steps are guesses.
-  bool far() const { return far_; }
-  // What to add to the multipliers, one an input vertex, as this surface says.
-  std::vector<double> correction(const double* x);
-  // Adds so much to them, within bounds; `by` becomes what has been added.
-  void change(std::vector<double>& by);
+  // Whether they are those of the beginning still.
+  bool is_new() const { return aims_.empty(); }
+  // How the aims are to move, 3 numbers a control vertex; `forces` grow by what the springs then pull
+  // more.
+  std::vector<double> correction(const double* x, Loads& forces) const;
+  void change(const std::vector<double>& moves);
 
-  // Whether tolerances are so small that nearly all vertices stand on their balls, and hardly move
-  // there. Then each is *placed*, which holds it as if it were fixed, until leave_places() goes back
-  // to the weights before.
-  bool is_stiff() const;
-  void place(const double* x);
-  bool placed(std::size_t v) const { return is_placed_ && v < size() && bound(v); }
-  // x <- placed vertices where they are to be.
-  void put_placed(double* x) const;
-  // Of placed vertices: by which forces each is held. Call before turn() and finish().
-  void take_pulls(const std::vector<Vec3>& forces);
-  // Whether the gap is as `wanted`; otherwise they are placed where their pulls say.
-  bool turn(double energy, double wanted);
-  void leave_places();
-
-  // For the last solve: vertices that the multipliers have left outside by their last digits are
-  // held on the ball.
-  void pin(const double* x);
-  // Puts those on the ball that are outside still, and measures the gap of this surface.
-  void finish(double energy, double* x);
-
-  // Of each input vertex: what makes changes of its multiplier comparable with changes of its load,
-  // tolerance^2 over the hat's total; a vertex without a pad has the mean of the others. Empty where
+  // Of each number of a correction: what makes it comparable with a change of its load, the square of
+  // its force over the hat's total; a vertex without a pad has the mean of the others. Empty where
   // there is nothing to find. `pads` may be null.
   std::vector<double> comparable(const Pads* pads) const;
 
  private:
-  double distance(const double* x, std::size_t v) const;
-  Vec3 on_ball(const Vec3& p, std::size_t v) const;
-  void choose_stiffness();
+  Vec3 move_of(const double* x, std::size_t v) const;  // x' - x
+  Vec3 in_ball(const Vec3& p, std::size_t v) const;
 
-  bool far_ = true;
-  std::vector<double> stiffness_;   // s of the steps
-  std::vector<double> around_;      // the mean weight of a vertex and its neighbours
-  std::vector<double> multiplier_;  // below zero where the vertex stands well within its ball
-  std::vector<Vec3> aims_;          // empty: the targets
-  bool is_placed_ = false;
-  std::vector<Vec3> pulls_;  // of placed vertices, without the caller's weights
+  std::vector<Vec3> aims_;    // empty: the targets
+  std::vector<Vec3> forces_;  // P; empty: not known yet
 };
 
 }  // namespace fairing

@@ -14,6 +14,9 @@
 
 namespace fairing {
 
+// Of what loads carry: the forces that may be left below the finest level, where loads are starts only.
+constexpr double coarse_force_tolerance = 2e-2;
+
 template <int N>
 double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
   double sum = 0;
@@ -21,7 +24,7 @@ double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
   return sum;
 }
 
-// What holds control vertices: the loads on their pads, multipliers of what bounds them, one an
+// What holds control vertices: the loads on their pads, what keeps them within bounds, N numbers an
 // input vertex, and the couples that fix normals. Any may be empty.
 template <int N>
 struct Multipliers {
@@ -30,7 +33,7 @@ struct Multipliers {
   Moments moments{};
 };
 
-// The norm of M for loads; changes of multipliers are compared by `weights`, one each, which make
+// The norm of M for loads; changes of what bounds are compared by `weights`, one each, which make
 // them comparable with changes of loads, and so are moments by `mass`. The pads must outlive it and
 // keep their level; null where there are no loads.
 template <int N>

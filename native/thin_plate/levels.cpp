@@ -53,7 +53,6 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
     : shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers),
       base_(shared_.unknowns.any_vertex ? 0 : std::min(1, options.levels)),
       carried_(with_pads(mesh, shared_.unknowns, options.pad_size)),
-      weighted_up_to_(options.levels),
       hierarchy_(workers, hierarchy_options(shared_.unknowns, options, stencils.membrane.any())) {
   for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
   for (int l = base_; l <= top(); ++l) {
@@ -78,13 +77,8 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
 
 void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {
   shared_.weights = weights;
-  weighted_up_to_ = level;
   for (int l = base_; l <= level; ++l) operators_[index(l)]->update();
   hierarchy_.refresh(index(level), false);
-}
-
-void ThinPlateLevels::carry_weights(int level) {
-  if (level > weighted_up_to_) set_weights(VertexWeights(shared_.weights), level);
 }
 
 void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) const {

