@@ -221,7 +221,8 @@ FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   // the lattice's own, as along creases
   if (even.error <= rounding * length_of(data.points)) return even;
   FittedCurve plain = fit_by_length(data, system, false);
-  if (plain.error <= tolerance) return plain;
+  // where there are some between those at the ends
+  if (spans <= 2 || plain.error <= tolerance) return plain;
   FittedCurve to_ends = fit_by_length(data, system, true);
   return to_ends.error < plain.error ? to_ends : plain;
 }
