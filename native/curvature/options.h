@@ -17,7 +17,8 @@ namespace fairing {
 enum class CurvatureEnergy { total_curvature, minimum_variation };
 
 struct GaussNewtonOptions {
-  // What the finest level's surface minimizes. Coarser levels minimize total curvature always.
+  // What the finest level's surface minimizes. Coarser levels minimize total curvature, and look
+  // ahead to less variation from there (variation.h).
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
   // So many times the surface's area is minimized with total curvature; 0 for minimum variation.
   double tension = 0;

@@ -10,7 +10,7 @@ namespace fairing {
 class RoughSteps {
  public:
   // All must outlive it.
-  RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, TotalCurvatureSteps& steps)
+  RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, CurvatureSteps& steps)
       : it_(iterate), unfolding_(unfolding), steps_(steps) {}
 
   // From `start` to the least total curvature on point forces, and on the finest level on to those
@@ -30,7 +30,7 @@ class RoughSteps {
 
   SurfaceIterate& it_;
   Unfolding& unfolding_;
-  TotalCurvatureSteps& steps_;
+  CurvatureSteps& steps_;
 };
 
 }  // namespace fairing

@@ -82,6 +82,7 @@ class GaussNewtonSolver {
   bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
   bool step(const StepStart& start, CurvatureLevelReport& report);
+  void vary(bool is_plain, CurvatureLevelReport& report);
   bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
   // What the surface of a level may have of total curvature.
   double energy_bound(const CurvatureLevelReport& report);
@@ -102,7 +103,7 @@ class GaussNewtonSolver {
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
-  TotalCurvatureSteps steps_;
+  CurvatureSteps steps_;
   Unfolding unfolding_;
   RoughSteps rough_;
   VariationSteps variation_;

@@ -66,9 +66,18 @@ constexpr double unchecked_decrement = 1e-2;
 // claim more, and their work hides any rise of the energy. A little of it leads on nevertheless.
 constexpr double largest_decrement = 10;
 
-// Decrement below which steps are accelerated: each then leaves a fixed share of the error.
+// Decrement below which steps are accelerated: each then leaves a fixed share of the error. Those of
+// minimum variation do so below damped_decrement (measured: a creature wanders about with 0.1).
 constexpr double accelerated_decrement = 0.1;
 constexpr std::size_t accelerated_steps = 3;  // that are remembered
+
+// Of minimum variation: so much of total curvature, in shares of both energies, and times the last
+// step's decrement, joins the operator (measured: without any, a creature's steps do not settle).
+constexpr double share_of_curvature = 0.1;
+
+// Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
+// measured against itself and this share of the mean squared curvature.
+constexpr double flat_share = 1e-4;
 
 // A movement, in sizes of the mesh, after which nothing is left of the surface: the energy of what
 // has burst says nothing, not even where it is zero.
@@ -113,20 +122,36 @@ struct StepSpace {
   }
 };
 
-class TotalCurvatureMethod final : public StepMethod {
+// The integral of |M|^2, and the area.
+struct Bending {
+  double square, area;
+};
+
+Bending bending_of(const LinearizedSurface& surface, Workers& workers) {
+  const Array<float>& shape = surface.linearization.shape;
+  const auto area = [&](std::size_t i) { return double(shape[4 * i + 3]) * shape[4 * i + 3]; };
+  const auto square = [&](std::size_t i) {
+    const float* m = &shape[4 * i];
+    return area(i) * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
+  };
+  return {sum(workers, shape.size() / 4, square), sum(workers, shape.size() / 4, area)};
+}
+
+class GaussNewtonMethod final : public StepMethod {
  public:
   // `damping` is null for plain steps. `patience`: steps in which plain_decrement has to be reached;
   // 0: any number.
-  TotalCurvatureMethod(SurfaceIterate& iterate, Pads* pads, LocalDamping* damping,
-                       const StepEnd& end, int patience)
+  GaussNewtonMethod(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
+                    const StepEnd& end, int patience)
       : it_(iterate),
         damping_(damping),
         end_(end),
         patience_(patience),
         anderson_({&iterate}, accelerated_steps),
-        remainder_(iterate.system.share_left(iterate.level, functional_of(pads, damping))) {
+        remainder_(iterate.system.share_left(iterate.level, functional)) {
     it_.trial.points.resize(3 * it_.grid().size());
-    it_.begin(functional_of(pads, damping));
+    it_.begin(functional);
+    flat_ = flat_energy_about(it_.current, it_.workers());
   }
 
   bool begin(CurvatureLevelReport& report) override {
@@ -138,17 +163,20 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
   void find_step(StepReport& step) override {
-    held_ = it_.current.held;
-    const bool fresh = damping_ || it_.needs_coarse_levels(remainder_.last_decrement());
+    if (!varies()) held_ = it_.current.held;
+    const bool fresh =
+        (damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current);
+    if (varies()) damp_long_waves();
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
+    step.variation = varies();
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
-    const double share = gain / it_.current.energy;
+    const double share = gain / scale();
     const bool is_of_use = share > -plain_decrement * plain_decrement;  // else it is no rounding
     step.decrement =
         is_of_use ? std::sqrt(std::max(share, 0.0)) : std::numeric_limits<double>::infinity();
-    if (step.decrement < accelerated_decrement) accelerate();
+    if (step.decrement < (varies() ? damped_decrement : accelerated_decrement)) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
@@ -168,14 +196,15 @@ class TotalCurvatureMethod final : public StepMethod {
   bool is_acceptable(const StepReport& step, double energy) const override {
     return !is_checked(step) ||
            (step.decrement <= largest_decrement &&
-            !(energy > it_.current.energy * (1 + allowed_rise * step.decrement)));
+            !(energy > it_.current.energy + allowed_rise * step.decrement * scale()));
   }
 
   bool accept(const StepReport& step, const StepCount& count,
               CurvatureLevelReport& report) override {
     if (step.length != 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
-    it_.current.held = held_;
+    if (!varies()) it_.current.held = held_;
+    const double before = remainder_.last_decrement();
     report.left = remainder_.after(step.decrement, step.movement / step.length, step.solved);
     report.converged = end_.is_reached(step.decrement, report.left);
     if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
@@ -184,7 +213,11 @@ class TotalCurvatureMethod final : public StepMethod {
     report.converged &= !burst;
     const bool too_late =
         patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement;
-    return report.converged || burst || too_late || leads_nowhere(step);
+    flat_ = flat_energy_about(it_.current, it_.workers());
+    // Where linear solves end too early for a step to lessen the decrement by half, the next ones
+    // would gain as little.
+    const bool is_stuck = varies() && !step.solved && before > 0 && 2 * step.decrement > before;
+    return report.converged || burst || too_late || is_stuck || leads_nowhere(step);
   }
 
   bool reject() override {
@@ -195,16 +228,26 @@ class TotalCurvatureMethod final : public StepMethod {
   }
 
  private:
-  // Local damping compares tensors in space.
-  static Functional functional_of(Pads* pads, const LocalDamping* damping) {
-    return {CurvatureEnergy::total_curvature, pads, damping != nullptr};
+  bool varies() const {
+    return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
+  }
+  // What decrements are relative to.
+  double scale() const { return it_.current.energy + flat_; }
+
+  // Variation hardly sees long waves; total curvature's matrix does. It joins as far as the last step
+  // was from the end.
+  void damp_long_waves() {
+    const double last = remainder_.last_decrement() > 0 ? remainder_.last_decrement() : 1;
+    const double square = bending_of(it_.current, it_.workers()).square;
+    for (int l = it_.system.base(); l <= it_.level; ++l)
+      it_.system.op(l).take_share(share_of_curvature * last * scale() / square);
   }
 
   // Loads go along: those of a plain step would lag behind the surface, and the next step make up
   // for it. The first step's are fitted, and change from nothing known.
   void accelerate() {
     const NormalLoads& before = it_.current.held.loads;
-    const bool with_loads = !damping_ && !it_.system.is_bound();
+    const bool with_loads = !varies() && !damping_ && !it_.system.is_bound();
     if (with_loads && before.size() != held_.loads.size()) return anderson_.forget();
     HeldStep step{std::move(it_.step), {}};
     if (with_loads) step.loads = held_.loads;
@@ -221,7 +264,7 @@ class TotalCurvatureMethod final : public StepMethod {
     gained_ += gain_;
     const double last = std::exchange(last_gain_, gain_);
     if (damping_)
-      return ++damped_ > 1 && step.decrement < accelerated_decrement &&
+      return end_.gain > 0 && ++damped_ > 1 && step.decrement < accelerated_decrement &&
              last + gain_ < end_.gain * it_.current.energy;
     climbed_ = gained_ > most_gained_ ? 0 : climbed_ + 1;
     most_gained_ = std::max(most_gained_, gained_);
@@ -240,6 +283,7 @@ class TotalCurvatureMethod final : public StepMethod {
   Array<float> predicted_;
   Multipliers<1> held_;  // that goes with the step
   LeftToMove remainder_;
+  double flat_ = 0;  // an energy that counts for nothing
   // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
   int climbed_ = 0, damped_ = 0;  // steps
@@ -247,26 +291,40 @@ class TotalCurvatureMethod final : public StepMethod {
 
 }  // namespace
 
+double flat_energy_about(const LinearizedSurface& surface, Workers& workers) {
+  if (surface.functional.energy != CurvatureEnergy::minimum_variation) return 0;
+  const Bending bending = bending_of(surface, workers);
+  return bending.area > 0 ? flat_share * bending.square / bending.area : 0;
+}
+
 bool is_near(const CurvatureLevelReport& report, double decrement) {
   if (report.converged || report.steps.empty()) return report.converged;
   const StepReport& last = report.steps.back();
   return last.length > 0 && last.movement <= farthest && last.decrement <= decrement;
 }
 
-void TotalCurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
-                              CurvatureLevelReport& report) {
-  TotalCurvatureMethod method(iterate_, pads, damping, end, patience);
+void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
+                         CurvatureLevelReport& report) {
+  // Local damping compares tensors in space.
+  GaussNewtonMethod method(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr},
+                           damping, end, patience);
   run_steps(method, options_.max_steps, report);
   report.energy = iterate_.op().fairness();
 }
 
-void TotalCurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
-                                    CurvatureLevelReport& report) {
+void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& report) {
+  LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
+  GaussNewtonMethod method(iterate_, of_variation, &damping, end, 0);
+  run_steps(method, options_.max_steps, report);
+}
+
+void CurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
+                               CurvatureLevelReport& report) {
   run(pads, nullptr, end, patience, report);
 }
 
-void TotalCurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
-                                     CurvatureLevelReport& report) {
+void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
+                                CurvatureLevelReport& report) {
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
   iterate_.current.number = 0;
@@ -278,8 +336,8 @@ void TotalCurvatureSteps::run_damped(Pads* pads, const StepStart& start, const A
 }
 
 template <class Steps>
-void TotalCurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
-                                 CurvatureLevelReport& report) {
+void CurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
+                            CurvatureLevelReport& report) {
   LinearizedSurface before = iterate_.current;
   CurvatureLevelReport after = report;
   after.converged = false;
@@ -290,7 +348,7 @@ void TotalCurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
     iterate_.current = std::move(before);
 }
 
-void TotalCurvatureSteps::polish(int patience, double energy, CurvatureLevelReport& report) {
+void CurvatureSteps::polish(int patience, double energy, CurvatureLevelReport& report) {
   Pads* const pads = iterate_.current.functional.pads;
   try_on(
       [&](CurvatureLevelReport& polished) { run_plain(pads, accurate_end(), patience, polished); },

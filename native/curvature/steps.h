@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Newton steps on one level: first the loop that all kinds of steps share, then those to the
-// least total curvature.
+// least total curvature and to the least variation of curvature.
 #pragma once
 
 #include "curvature/local_damping.h"
@@ -95,14 +95,19 @@ struct StepStart {
   CurvatureLevelReport report;
 };
 
+constexpr Functional of_variation{CurvatureEnergy::minimum_variation, nullptr, true};
+
+// What is no variation about a surface: a sphere has none. Zero for total curvature.
+double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
+
 // Two ways to step. Plain steps are full ones: they may climb over humps of the discrete energy,
 // where checked ones are trapped, a few in a row (the watchdog technique of Chamberlain et al. 1982).
 // Damped steps hold where a surface is crumpled, and plain ones run wild. Both are accelerated near
 // the end (hold/anderson.h).
-class TotalCurvatureSteps {
+class CurvatureSteps {
  public:
   // All must outlive it.
-  TotalCurvatureSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
+  CurvatureSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
       : iterate_(iterate), options_(options) {}
 
   // From iterate.current to the surface that the steps end at, its control vertices on these pads;
@@ -113,6 +118,10 @@ class TotalCurvatureSteps {
   // anew. Points that are `filled` (above zero; empty: none) are damped throughout.
   void run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
                   CurvatureLevelReport& report);
+
+  // From iterate.current to the least variation, by damped steps on point forces. `report` has the
+  // steps added, and `left` and `converged` set.
+  void run_variation(const StepEnd& end, CurvatureLevelReport& report);
 
   // Plain steps to the step tolerance, on what the surface stands on. Unless they come near it, with
   // hardly more energy than `energy`, surface and report are as before.

@@ -21,7 +21,7 @@ class Unfolding {
   // `folded_faces`: control faces whose folds are excused (folded_control_faces). All must outlive
   // it.
   Unfolding(SurfaceIterate& iterate, const ControlHold& hold,
-            const std::vector<std::uint8_t>& folded_faces, TotalCurvatureSteps& steps)
+            const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
       : it_(iterate), hold_(hold), folded_faces_(folded_faces), steps_(steps) {}
 
   // Folds of the surface as it is.
@@ -41,7 +41,7 @@ class Unfolding {
   SurfaceIterate& it_;
   const ControlHold& hold_;
   const std::vector<std::uint8_t>& folded_faces_;
-  TotalCurvatureSteps& steps_;
+  CurvatureSteps& steps_;
 };
 
 }  // namespace fairing

@@ -2,6 +2,8 @@
 """The variation of curvature: spheres have none, and no peak is left at the control vertices."""
 
 import control_meshes as meshes
+import discrete_fairing as df
+import example_meshes
 import numpy as np
 import pytest
 import tight
@@ -79,3 +81,11 @@ def test_fine_levels_are_not_factored():
     codes = [warning["code"] for warning in result.report["warnings"]]
     told = any(code.startswith("NOT_CONVERGED") for code in codes)
     assert told != finest(result)["converged"]
+
+
+def test_a_level_begins_where_the_one_below_has_ended():
+    """On the finest level alone it took 25 steps to a surface that varied more."""
+    level = finest(df.fair(*example_meshes.fender(), 4, "minimum_variation", threads=1))
+    assert level["converged"]
+    assert level["work"]["steps"] <= 12
+    assert level["variation"] <= 0.998 * 24682
