@@ -18,17 +18,12 @@ constexpr double most_rise = 8;
 constexpr int most_degree = 96;
 // What a level's first solve may raise of the degree that the level below ended with.
 constexpr double most_rise_between_levels = 2;
-// Where the level below gained more an iteration, as a logarithm, a smaller degree does: a solve
-// between two corrections of loads goes to a quarter, which one or two iterations are to gain. With
-// less than the least, conjugate gradients cost as much as the smoother.
-const double gain_wanted = std::log(4.0);
-constexpr int least_degree = 3;
 // After a level has become the coarsest, which takes the hardest part away.
 constexpr int most_degree_over_factor = 12;
 
-// An iteration with the diagonal and the usual degree that gains less, as a logarithm, is slow: it
-// takes more than 18 to 1e-4, where even meshes take five to ten. (With a smaller degree, so much
-// less.) Blocks serve better then, with this degree to begin with. Odd degrees gain less than the even ones below them.
+// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 18 to
+// 1e-4, where even meshes take five to ten. Blocks serve better then, with this degree to begin
+// with. Odd degrees gain less than the even ones below them.
 constexpr double slow_gain = 0.5;
 constexpr int degree_of_blocks = 2;
 // With more, blocks cost more than what they are there for.
@@ -78,8 +73,7 @@ Hierarchy::Convergence Hierarchy::Convergence::after(const PcgResult& result,
   const double last = result.history.back();
   double gain = last > 0 ? std::log(result.history.front() / last) : 0.0;
   if (from_start && result.energy_error > 0) gain = std::max(gain, -std::log(result.energy_error));
-  return {iterations + result.iterations, gained + gain,
-          result.gain_ratio > 0 ? result.gain_ratio : gain_ratio};
+  return {iterations + result.iterations, gained + gain};
 }
 
 bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
@@ -109,9 +103,8 @@ bool Hierarchy::is_too_hard(std::size_t index) const {
 bool Hierarchy::wants_blocks(std::size_t index, const Convergence& so_far) const {
   if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
   if (options_.operators_change && factors_cheaply(index)) return false;
-  const double share = std::min(1.0, double(cycle_.degree) / VCycle::usual_degree);
   return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
-         (so_far.iterations >= first_probe && so_far.gained < slow_gain * so_far.iterations * share);
+         (so_far.iterations >= first_probe && so_far.gained < slow_gain * so_far.iterations);
 }
 
 // Where a factor may follow, and blocks want as many steps as the diagonal.
@@ -175,16 +168,11 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double 
 }
 
 void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance) {
-  if (!adapts(last.direct) || last.blocks || last.iterations == 0) return;
+  if (!adapts(last.direct) || last.blocks || last.iterations < 4) return;
   const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
-  const double for_iterations =
+  const double wanted =
       last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
-  const double for_gain = std::min<double>(
-      last.smoother_degree * gain_wanted * last.iterations / -std::log(tolerance),
-      VCycle::usual_degree);
-  // What has been raised stays.
-  const int least = cycle_.degree > VCycle::usual_degree ? cycle_.degree : least_degree;
-  cycle_.degree = std::clamp(int(std::ceil(std::max(for_iterations, for_gain))), least, most_degree);
+  cycle_.degree = std::clamp(int(std::ceil(wanted)), cycle_.degree, most_degree);
 }
 
 }  // namespace fairing

@@ -112,7 +112,6 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
   for (;;) {
     if (adapt && wants_blocks(index, convergence_[index])) take_blocks(index);
     estimate_eigenvalues(index, system.r);
-    rest.gain_ratio = convergence_[index].gain_ratio;
     PcgResult result = conjugate_gradients(cycle_, index, workers_, rest, system, pcg_,
                                            [&](const PcgResult& so_far) {
                                              each(so_far);

@@ -78,7 +78,7 @@ class Hierarchy {
   LevelSolve solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                    const std::function<void(const PcgResult&)>& each);
 
-  // Before a level's first solve: from how the level below went, and how far both are to be solved.
+  // Before a level's first solve: from how the last one went, and how far both are to be solved.
   void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance);
 
  private:
@@ -88,7 +88,6 @@ class Hierarchy {
   struct Convergence {
     int iterations = 0;
     double gained = 0;
-    double gain_ratio = 0;  // of the latest, as in PcgResult
     Convergence after(const PcgResult& result, bool from_start) const;
   };
 

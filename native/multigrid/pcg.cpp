@@ -14,40 +14,27 @@ namespace {
 // time: single precision has digits enough for some steps more.
 constexpr double replaced_below = 1e-2;
 
-// Of the error's estimate: the largest ratio of gains that it believes; it then takes the error for
-// three times the last gain.
-constexpr double largest_ratio = 0.9;
+// Of the error's estimate: the largest ratio of gains that it believes (it then takes the error for
+// three times the last gain), and the ratio before there are two gains.
+constexpr double most_ratio = 0.9, first_ratio = 0.5;
 
 // What is left of the error in the energy norm, from what the latest steps have gained of its
 // square [Hestenes and Stiefel 1952]: the last gain, and the ratio at which gains fall, the worse
-// of two. Before there are two gains, the ratio of an earlier solve serves, or the largest.
+// of two.
 class ErrorLeft {
  public:
-  explicit ErrorLeft(double known_ratio) : ratio_(known_ratio) {}
-
   void gained(double square) {
-    if (gains_ > 0) {
-      before_ = ratio_;
-      ratio_ = std::min(square / last_, largest_ratio);
-    } else {
-      first_ = square;
-    }
+    before_ = last_ > 0 ? ratio_ : 0;
+    ratio_ = last_ > 0 ? std::min(square / last_, most_ratio) : first_ratio;
     last_ = square;
-    ++gains_;
   }
   double estimate() const {
-    const double known = std::max(ratio_, before_), ratio = known > 0 ? known : largest_ratio;
+    const double ratio = std::max(ratio_, before_);
     return std::sqrt(std::max(0.0, last_ * ratio / (1 - ratio)));
-  }
-  // As in PcgResult.
-  double mean_ratio() const {
-    if (gains_ < 2 || !(first_ > 0) || !(last_ > 0)) return 0;
-    return std::min(std::pow(last_ / first_, 1.0 / (gains_ - 1)), largest_ratio);
   }
 
  private:
-  int gains_ = 0;
-  double first_ = 0, last_ = 0, ratio_, before_ = 0;
+  double last_ = 0, ratio_ = first_ratio, before_ = 0;
 };
 
 template <class T>
@@ -71,8 +58,7 @@ class Iteration {
         workers_(workers),
         limits_(limits),
         system_(system),
-        size_(level_.op->size()),
-        error_left_(limits.gain_ratio) {
+        size_(level_.op->size()) {
     const std::size_t size = size_ + vector_room;
     if constexpr (is_single) {
       v_.r = room(state.rest, size);
@@ -102,7 +88,6 @@ class Iteration {
     }
     if (is_single && drifted_) replace();
     result_.residual = relative(length_);
-    result_.gain_ratio = error_left_.mean_ratio();
     return result_;
   }
 

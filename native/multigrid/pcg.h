@@ -30,8 +30,6 @@ struct PcgLimits {
   // Whether the caller can do with what there is at the end: then levels whose factor is not cheap are
   // not factored, and the smoother's degree stays low.
   bool may_end_early = false;
-  // At which gains have fallen in a solve of the same level, as in PcgResult; 0: not known.
-  double gain_ratio = 0;
   // Whether the smoother may change on the way: not where how it goes says nothing of later solves.
   bool may_adapt = true;
 
@@ -45,9 +43,6 @@ struct PcgResult {
   int iterations = 0;
   double residual = 0;      // relative to the scale, at the end
   double energy_error = 0;  // estimate of |error|_K / sqrt(energy), at the end
-  // At which the gains of the error's square fell from one iteration to the next, on average; 0: there
-  // were less than two.
-  double gain_ratio = 0;
   bool converged = false;
   bool enough = false;                          // as PcgLimits::enough says
   bool broke_down = false;                      // rounding has left no way down
