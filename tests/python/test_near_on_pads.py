@@ -146,7 +146,9 @@ def test_steps_on_crumpled_balls_do_not_burst():
             level = report["curvature"][-1]
             row[k] = level["energy"]
             assert level["energy"] <= level["plate_energy"]
-            told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
+            told = any(
+                warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"]
+            )
             assert told == (not level["converged"])
     on_points, on_pads = energy.T
     assert on_pads.sum() <= 1.1 * on_points.sum()
