@@ -21,9 +21,10 @@ constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which takes the hardest part away.
 constexpr int most_degree_over_factor = 12;
 
-// An iteration with the diagonal that gains less, as a logarithm, is slow: it takes more than 18 to
-// 1e-4, where even meshes take five to ten. Blocks serve better then, with this degree to begin
-// with. Odd degrees gain less than the even ones below them.
+// An iteration with the diagonal and the usual degree that gains less, as a logarithm, is slow: it
+// takes more than 18 to 1e-4, where even meshes take five to ten; with a smaller degree, as much
+// less. Blocks serve better then, with this degree to begin with. Odd degrees gain less than the
+// even ones below them.
 constexpr double slow_gain = 0.5;
 constexpr int degree_of_blocks = 2;
 // With more, blocks cost more than what they are there for.
@@ -103,8 +104,10 @@ bool Hierarchy::is_too_hard(std::size_t index) const {
 bool Hierarchy::wants_blocks(std::size_t index, const Convergence& so_far) const {
   if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
   if (options_.operators_change && factors_cheaply(index)) return false;
+  const double share = std::min(1.0, double(cycle_.degree) / VCycle::usual_degree);
   return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
-         (so_far.iterations >= first_probe && so_far.gained < slow_gain * so_far.iterations);
+         (so_far.iterations >= first_probe &&
+          so_far.gained < slow_gain * so_far.iterations * share);
 }
 
 // Where a factor may follow, and blocks want as many steps as the diagonal.
@@ -167,12 +170,21 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double 
   cycle_.degree = std::min(degree, is_bounded_ ? most_degree_over_factor : most_degree);
 }
 
-void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance) {
-  if (!adapts(last.direct) || last.blocks || last.iterations < 4) return;
+// Harder meshes take a larger degree than the usual one. Where a single iteration gained more than a
+// whole solve is to, a smaller one does: down to a half, where conjugate gradients cost as much as
+// the smoother. What has been raised stays.
+void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
+                              double solve_gain) {
+  if (!adapts(last.direct) || last.blocks || last.iterations == 0) return;
   const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
-  const double wanted =
+  const double for_iterations =
       last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
-  cycle_.degree = std::clamp(int(std::ceil(wanted)), cycle_.degree, most_degree);
+  const double for_gain = std::min<double>(
+      last.smoother_degree * last.iterations * std::log(solve_gain) / std::log(tolerance),
+      VCycle::usual_degree);
+  const int least = cycle_.degree > VCycle::usual_degree ? cycle_.degree : VCycle::usual_degree / 2;
+  cycle_.degree =
+      std::clamp(int(std::ceil(std::max(for_iterations, for_gain))), least, most_degree);
 }
 
 }  // namespace fairing

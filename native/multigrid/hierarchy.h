@@ -78,8 +78,10 @@ class Hierarchy {
   LevelSolve solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                    const std::function<void(const PcgResult&)>& each);
 
-  // Before a level's first solve: from how the last one went, and how far both are to be solved.
-  void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance);
+  // Before a level's first solve: from how the last one went, how far both are to be solved, and what
+  // a solve leaves that something is corrected after.
+  void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
+                     double solve_gain);
 
  private:
   // Of a level's solves: iterations, and what they have gained, as a logarithm. A solve from its own

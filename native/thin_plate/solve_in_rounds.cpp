@@ -27,11 +27,7 @@
 namespace fairing {
 namespace {
 
-// What each solve but the last leaves of the error that it finds: what it then leaves of forces and
-// of ways is foreseen. On 151 runs on pads finest levels took 1,018 iterations; 988 with 0.35 and 975
-// with 0.5, but solves that begin anew so often pass for slow ones, and even meshes take blocks.
-constexpr double solve_gain = 0.25;
-// The same where that cannot be foreseen.
+// What a solve leaves where forces and ways cannot be foreseen.
 constexpr double solve_gain_unforeseen = 0.1;
 // What a correction leaves of forces, or of the gap, before two of them have said it; and the least
 // of it that is believed.

@@ -145,7 +145,8 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
     reports.push_back(solved.report);
     if (l < run.top()) {
       energy_below = levels_.energy(l, x.data());
-      levels_.hierarchy().choose_degree(solved.equivalent, tolerance(l), tolerance(l + 1));
+      levels_.hierarchy().choose_degree(solved.equivalent, tolerance(l), tolerance(l + 1),
+                                        solve_gain);
     }
     on_level(l, x);
   }
