@@ -16,7 +16,7 @@ constexpr double replaced_below = 1e-2;
 
 // Of the error's estimate: the largest ratio of gains that it believes (it then takes the error for
 // three times the last gain), and the ratio before there are two gains.
-constexpr double most_ratio = 0.9, first_ratio = 0.5;
+constexpr double largest_gain_ratio = 0.9, usual_gain_ratio = 0.5;
 
 // What is left of the error in the energy norm, from what the latest steps have gained of its
 // square [Hestenes and Stiefel 1952]: the last gain, and the ratio at which gains fall, the worse
@@ -25,7 +25,7 @@ class ErrorLeft {
  public:
   void gained(double square) {
     before_ = last_ > 0 ? ratio_ : 0;
-    ratio_ = last_ > 0 ? std::min(square / last_, most_ratio) : first_ratio;
+    ratio_ = last_ > 0 ? std::min(square / last_, largest_gain_ratio) : usual_gain_ratio;
     last_ = square;
   }
   double estimate() const {
@@ -34,7 +34,7 @@ class ErrorLeft {
   }
 
  private:
-  double last_ = 0, ratio_ = first_ratio, before_ = 0;
+  double last_ = 0, ratio_ = usual_gain_ratio, before_ = 0;
 };
 
 template <class T>
