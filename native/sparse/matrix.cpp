@@ -88,16 +88,41 @@ void chunk_product(const RowChunk& chunk, const float* x, float* product) {
 template void chunk_product<1>(const RowChunk&, const float*, float*);
 template void chunk_product<3>(const RowChunk&, const float*, float*);
 
+bool RowBuilder::repeat(Numbers& numbers, std::span<const Index> columns) {
+  for (const Index column : columns) {
+    if (names(column)) {
+      in_row_.last += std::uint32_t(column_.size());
+      column_.clear();
+      return false;
+    }
+    column_.push_back(std::uint32_t(column));
+    in_row_.mark[std::size_t(column)] = in_row_.last + std::uint32_t(column_.size());
+  }
+  repeated_ = &numbers;
+  return true;
+}
+
 void RowBuilder::finish() {
   std::vector<RowChunk::LocalColumn>& local = chunk_.local_column;
   for (const std::uint32_t column : column_) local.push_back(local_column(column));
-  for (const double sum : sum_) number_.push_back(float(sum));
-  for (; number_.size() % row_block != 0; number_.push_back(0)) local.push_back(local.back());
-  chunk_.row.push_back({std::uint32_t(local.size()), keep_numbers()});
-  in_row_.last += std::uint32_t(sum_.size());
+  for (std::size_t k = column_.size(); k % row_block != 0; ++k) local.push_back(local.back());
+  chunk_.row.push_back({std::uint32_t(local.size()), first_number()});
+  in_row_.last += std::uint32_t(column_.size());
   sum_.clear();
   column_.clear();
-  number_.clear();
+  repeated_ = nullptr;
+}
+
+std::uint32_t RowBuilder::first_number() {
+  if (repeated_ && repeated_->chunk_ == chunks_) return repeated_->first_;
+  if (repeated_)
+    number_.assign(repeated_->number_.begin(), repeated_->number_.end());
+  else
+    number_.assign(sum_.begin(), sum_.end());
+  while (number_.size() % row_block != 0) number_.push_back(0);
+  const std::uint32_t first = keep_numbers();
+  if (repeated_) repeated_->chunk_ = chunks_, repeated_->first_ = first;
+  return first;
 }
 
 RowChunk::LocalColumn RowBuilder::local_column(std::uint32_t column) {

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,7 @@ class RowBuilder {
 
   // What an exception has left of a row is no mark to the thread's next builder.
   ~RowBuilder() {
-    in_row_.last += std::uint32_t(sum_.size());
+    in_row_.last += std::uint32_t(column_.size());
     in_chunk_.last += std::uint32_t(chunk_.column.size());
   }
   RowBuilder(const RowBuilder&) = delete;
@@ -94,6 +95,7 @@ class RowBuilder {
     in_chunk_.last += std::uint32_t(chunk_.column.size());
     chunk_.clear();
     distinct_.clear();
+    ++chunks_;
   }
 
   // To the row's number in a column.
@@ -107,6 +109,28 @@ class RowBuilder {
     sum_[mark - in_row_.last - 1] += number;
   }
 
+  // The row's columns so far, in the order in which they were named.
+  std::size_t columns() const { return column_.size(); }
+  bool names(Index column) const { return in_row_.mark[std::size_t(column)] > in_row_.last; }
+  std::size_t place(Index column) const {
+    return in_row_.mark[std::size_t(column)] - in_row_.last - 1;
+  }
+
+  // A row's numbers, for others that have the same.
+  class Numbers {
+    friend RowBuilder;
+    std::vector<float> number_;
+    std::size_t chunk_ = 0;  // that has them, counted from one; 0: none yet
+    std::uint32_t first_ = 0;
+  };
+  void copy_numbers(Numbers& numbers) const {
+    numbers.number_.assign(sum_.begin(), sum_.end());
+    numbers.chunk_ = 0;
+  }
+  // The row, still empty, has these numbers in these columns. False, and it stays empty: a column is
+  // named twice. `numbers` must live until finish().
+  bool repeat(Numbers& numbers, std::span<const Index> columns);
+
   // The row goes to the chunk, its columns in the order in which they were first named.
   void finish();
 
@@ -118,16 +142,19 @@ class RowBuilder {
 
  private:
   RowChunk::LocalColumn local_column(std::uint32_t column);
+  std::uint32_t first_number();
   std::uint32_t keep_numbers();
 
   // Which columns the row and the chunk have named: where, counted from `last`.
   ColumnMarks &in_row_, &in_chunk_;
   RowChunk chunk_;
   std::vector<std::uint32_t> distinct_;  // where rows of numbers begin, all different
+  std::size_t chunks_ = 0;               // begun
   // Of the row at hand.
   std::vector<std::uint32_t> column_;
   std::vector<double> sum_;
   std::vector<float> number_;
+  Numbers* repeated_ = nullptr;
 };
 
 // Numbers column by column: first[c] … first[c + 1] of (row, number), rows ascending.

@@ -26,7 +26,7 @@ Foresight::Seen Foresight::look(const double* r, bool direct, const Loads& force
 }
 
 void Foresight::begin(const double* r, bool direct, const Loads& forces) {
-  before_ = look(r, direct, forces);
+  if (!is_judged_) before_ = look(r, direct, forces);
 }
 
 void Foresight::end(const double* x, const double* r, bool direct, const Pads* pads,

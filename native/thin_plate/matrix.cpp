@@ -2,6 +2,7 @@
 #include "thin_plate/matrix.h"
 
 #include "parallel/cancel.h"
+#include "sparse/repeated_rows.h"
 
 namespace fairing {
 namespace {
@@ -41,6 +42,7 @@ class PlateRings {
   const double* row(const RingTable::Ring& ring, std::size_t s) const {
     return gram_.data() + gram_begin_[std::size_t(ring.element)] + s * ring.size;
   }
+  bool is_weighted() const { return !weight_.empty(); }
   double weight(Index p) const { return weight_.empty() ? 1.0 : weight_[std::size_t(p)]; }
   MembraneWeights membrane(const RingTable::Ring& ring) const {
     return {mesh_, stencils_, ring.element};
@@ -79,9 +81,8 @@ class PlateRings {
 };
 
 // Row p of K, from the rings that hold the point: they are those about its own ring's members.
-void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
+void sum_row(const PlateRings& plate, Index p, RowBuilder& row) {
   const RingTable& rings = plate.rings();
-  if (!rings.is_unknown(p)) return;
   const RingTable::Ring& own = rings.about(p);
   for (std::size_t k = 0; k < own.size; ++k) {
     const Index centre = RingTable::id_of(rings.members(own)[k]);
@@ -97,6 +98,24 @@ void write_row(const PlateRings& plate, Index p, RowBuilder& row) {
   visit_membrane_row(plate.membrane(own), rings.members(own),
                      [&](RingTable::Member m, double number) { row.add(m, number); });
 }
+
+// Rows of K one after another.
+class PlateRows {
+ public:
+  explicit PlateRows(const PlateRings& plate) : plate_(plate), repeated_(plate.rings()) {}
+
+  void write(Index p, RowBuilder& row) {
+    if (!plate_.rings().is_unknown(p)) return;
+    if (plate_.is_weighted()) return sum_row(plate_, p, row);
+    if (repeated_.write(p, row)) return;
+    sum_row(plate_, p, row);
+    repeated_.keep(p, row);
+  }
+
+ private:
+  const PlateRings& plate_;
+  RepeatedRows repeated_;
+};
 
 bool suits(const GridLevel& grid, const Stencils& stencils) {
   std::size_t products = 81 * grid.size();
@@ -116,7 +135,7 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Sten
   std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const PlateRings plate(grid, stencils, unknowns, workers);
   const auto writer = [&] {
-    return [&plate](Index p, RowBuilder& row) { write_row(plate, p, row); };
+    return [rows = PlateRows(plate)](Index p, RowBuilder& row) mutable { rows.write(p, row); };
   };
   return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
 }

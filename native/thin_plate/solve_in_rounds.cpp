@@ -76,6 +76,8 @@ struct ThinPlateSolver::Rounds {
       load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{},
                     couples ? couples->mass() : Moments{});
   Loads forces = Loads(run.state.loads.size(), Vec3::Zero());  // left at control vertices on pads
+  Loads own_forces{};   // the same by the vertices' own rows, before anything is foreseen
+  Loads load_change{};  // by the last correction
   Foresight foresight{run.levels(), level, run.solver.supports_.stiffness()};
   Multipliers<3> correction{};
   Left force{}, gap{};  // forces and slopes together, in the norm of M
@@ -115,6 +117,19 @@ struct ThinPlateSolver::Rounds {
 
   void take_residual() { residual(x(), run.r.data()); }
 
+  // After a solve and a correction. The solve has left its residual, and where loads are all that
+  // changes, theirs is added. Other corrections, and forces from outside, reach into the rows of
+  // fixed vertices.
+  void renew_residual() {
+    if (!pads || constraint || couples || !run.forces.empty()) return take_residual();
+    Loads shift(forces.size(), Vec3::Zero());
+    pads->add_loads(load_change, run.r.data());
+    take_point_forces<3>(
+        shared().unknowns, shared().weights, pads, load_change,
+        [](std::size_t) { return Vec3(Vec3::Zero()); }, shift, run.r.data());
+    for (std::size_t v = 0; v < forces.size(); ++v) forces[v] = own_forces[v] + shift[v];
+  }
+
   void solve() {
     PcgLimits now = limits;
     if (!whole && !limits.from_start) {
@@ -139,6 +154,7 @@ struct ThinPlateSolver::Rounds {
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     if (pads && !solve.direct && !levels().op(level).single_precision_suffices()) take_residual();
+    own_forces = forces;
     foresight.end(x(), run.r.data(), solve.direct, pads, forces);
   }
 
@@ -236,14 +252,15 @@ struct ThinPlateSolver::Rounds {
     for (std::size_t v = 0; v < step.loads.size(); ++v) run.state.loads[v] += step.loads[v];
     for (std::size_t c = 0; c < step.moments.size(); ++c) run.state.moments[c] += step.moments[c];
     if (constraint) constraint->change(step.bounds);
+    load_change = std::move(step.loads);
   }
 
   // Below the finest level what a solve leaves is less than what the next level changes. A correction
   // after the last solve may ask for less than that leaves: then nothing would move, and forces be read
   // that say nothing. So others go on with solves that gain.
   void run_rounds() {
+    take_residual();
     for (;;) {
-      take_residual();
       solve();
       const bool loads = loads_settled(), bounds = bounds_settled(), settled = loads && bounds;
       if (settled && !top()) return;
@@ -252,7 +269,9 @@ struct ThinPlateSolver::Rounds {
         return;
       }
       whole = settled || nearly_settled() || corrections_left() <= 1;
+      load_change.assign(run.state.loads.size(), Vec3::Zero());
       if (!settled) correct();
+      renew_residual();
     }
   }
 

@@ -249,6 +249,34 @@ TEST(Rows, RefuseTooManyColumnsInOnePlace) {
   }
 }
 
+// A row that has the numbers of another one, in other columns; where one is named twice it is refused,
+// and the row is still empty.
+TEST(Rows, RepeatNumbersInOtherColumns) {
+  Workers workers(1);
+  constexpr Index size = 6;
+  const auto writer = [] {
+    return [numbers = RowBuilder::Numbers()](Index row, RowBuilder& builder) mutable {
+      const std::array<Index, 2> columns{row, row + 1}, twice{row, row};
+      if (row == 0) {
+        builder.add(0, 3.0);
+        builder.add(1, 0.5);
+        builder.copy_numbers(numbers);
+      } else if (row % 2 == 1) {
+        ASSERT_TRUE(builder.repeat(numbers, columns));
+      } else {
+        ASSERT_FALSE(builder.repeat(numbers, twice));
+        builder.add(row, 7.0);
+      }
+    };
+  };
+  AssembledMatrix matrix(size, size + 1);
+  ASSERT_TRUE(matrix.build(workers, writer));
+  Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(size + 16, 1, size + 16), y = x;
+  matrix.apply<1>(x.data(), workers, y.data());
+  for (Index r = 0; r < size; ++r)
+    EXPECT_EQ(y[r], r == 0 || r % 2 == 1 ? 3 * x[r] + 0.5f * x[r + 1] : 7 * x[r]) << r;
+}
+
 // A writer that leaves by an exception, in the middle of a row, leaves nothing to the next builder.
 TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
   Workers workers(1);
