@@ -21,7 +21,7 @@ namespace {
 // With more input vertices the loads are those of level 1, at a quarter of the cost.
 constexpr std::int64_t on_second_level = 2000;
 // Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
-constexpr int rings_apart = 9;
+constexpr int rings_between_probes = 9;
 
 // Some rows and columns of a matrix, each given its weight: rows by it, columns by its inverse.
 LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
@@ -80,7 +80,7 @@ class Easing {
 
   EaseResult run() {
     monitor_.enter_part(0, 0.25);
-    StrainGauge::require_room(*problem_, rings_apart);
+    StrainGauge::require_room(*problem_, rings_between_probes);
     ControlPositions control = problem_->basis;
     PlateLoads plate = loads_of(control);
     measure_matrix();
@@ -120,9 +120,10 @@ class Easing {
   bool stays(std::size_t v) const { return !wanted_.fixed.empty() && wanted_.fixed[v]; }
 
   void measure_matrix() {
-    gauge_.emplace(*problem_, systems_.plate(), rings_apart, [&](double begin, double end) {
-      monitor_.enter_part(0.25 + 0.625 * begin, 0.25 + 0.625 * end);
-    });
+    gauge_.emplace(*problem_, systems_.plate(), rings_between_probes,
+                   [&](double begin, double end) {
+                     monitor_.enter_part(0.25 + 0.625 * begin, 0.25 + 0.625 * end);
+                   });
     monitor_.enter_part(0.875, 1);
     out_.iterations += gauge_->solves();
   }

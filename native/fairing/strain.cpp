@@ -29,7 +29,7 @@ FairOptions options_of_strain(const FairOptions& given) {
                        "Strain is read off the loads on pads, and there are none: use a pad_size "
                        "over 0, no epsilon, and multigrid.");
   FairOptions options = given;
-  options.levels = std::clamp(given.levels, 1, level_of_first_loads);
+  options.levels = std::clamp(given.levels, 1, Couples::first_level);
   options.shapes = {};
   options.measure = false;
   return options;

@@ -16,7 +16,7 @@ namespace {
 
 // The floor, in standard deviations: of a thousand strains that are nothing but scatter, three are
 // larger. And the standard deviation of a bell curve, over the median of its absolute values.
-constexpr double beyond = 3, of_median = 1.4826022185056018;
+constexpr double deviations_out = 3, of_median = 1.4826022185056018;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -147,7 +147,7 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
   std::vector<double> lengths;
   for (Eigen::Index i = 0; i < ways.rows(); ++i)
     if (matrix_.coeff(i, i) > 0) lengths.push_back(way_length(ways.row(i), normals_.row(i)));
-  const double floor = beyond * of_median * median(std::move(lengths));
+  const double floor = deviations_out * of_median * median(std::move(lengths));
   return {in_mesh_units(ways_one_by_one({matrix_, normals_, images_}, all, floor)),
           floor * problem_.frame.scale};
 }

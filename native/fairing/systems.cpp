@@ -76,7 +76,8 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   const double length = problem_.units.edge_in_space;
   options.tension = membrane_strength(problem_.options.tension) / (length * length);
   options.step_tolerance = problem_.options.step_tolerance_wanted();
-  options.load_tolerance = std::clamp(5 * problem_.options.relative_residual, 1e-4, 2e-3);
+  options.load_tolerance =
+      std::clamp(5 * problem_.options.relative_residual, 1e-4, largest_force_left);
   options.max_steps = problem_.options.max_steps;
   options.max_iterations = problem_.options.max_iterations;
   options.smoother_degree = problem_.options.smoother_degree;

@@ -12,6 +12,8 @@
 #include <deque>
 #include <utility>
 
+#include "base/rounding.h"
+
 namespace fairing {
 
 // `Space` knows the vectors and their norm:
@@ -43,9 +45,6 @@ class Anderson {
   struct Pair {
     Vector step_change, iterate_change;  // dF and dx
   };
-  // Of the least squares' diagonal: steps near the end may be linearly dependent.
-  static constexpr double regularization = 1e-12;
-
   Space space_;
   std::size_t depth_;
   std::deque<Pair> pairs_;
@@ -74,7 +73,7 @@ typename Space::Vector Anderson<Space>::change(const Vector& step) {
       for (Eigen::Index b = 0; b < count; ++b)
         gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].step_change);
     }
-    gram.diagonal() *= 1 + regularization;
+    gram.diagonal() *= 1 + rounding;  // steps near the end may be linearly dependent
     const Eigen::VectorXd share = gram.ldlt().solve(right);
     if (share.allFinite())
       for (Eigen::Index a = 0; a < count; ++a) {

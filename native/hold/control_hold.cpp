@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.h"
+
 namespace fairing {
 namespace {
 
 // Energies below this share of the largest so far do not count as such: a tolerance as large as the
 // mesh leaves none.
 constexpr double least_energy = 1e-3;
-constexpr double idle = 1e-9;  // of the tolerance: rounding
-// A spring so many times softer than the surface leaves its load to itself.
-constexpr double largest_compliance_ratio = 1e6;
 
 }  // namespace
 
@@ -55,7 +54,7 @@ ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
 
 void ControlHold::take_gap(double gap, double energy, double farthest) {
   start_energy_ = std::max(start_energy_, energy);
-  const bool pulled = farthest > idle && energy > 0;
+  const bool pulled = farthest > rounding && energy > 0;
   gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
 }
 
@@ -79,12 +78,13 @@ Unknowns ControlHold::without_held() const {
   return out;
 }
 
+// A spring that much softer than the surface leaves its load to itself.
 std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
                                       std::span<const double> stiffness, const Pads& pads) {
   std::vector<double> out;
   for (std::size_t v = 0; v < stiffness.size(); ++v)
     out.push_back(unknowns.vertex[v] && pads.under(v)
-                      ? std::min(largest_compliance_ratio * weights[v], stiffness[v]) / weights[v]
+                      ? std::min(weights[v] / rounding, stiffness[v]) / weights[v]
                       : 0.0);
   return out;
 }

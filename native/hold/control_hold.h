@@ -26,6 +26,9 @@ double weight_unit(const ControlMesh& mesh);
 // finest level.
 constexpr double gap_wanted = 1e-4, coarse_gap = 1e-3;
 
+// Of a spring that is as good as fixed, in stiffnesses of the surface or in units of weights.
+constexpr double stiff = 1e4;
+
 // What both kinds of motion share: in space (hold_in_space.h) and along normals
 // (hold_along_normals.h). There the multipliers are found.
 class ControlHold {

@@ -7,13 +7,11 @@
 #include <cmath>
 
 #include "grid/ring.h"
+#include "grid/runs.h"
 #include "stencil/fit.h"
 
 namespace fairing {
 namespace {
-
-constexpr double width = 0.5;  // of the hats, as a share of the faces
-constexpr std::size_t grain = 16;
 
 // A compliance whose determinant is less than so much of that of a multiple of one is not trusted
 // in its weak direction.
@@ -47,7 +45,7 @@ Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
   rows_.resize(first_row_.back());
   total_.assign(size(), 0.0);
   mass_.assign(size(), Vec2::Zero());
-  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       Chart chart = charts.vertex(normals_[c].vertex);
       const double radius = mean_radius(chart);
@@ -82,8 +80,8 @@ void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<Fla
 template <class Visit>
 void Couples::visit_points(std::size_t c, Visit&& visit) const {
   const int n = grid_->n();
-  const double step = 1.0 / n, share = step * step, fall = step / std::max(width, 2 * step);
-  const int reach = std::max(n / 2, 2);
+  const int reach = std::max(n / 2, 2);  // half the faces, so that hats do not meet
+  const double step = 1.0 / n, share = step * step, fall = 1.0 / reach;
   const auto ring = mesh_.ring(normals_[c].vertex);
   for (std::size_t s = 0; s < ring.size(); ++s) {
     const Spoke& spoke = ring[s];
@@ -114,7 +112,7 @@ void Couples::visit_points(std::size_t c, Visit&& visit) const {
 void Couples::set_level(const GridLevel& grid) {
   if (grid_ == &grid) return;
   grid_ = &grid;
-  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(size(), element_grain(grid_->n()), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       total_[c] = 0;
       mass_[c].setZero();
@@ -139,7 +137,7 @@ void Couples::add(const std::vector<Couple>& couples, double* r) const {
     for (std::size_t c = 0; c < size(); ++c) add_one(c);
     return;
   }
-  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(size(), element_grain(grid_->n()), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) add_one(c);
   });
 }
@@ -179,7 +177,7 @@ void Couples::set_compliance(std::vector<Eigen::Matrix2d> slopes) {
 
 Moments Couples::correction(const double* x) const {
   Moments out(size(), Vec2::Zero());
-  workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       if (!(compliance_[c].trace() > 0) || !(total_[c] > 0)) continue;
       const Eigen::Matrix2d made = total_[c] / measured_total_[c] * compliance_[c];

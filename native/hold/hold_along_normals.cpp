@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.h"
+
 namespace fairing {
 namespace {
 
@@ -11,10 +13,7 @@ namespace {
 constexpr double least_reach = 0.1;
 // A vertex so near an end at the start stands on it: in half intervals.
 constexpr double near_end = 0.9;
-// Of a spring at an end, in stiffnesses of the surface; and of none at all, a share of the weights'
-// unit that keeps a closed surface in its place.
-constexpr double stiff = 1e4, least_weight = 1e-10;
-constexpr int most_turns = 4;
+constexpr int most_turns = 4;  // of one vertex, from end to end, in a step
 
 }  // namespace
 
@@ -38,8 +37,9 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
   }
 }
 
+// No spring at all would not keep a closed surface in its place.
 void HoldAlongNormals::choose_weight(std::size_t v) {
-  const double least = std::max(base_[v], least_weight * unit_);
+  const double least = std::max(base_[v], rounding * unit_);
   weights_[v] = sides_[v] != 0 ? std::max(least, stiff * std::max(of_surface_[v], unit_)) : least;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.h"
 #include "hold/pad_reach.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
@@ -16,9 +17,6 @@ namespace {
 constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
 constexpr int mass_steps = 12;  // each halves the error
 
-// Of an edge: what reaches less far meets no point of any level.
-constexpr double least_reach = 1.0 / (1 << 16);
-
 }  // namespace
 
 Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
@@ -28,8 +26,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
   const auto vertices = std::size_t(mesh.vertex_count());
   under_.assign(vertices, 0);
   for (const auto& [ahead, back] : pad_reaches(mesh))
-    inverse_.push_back(
-        {1 / std::max(size * ahead, least_reach), 1 / std::max(size * back, least_reach)});
+    inverse_.push_back({1 / std::max(size * ahead, rounding), 1 / std::max(size * back, rounding)});
   for (std::size_t v = 0; v < vertices; ++v) {
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
     if (!held || !may_have_pad(mesh, Index(v))) continue;

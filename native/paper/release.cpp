@@ -9,8 +9,7 @@ namespace {
 // Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
 // first_undamped_level: they step half as far there.
 constexpr int release_rounds = 3, first_undamped_level = 2;
-constexpr double release_damping = 0.5;     // of such a step
-constexpr double release_tolerance = 1e-8;  // of the solves, relative residual
+constexpr double release_damping = 0.5;  // of such a step
 
 }  // namespace
 
@@ -51,7 +50,7 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
       targets[v] = given[v] + offset;
       put_point(targets[v], x.data() + 3 * v);
     }
-    solver.solve_again({targets, data.curves}, release_tolerance, state, x);
+    solver.solve_again({targets, data.curves}, PcgLimits().tolerance, state, x);
   }
   return release_rounds;
 }

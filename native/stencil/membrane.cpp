@@ -5,13 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/rounding.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-// Sine below which a triangle's cotangents are taken from that sine.
-constexpr double thinnest = 1e-12;
 
 // Of one face: the weights of its grid's directions (face_directions() in grid/ring.h).
 struct FaceWeights {
@@ -27,11 +25,11 @@ struct FaceWeights {
   double diagonal(int c) const { return direction[c % 2 == 0 ? 1 : 3]; }
 };
 
-// Across each grid edge lie two equal triangles, each with half the cotangent of the angle there.
+// Of less than a sine of `rounding`, cotangents are taken from that. Across each grid edge lie two equal triangles, each with half the cotangent of the angle there.
 FaceWeights triangle_weights(const FlatFace& flat) {
   const auto square = [&](std::size_t s) { return flat.length[s] * flat.length[s]; };
   const double longest = std::max({square(0), square(1), square(2)}),
-               area = std::max(flat.area, thinnest * longest);
+               area = std::max(flat.area, rounding * longest);
   // at corner c, between sides c and c + 2
   const auto cotangent = [&](std::size_t c) {
     return (square(c) + square((c + 2) % 3) - square((c + 1) % 3)) / (4 * area);
@@ -41,7 +39,7 @@ FaceWeights triangle_weights(const FlatFace& flat) {
 
 FaceWeights quad_weights(const FlatFace& flat) {
   const double a = flat.length[0], b = flat.length[1],
-               sine = std::max(std::sin(flat.angle[0]), thinnest),
+               sine = std::max(std::sin(flat.angle[0]), rounding),
                cotangent = std::cos(flat.angle[0]) / sine;
   return {{b / (a * sine), -0.5 * cotangent, a / (b * sine), 0.5 * cotangent}, true};
 }

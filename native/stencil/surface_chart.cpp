@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.h"
 #include "stencil/angle.h"
 
 namespace fairing {
 namespace {
 
-// Shares of a ring's largest neighbour, to the metric's power, and of a full turn.
-constexpr double no_length = 1e-6, no_angle = 1e-3;
+constexpr double no_angle = 1e-3;  // of a full turn
 
 double power(const Vec3& offset, double exponent) {
   const double square = offset.squaredNorm();
@@ -33,7 +33,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
     shortest = std::min(shortest, radius);
     chart.ring[j] = Vec2(radius, 0);
   }
-  if (!(shortest > no_length * longest) || !std::isfinite(longest)) return false;
+  if (!(shortest > single_rounding * longest) || !std::isfinite(longest)) return false;
   for (std::size_t k = 0; k < steps; ++k) {
     const std::size_t i = at(k), j = at(k + 1);
     const double a = chart.ring[i].x(), b = chart.ring[j].x(),

@@ -17,10 +17,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Up to so many unknowns all eigenvalues are found: 0.3 s.
-constexpr Eigen::Index few = 600;
-// Of Lanczos, and vectors of signs whose mean is the trace (Hutchinson 1990). With over `few`
+constexpr Eigen::Index most_dense = 600;
+// Of Lanczos, and vectors of signs whose mean is the trace (Hutchinson 1990). With over `most_dense`
 // unknowns the trace is within 3 per cent, alike for all amounts.
-constexpr int lanczos_steps = 60, sign_vectors = 8;
+constexpr int quadrature_nodes = 60, sign_vectors = 8;
 constexpr double step_tolerance = 1e-5;  // of conjugate gradients, relative
 // Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
@@ -36,7 +36,7 @@ constexpr double robustness = 0.8;
 constexpr double faint = 2, leeway = 1.15;
 // Of the largest bound: how far moves may be from their copies within bounds, and change, at the end.
 constexpr double bound_tolerance = 1e-3;
-constexpr int most_rounds = 200;  // of drawing together
+constexpr int most_splittings = 200;  // of drawing together
 
 // Signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
@@ -61,7 +61,7 @@ EaseSystem::EaseSystem(LoadMatrix g, Columns loads)
   if (unknowns() == 0) return;
   mean_ = std::sqrt(diagonal_.mean());
   if (!(mean_ > 0)) return;
-  if (unknowns() <= few)
+  if (unknowns() <= most_dense)
     find_eigenvalues();
   else
     probe_eigenvalues();
@@ -98,14 +98,14 @@ EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
   if (!(length > 0)) return out;
   VectorXd before = VectorXd::Zero(from.size()), now = from / length;
   std::vector<double> diagonal, beside;
-  for (int k = 0; k < lanczos_steps; ++k) {
+  for (int k = 0; k < quadrature_nodes; ++k) {
     stop_if_cancelled();
     VectorXd next = transposed_ * (g_ * now).eval();
     if (k > 0) next -= beside.back() * before;
     diagonal.push_back(now.dot(next));
     next -= diagonal.back() * now;
     const double left = next.norm();
-    if (k + 1 == lanczos_steps || !(left > rounding * diagonal.front())) break;
+    if (k + 1 == quadrature_nodes || !(left > rounding * diagonal.front())) break;
     beside.push_back(left);
     before = std::exchange(now, next / left);
   }
@@ -223,7 +223,7 @@ Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   const double weight = 1 + s * mean_;
   const Columns wanted = -s * s * pulls_;
   Columns within = Columns::Zero(unknowns(), 3), apart = within, d = within;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_splittings; ++round) {
     stop_if_cancelled();
     d = solve(s, weight, wanted + weight * (within - apart), d);
     apart += d;

@@ -16,10 +16,6 @@ class Foresight {
   Foresight(ThinPlateLevels& levels, int level, const std::vector<double>& stiffness)
       : levels_(levels), level_(level), stiffness_(stiffness) {}
 
-  // What the first solve has shown: whether forces that are foreseen change less than those read
-  // from the vertices' own rows do.
-  bool is_believed() const { return is_believed_; }
-
   // Around a solve to x, of residual r: the forces left at vertices on pads, which become what they
   // would be after a whole solve. `direct`: the solve is whole.
   void begin(const double* r, bool direct, const Loads& forces);
@@ -43,6 +39,8 @@ class Foresight {
   const std::vector<double>& stiffness_;
   Seen before_;
   std::vector<double> vertices_;
+  // What the first solve has shown: whether forces that are foreseen change less than those read from
+  // the vertices' own rows do.
   bool is_believed_ = true, is_judged_ = false;
 };
 

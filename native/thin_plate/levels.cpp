@@ -19,19 +19,19 @@ constexpr double least_over_noise = 1e8;
 
 // Edges in eight pieces below: from such levels on the largest eigenvalue hardly changes. (With four
 // it does: what the smoother then amplified took 14 iterations on a rough sphere in place of five.)
-// The hierarchy counts from the coarsest level that is solved on.
-constexpr std::size_t settled_from_level_0 = 4, settled_from_level_1 = 3;
+constexpr std::size_t settled_level = 4;
 // A membrane's share of the diagonal falls to a quarter from level to level: what is hardly anything
 // on edges in 16 pieces was much of it on those in four.
 constexpr std::size_t settled_under_tension = 2;  // levels later
 
+// The hierarchy counts from `base`, the coarsest level that is solved on.
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
-                                   bool tense) {
+                                   int base, bool tense) {
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.may_block = true;
-  out.settled = unknowns.any_vertex ? settled_from_level_0 : settled_from_level_1;
+  out.settled = settled_level - std::size_t(base);
   if (tense) out.settled += settled_under_tension;
   return out;
 }
@@ -53,7 +53,8 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
     : shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers),
       base_(shared_.unknowns.any_vertex ? 0 : std::min(1, options.levels)),
       carried_(with_pads(mesh, shared_.unknowns, options.pad_size)),
-      hierarchy_(workers, hierarchy_options(shared_.unknowns, options, stencils.membrane.any())) {
+      hierarchy_(workers,
+                 hierarchy_options(shared_.unknowns, options, base_, stencils.membrane.any())) {
   for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
   for (int l = base_; l <= top(); ++l) {
     monitor.check_cancelled();

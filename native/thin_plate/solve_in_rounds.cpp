@@ -27,37 +27,24 @@
 namespace fairing {
 namespace {
 
-// What a solve leaves where forces and ways cannot be foreseen.
-constexpr double solve_gain_unforeseen = 0.1;
-// What a correction leaves of forces, or of the gap, before two of them have said it; and the least
-// of it that is believed.
-constexpr double first_share_left = 0.3, least_share_left = 0.05;
 // Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
 constexpr double left_by_iteration = 0.9;
-// Of a tolerance: what the last correction is to come to.
-constexpr double last_correction_aim = 0.5;
-// Corrections a level, of loads alone and where tolerances or couples turn their vertices.
-constexpr int most_corrections = 16, most_corrections_of_all = 32;
+constexpr int most_corrections = 32;  // a level
 
-// What is left of the force on a control vertex leaves as much of its spot. With 2e-3 positions are
-// within 5.3e-5 of the mesh's size on 36 smooth and rough meshes (5e-4: within 5e-6, for a sixth more
-// iterations and twice those of a drag); who asks for an exact surface gets exact loads.
-constexpr double coarsest_force_tolerance = 2e-3;
+// Who asks for an exact surface gets exact loads.
 double force_tolerance(double relative_residual) {
-  return std::clamp(10 * std::sqrt(relative_residual), 1e-6, coarsest_force_tolerance);
+  return std::min(10 * std::sqrt(relative_residual), largest_force_left);
 }
 
-// Of fixed normals, radians: a twentieth of a degree where forces are as rough as they may be.
-constexpr double angle_per_force = 0.4;
-
-// What corrections are to take off, and how much of it one leaves.
+// What corrections are to take off, and how much of it one leaves: as much as a solve before two of them
+// have said it.
 struct Left {
   double now = 0, before = 0;
-  double share = first_share_left;
+  double share = solve_gain;
 
   void take(double next) {
     before = std::exchange(now, next);
-    if (before > 0 && now > 0) share = std::clamp(now / before, least_share_left, 1.0);
+    if (before > 0 && now > 0) share = std::min(now / before, 1.0);
   }
 };
 
@@ -76,15 +63,13 @@ struct ThinPlateSolver::Rounds {
       load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{},
                     couples ? couples->mass() : Moments{});
   Loads forces = Loads(run.state.loads.size(), Vec3::Zero());  // left at control vertices on pads
-  Loads own_forces{};   // the same by the vertices' own rows, before anything is foreseen
-  Loads load_change{};  // by the last correction
+  Loads own_forces{};  // the same by the vertices' own rows, before anything is foreseen
   Foresight foresight{run.levels(), level, run.solver.supports_.stiffness()};
   Multipliers<3> correction{};
   Left force{}, gap{};  // forces and slopes together, in the norm of M
   double tilt = 0;      // of a tangent plane from a fixed one; a normal may look to the wrong side
   Run::Solved solved{run.report_of(level), {}};
-  double gain = 0;     // of all solves, as a logarithm of residuals
-  bool whole = false;  // whether the solve goes as far as is asked
+  double gain = 0;  // of all solves, as a logarithm of residuals
 
   ThinPlateLevels& levels() { return run.levels(); }
   const ThinPlateShared& shared() { return levels().shared(); }
@@ -120,22 +105,22 @@ struct ThinPlateSolver::Rounds {
   // After a solve and a correction. The solve has left its residual, and where loads are all that
   // changes, theirs is added. Other corrections, and forces from outside, reach into the rows of
   // fixed vertices.
-  void renew_residual() {
+  void renew_residual(const Loads& change) {
     if (!pads || constraint || couples || !run.forces.empty()) return take_residual();
     Loads shift(forces.size(), Vec3::Zero());
-    pads->add_loads(load_change, run.r.data());
+    pads->add_loads(change, run.r.data());
     take_point_forces<3>(
-        shared().unknowns, shared().weights, pads, load_change,
+        shared().unknowns, shared().weights, pads, change,
         [](std::size_t) { return Vec3(Vec3::Zero()); }, shift, run.r.data());
     for (std::size_t v = 0; v < forces.size(); ++v) forces[v] = own_forces[v] + shift[v];
   }
 
-  void solve() {
+  // `whole`: as far as is asked.
+  void solve(bool whole) {
     PcgLimits now = limits;
     if (!whole && !limits.from_start) {
       now.from_start = true;
-      now.tolerance =
-          std::max(limits.tolerance, foresight.is_believed() ? solve_gain : solve_gain_unforeseen);
+      now.tolerance = std::max(limits.tolerance, solve_gain);
       // Afterwards something has to move: forces that are read again say nothing.
       if (!constraint && report().pad_corrections == 0) now.enough = limits.tolerance;
     }
@@ -168,7 +153,7 @@ struct ThinPlateSolver::Rounds {
     return std::max(run.rough_force,
                     top() ? force_tolerance(options().relative_residual) : coarse_force_tolerance);
   }
-  double wanted_tilt() const { return angle_per_force * wanted_force(); }
+  double wanted_tilt() const { return largest_angle_left / largest_force_left * wanted_force(); }
 
   // Of the loads, and of their correction, in the norm of M: squares.
   struct Sizes {
@@ -217,21 +202,21 @@ struct ThinPlateSolver::Rounds {
   }
   bool bounds_settled() {
     if (!constraint) return true;
-    const bool settled = constraint->settled(
-        levels().energy(level, x()), last_correction_aim * wanted_gap(), foresight.vertices());
+    const bool settled =
+        constraint->settled(levels().energy(level, x()), wanted_gap(), foresight.vertices());
     gap.take(constraint->gap());
     return settled;
   }
 
-  // Whether one more correction will settle all, as the last ones did.
+  // Whether one more correction will settle all, as the last ones did, with as much to spare as a solve
+  // leaves.
   bool nearly_settled() {
-    return force.share * report().pad_force <= last_correction_aim * wanted_force() &&
-           force.share * tilt <= last_correction_aim * wanted_tilt() &&
-           gap.share * gap.now <= last_correction_aim * wanted_gap();
+    return force.share * report().pad_force <= solve_gain * wanted_force() &&
+           force.share * tilt <= solve_gain * wanted_tilt() &&
+           gap.share * gap.now <= solve_gain * wanted_gap();
   }
   int corrections_left() {
-    return (couples || constraint ? most_corrections_of_all : most_corrections) -
-           std::max(report().pad_corrections, report().constraint_rounds);
+    return most_corrections - std::max(report().pad_corrections, report().constraint_rounds);
   }
 
   void renew_springs() {
@@ -240,8 +225,12 @@ struct ThinPlateSolver::Rounds {
     ++report().constraint_rounds;
   }
 
-  void correct() {
-    if (constraint && constraint->is_new()) return renew_springs();
+  // Returns how loads change.
+  Loads correct() {
+    if (constraint && constraint->is_new()) {
+      renew_springs();
+      return {};
+    }
     if (constraint) {
       correction.bounds = constraint->correction(foresight.vertices(), forces);
       if (pads) correct_loads();
@@ -252,7 +241,7 @@ struct ThinPlateSolver::Rounds {
     for (std::size_t v = 0; v < step.loads.size(); ++v) run.state.loads[v] += step.loads[v];
     for (std::size_t c = 0; c < step.moments.size(); ++c) run.state.moments[c] += step.moments[c];
     if (constraint) constraint->change(step.bounds);
-    load_change = std::move(step.loads);
+    return std::move(step.loads);
   }
 
   // Below the finest level what a solve leaves is less than what the next level changes. A correction
@@ -260,8 +249,8 @@ struct ThinPlateSolver::Rounds {
   // that say nothing. So others go on with solves that gain.
   void run_rounds() {
     take_residual();
-    for (;;) {
-      solve();
+    for (bool whole = false;;) {
+      solve(whole);
       const bool loads = loads_settled(), bounds = bounds_settled(), settled = loads && bounds;
       if (settled && !top()) return;
       if ((whole || report().enough) && (settled || corrections_left() <= 0)) {
@@ -269,9 +258,7 @@ struct ThinPlateSolver::Rounds {
         return;
       }
       whole = settled || nearly_settled() || corrections_left() <= 1;
-      load_change.assign(run.state.loads.size(), Vec3::Zero());
-      if (!settled) correct();
-      renew_residual();
+      renew_residual(settled ? Loads(run.state.loads.size(), Vec3::Zero()) : correct());
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rounding.h"
 #include "parallel/reductions.h"
 #include "thin_plate/run.h"
 
@@ -16,14 +17,11 @@ constexpr double coarse_tolerance = 1e-4;
 // The differences that other control positions make are starts as well, and small beside the
 // surface.
 constexpr double difference_tolerance = 1e-2;
-// Of the mesh's size: a difference that the finest level takes in its stride.
-constexpr double negligible = 1e-6;
 
 // Shares of the run in the progress: before the finest level's iterations and after them; the
-// latter where Gauss-Newton steps follow, which take longer; and what a level takes of the next
-// finer one's.
+// latter where Gauss-Newton steps follow, which take longer.
 constexpr double solve_begin = 0.25, solve_end = 0.8, begin_of_steps = 0.3;
-constexpr double share_of_coarser = 0.25;
+constexpr double share_of_coarser = 0.25;  // of the next finer one's: that of its points
 
 }  // namespace
 
@@ -160,7 +158,8 @@ void ThinPlateSolver::solve_moved(std::span<const Vec3> before, const PlateData&
   double farthest = 0;
   for (std::size_t v = 0; v < data.targets.size(); ++v)
     farthest = std::max(farthest, (data.targets[v] - before[v]).lpNorm<Eigen::Infinity>());
-  if (farthest > negligible && levels_.base() < levels_.top())
+  // What coordinates in single precision leave anyway, the finest level takes in its stride.
+  if (farthest > single_rounding && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
   levels_.set_goal(levels_.top(), data);
   levels_.put_fixed(levels_.top(), data, x.data());

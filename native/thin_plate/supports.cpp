@@ -5,17 +5,15 @@
 #include <utility>
 
 #include "grid/ring.h"
+#include "hold/load_steps.h"
 #include "hold/strays.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
 
-// Loads converge as the square of the mesh width.
+// Loads converge as the square of the mesh width, which is halved.
 constexpr double change_left_by_level = 0.25;
-
-// To what couples are tried out: slopes need no more to be corrected by.
-constexpr double trial_tolerance = 0.03;
 
 }  // namespace
 
@@ -52,7 +50,7 @@ void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& f
   if (couples_) start_couples(level, state.moments);
 }
 
-// Loads are densities and hardly change from level to level; what does is the hats' samples. The
+// Loads are densities and hardly change from level to level where hats have points enough; what does is the hats' samples. The
 // coarsest level has so few that M f, what loads do, changes less than the whole of each. Finer
 // ones change by a quarter of what the level before has changed, which tells the next; but for loads
 // that go with weights.
@@ -73,7 +71,7 @@ void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& 
     return;
   }
   for (std::size_t v = 0; v < loads.size(); ++v) loads[v] *= pads_->total(v);
-  if (level > level_of_first_loads && foretells) {
+  if (level > Couples::first_level && foretells) {
     const Loads before = std::exchange(forces_below, loads);
     for (std::size_t v = 0; v < before.size(); ++v)
       loads[v] += change_left_by_level * (loads[v] - before[v]);
@@ -117,7 +115,7 @@ void PlateSupports::measure_couples(int level, int max_iterations) {
   Workers& workers = levels_.workers();
   Array<double> y(3 * levels_.grid(level).size()), r(y.size());
   PcgLimits rough;
-  rough.tolerance = trial_tolerance;
+  rough.tolerance = coarse_force_tolerance;  // slopes need no more to be corrected by
   rough.from_start = true;
   rough.max_iterations = max_iterations;
   rough.may_adapt = false;

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "grid/ring_shape.h"
+#include "grid/runs.h"
 #include "parallel/reductions.h"
 #include "stencil/surface_chart.h"
 
 namespace fairing {
 namespace {
-
-// Points that are worth a thread.
-constexpr std::size_t point_grain = 1024;
 
 // Of the pull. At 300 no cage of benchmarks/limits.py crosses itself that does not under Subdivision
 // Surface; at 200 the fox does, from 600 on a fish's tip bends more.
@@ -36,7 +34,7 @@ Unknowns everything(const ControlMesh& mesh) {
 
 template <class Body>
 void for_each_point(Workers& workers, std::size_t points, Body&& body) {
-  workers.for_parts(points, point_grain, [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(points, vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) body(p);
   });
 }

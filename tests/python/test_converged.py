@@ -140,7 +140,7 @@ def test_a_normal_on_the_other_side_is_told(name, degrees):
         report = df.fair(points, faces, 2, normals=leaning(points, faces, degrees, seed)).report
         finest = report["levels"][-1]
         turned += finest["normal_angle"] > 90
-        assert report["converged"] == (finest["normal_angle"] <= 0.06)
+        assert report["converged"] == (finest["normal_angle"] <= 0.05)
         assert finest["converged"] == report["converged"]
         why = "TURNED_OVER" if finest["normal_angle"] > 90 else "NORMALS"
         codes = [w["code"] for w in report["warnings"]]

@@ -25,7 +25,7 @@ using VertexHandle = OpenMesh::VertexHandle;
 constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
 
 // Rounds of splits, and sweeps of relaxation in each: angles change no more after some ten, of
-// which the first few find the number of points.
+// which the first one_percent find the number of points.
 constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
 constexpr std::size_t largest_filling = 100'000'000;  // as the message has it
@@ -56,8 +56,8 @@ class Refinement {
     for (int round = 0; round < most_refinements && settled < settled_rounds; ++round) {
       const std::size_t split = split_all(), collapsed = collapse_all();
       flip_all();
-      const std::size_t few = mesh_.n_edges() / 100;
-      settled += split + collapsed <= few;
+      const std::size_t one_percent = mesh_.n_edges() / 100;
+      settled += split + collapsed <= one_percent;
       for (int sweep = 0; sweep < sweeps; ++sweep) {
         relax();
         flip_all();
