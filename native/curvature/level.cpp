@@ -24,22 +24,28 @@ void CurvatureLevel::apply_rows(const double* x, double* y) {
 }
 
 void CurvatureLevel::apply_rows(const float* x, float* y) {
-  if (!square_.suits) {
-    apply_square(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, x, y);
-    if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
-    return;
-  }
+  apply_square(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, x, y);
+  if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
+}
+
+void CurvatureLevel::apply(const float* x, float* y) {
+  if (!square_.suits) return apply_any(x, y, shared_.float_slots);
   square().apply(x, shared_.workers, y);
+  add_to_product(x, y);
 }
 
 // As it is now.
 NormalMatrix& CurvatureLevel::square() const {
   auto& matrix = square_.matrix;
   if (!square_.is_old) return *matrix;
-  if (square_.vertices != shared_.unknowns.vertex) matrix.reset();  // some were held, or let go
-  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
+  const auto middle = varies() ? NormalMatrix::Middle::connection : NormalMatrix::Middle::none;
+  // Some vertices were held, or let go; or it is of the other energy.
+  if (square_.vertices != shared_.unknowns.vertex || (matrix && matrix->middle() != middle))
+    matrix.reset();
+  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns, middle);
   square_.vertices = shared_.unknowns.vertex;
-  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
+  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr,
+                 {connection_.get(), float(share_)});
   square_.is_old = false;
   return *matrix;
 }
@@ -63,6 +69,11 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
   } else {
     apply_rows(x, y);
   }
+  add_to_product(x, y);
+}
+
+template <class T>
+void CurvatureLevel::add_to_product(const T* x, T* y) const {
   for (std::size_t v = 0; v < shared_.weights.size(); ++v) y[v] += T(weight(v)) * x[v];
   add_damping(x, y);
 }
@@ -132,6 +143,7 @@ void CurvatureLevel::invert_diagonal(std::size_t i) {
 
 void CurvatureLevel::take_share(double share) {
   share_ = share;
+  square_.is_old = true;
   update_diagonal();
 }
 

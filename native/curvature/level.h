@@ -97,7 +97,7 @@ class CurvatureLevel final : public LevelOperator {
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override { apply_any(x, y, shared_.double_slots); }
-  void apply(const float* x, float* y) override { apply_any(x, y, shared_.float_slots); }
+  void apply(const float* x, float* y) override;
   // y <- K x on `rows` without the weights, for an x that is zero off the unknowns. Total curvature
   // only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
@@ -115,6 +115,9 @@ class CurvatureLevel final : public LevelOperator {
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
+  // The weights' part and the damping's.
+  template <class T>
+  void add_to_product(const T* x, T* y) const;
   template <class T>
   void add_damping(const T* x, T* y) const;
   double weight(std::size_t v) const {

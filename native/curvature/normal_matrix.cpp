@@ -9,11 +9,13 @@
 namespace fairing {
 namespace {
 
-// Room that is reserved a row: inside a quad, the ring's rings.
+// Room that is reserved a row: inside a quad, the ring's rings. Rows with the connection have about
+// twice as many numbers, 49.
 constexpr std::size_t regular_columns = 25;
 constexpr std::uint16_t none = 0xffff;
 constexpr std::size_t grain = 1024;  // rows worth a thread
-// Partial sums of a row's products, none of which waits for another. Regular rows have 19 or 25.
+// Partial sums of a row's products, none of which waits for another. Regular rows have 19 or 25
+// numbers, and with the connection 37 or 49.
 constexpr std::size_t sums = 6;
 
 }  // namespace
@@ -32,48 +34,78 @@ bool NormalMatrix::is_linear(const RingJacobian& rows) {
   return worth_products(products, grid.size());
 }
 
-NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
-    : grid_(rows.grid()) {
+NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns, Middle middle)
+    : grid_(rows.grid()), middle_(middle) {
   const float* origin = rows.data();
   visit_rows(rows, [&](Index, const RowRun<const float>& run, std::size_t i,
                        const std::vector<Index>& points) {
     stop_if_cancelled(ring_.size());
-    ring_.push_back({std::size_t(&run.at(0, 0, i) - origin), std::uint32_t(member_.size()),
-                     std::uint32_t(run.count)});
-    member_.insert(member_.end(), points.begin(), points.end());
+    ring_.push_back({std::size_t(&run.at(0, 0, i) - origin), std::uint32_t(run.count)});
+    jacobian_.begin.push_back(std::uint32_t(jacobian_.member.size()));
+    jacobian_.member.insert(jacobian_.member.end(), points.begin(), points.end());
   });
-  ring_.push_back({0, std::uint32_t(member_.size()), 0});
-  jacobian_.resize(3 * member_.size());
+  jacobian_.begin.push_back(std::uint32_t(jacobian_.member.size()));
+  jacobian_.number.resize(3 * jacobian_.member.size());
+  if (middle == Middle::connection) find_turned();
   const std::vector<Index> unknown = number_unknowns(grid_, unknowns);
   find_ring_slots(unknown);
   find_columns(unknown);
   number_.resize(column_.size());
 }
 
+void NormalMatrix::find_turned() {
+  const MomentRows& own = jacobian_;
+  std::size_t places = 0;
+  for (const Index q : own.member) places += own.size(std::size_t(q));
+  place_.reserve(places);
+  turned_.member.reserve(regular_columns * ring_.size());
+  // 1 + the place among all members, for those of this row
+  std::vector<std::size_t> seen(ring_.size(), 0);
+  for (std::size_t p = 0; p < ring_.size(); ++p) {
+    stop_if_cancelled(p);
+    const std::size_t first = turned_.member.size();
+    turned_.begin.push_back(std::uint32_t(first));
+    place_begin_.push_back(place_.size());
+    for (std::uint32_t k = own.begin[p]; k < own.begin[p + 1]; ++k) {
+      const auto q = std::size_t(own.member[k]);
+      for (std::uint32_t m = own.begin[q]; m < own.begin[q + 1]; ++m) {
+        std::size_t& at = seen[std::size_t(own.member[m])];
+        if (at <= first) {
+          turned_.member.push_back(own.member[m]);
+          at = turned_.member.size();
+        }
+        place_.push_back(LocalColumn(at - 1 - first));
+      }
+    }
+  }
+  turned_.begin.push_back(std::uint32_t(turned_.member.size()));
+  turned_.number.resize(3 * turned_.member.size());
+}
+
 void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
   ring_slot_begin_.assign(unknown.size() + 1, 0);
-  for (std::size_t m = 0; m < member_.size(); ++m) {
+  for (std::size_t m = 0; m < jacobian_.member.size(); ++m) {
     stop_if_cancelled(m);
-    if (const auto q = std::size_t(member_[m]); unknown[q] >= 0) ++ring_slot_begin_[q + 1];
+    if (const auto q = std::size_t(jacobian_.member[m]); unknown[q] >= 0) ++ring_slot_begin_[q + 1];
   }
   for (std::size_t p = 0; p < unknown.size(); ++p) ring_slot_begin_[p + 1] += ring_slot_begin_[p];
   ring_slot_.resize(ring_slot_begin_.back());
   Array<std::size_t> next(ring_slot_begin_.begin(), ring_slot_begin_.end() - 1);
   for (std::uint32_t r = 0; r < unknown.size(); ++r) {
     stop_if_cancelled(r);
-    for (std::uint32_t k = ring_[r].begin; k < ring_[r + 1].begin; ++k) {
-      const auto q = std::size_t(member_[k]);
-      if (unknown[q] >= 0) ring_slot_[next[q]++] = {r, k - ring_[r].begin};
+    for (std::uint32_t k = jacobian_.begin[r]; k < jacobian_.begin[r + 1]; ++k) {
+      const auto q = std::size_t(jacobian_.member[k]);
+      if (unknown[q] >= 0) ring_slot_[next[q]++] = {r, k - jacobian_.begin[r]};
     }
   }
 }
 
 void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
+  const MomentRows& other = turned();
   std::size_t targets = 0;
-  for (const RingSlot& entry : ring_slot_)
-    targets += ring_[entry.ring + 1].begin - ring_[entry.ring].begin;
+  for (const RingSlot& entry : ring_slot_) targets += other.size(entry.ring);
   target_.reserve(targets);
-  column_.reserve(regular_columns * unknown.size());
+  column_.reserve((middle_ == Middle::none ? 1 : 2) * regular_columns * unknown.size());
   // 1 + the place among all columns, for those of this row
   std::vector<std::size_t> seen(unknown.size(), 0);
   for (std::size_t p = 0; p < unknown.size(); ++p) {
@@ -83,8 +115,8 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
     target_begin_.push_back(target_.size());
     for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
       const std::uint32_t r = ring_slot_[k].ring;
-      for (std::uint32_t m = ring_[r].begin; m < ring_[r + 1].begin; ++m) {
-        const auto q = std::size_t(member_[m]);
+      for (std::uint32_t m = other.begin[r]; m < other.begin[r + 1]; ++m) {
+        const auto q = std::size_t(other.member[m]);
         if (unknown[q] < 0) {
           target_.push_back(none);
           continue;
@@ -101,18 +133,22 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
   target_begin_.push_back(target_.size());
 }
 
-void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension) {
+void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension,
+                          const SharedConnection& between) {
   const float* origin = rows.data();
   const std::size_t points = grid_.size();
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const Ring& ring = ring_[p];
-      const std::size_t slots = ring_[p + 1].begin - ring.begin;
+      const std::size_t slots = jacobian_.size(p);
+      float* to = jacobian_.number.data() + 3 * jacobian_.begin[p];
       for (std::size_t s = 0; s < slots; ++s)
         for (std::size_t c = 0; c < 3; ++c)
-          jacobian_[3 * (ring.begin + s) + c] = origin[ring.first + (c * slots + s) * ring.stride];
+          to[3 * s + c] = origin[ring.first + (c * slots + s) * ring.stride];
     }
   });
+  if (middle_ == Middle::connection) update_turned(between, workers);
+  const MomentRows& turned_rows = turned();
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       float* row = number_.data() + column_begin_[p];
@@ -120,10 +156,10 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
       const LocalColumn* target = target_.data() + target_begin_[p];
       for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
         const RingSlot entry = ring_slot_[k];
-        const float* own = jacobian_.data() + 3 * (ring_[entry.ring].begin + entry.slot);
-        const float* other = jacobian_.data() + 3 * ring_[entry.ring].begin;
-        for (const float* last = jacobian_.data() + 3 * ring_[entry.ring + 1].begin; other < last;
-             other += 3)
+        const float* own = jacobian_.number.data() + 3 * (jacobian_.begin[entry.ring] + entry.slot);
+        const float* other = turned_rows.number.data() + 3 * turned_rows.begin[entry.ring];
+        const float* last = turned_rows.number.data() + 3 * turned_rows.begin[entry.ring + 1];
+        for (; other < last; other += 3)
           if (const LocalColumn to = *target++; to != none)
             row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
       }
@@ -132,7 +168,37 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
   if (tension) add_tension(*tension, workers);
 }
 
-// A point's row of the Laplacian is over its own ring, whose targets are among the row's.
+// The connection has the rings of the Jacobian, and its rows lie as that one's do (Connection).
+void NormalMatrix::update_turned(const SharedConnection& between, Workers& workers) {
+  const float* origin = between.connection->rows().data();
+  workers.for_parts(ring_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      float* row = turned_.number.data() + 3 * turned_.begin[p];
+      std::fill_n(row, 3 * turned_.size(p), 0.0f);
+      const Ring& ring = ring_[p];
+      const std::size_t slots = jacobian_.size(p);
+      const LocalColumn* place = place_.data() + place_begin_[p];
+      for (std::size_t s = 0; s < slots; ++s) {
+        const auto at = [&](std::size_t c) {
+          return origin[ring.first + (c * slots + s) * ring.stride];
+        };
+        const float weight = s == 0 ? at(0) + between.share : at(0),
+                    cosine = s == 0 ? weight : at(1), sine = s == 0 ? 0.0f : at(2);
+        const auto q = std::size_t(jacobian_.member[jacobian_.begin[p] + s]);
+        const float* other = jacobian_.number.data() + 3 * jacobian_.begin[q];
+        const float* last = jacobian_.number.data() + 3 * jacobian_.begin[q + 1];
+        for (; other < last; other += 3) {
+          float* to = row + 3 * *place++;
+          to[0] += weight * other[0];
+          to[1] += cosine * other[1] - sine * other[2];
+          to[2] += sine * other[1] + cosine * other[2];
+        }
+      }
+    }
+  });
+}
+
+// A point's row of the Laplacian is over its own ring, whose members are among those of turned().
 void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
   for_each_run(grid_, workers, [&](const Run& run) {
     const RowRun<const float> own = weights.of(run);
@@ -141,13 +207,15 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
       const LocalColumn* target = target_.data() + target_begin_[p];
       std::size_t k = ring_slot_begin_[p];
       const std::size_t last = ring_slot_begin_[p + 1];
-      for (; k < last && ring_slot_[k].ring != p; ++k)
-        target += ring_[ring_slot_[k].ring + 1].begin - ring_[ring_slot_[k].ring].begin;
+      for (; k < last && ring_slot_[k].ring != p; ++k) target += turned().size(ring_slot_[k].ring);
       if (k == last) continue;  // no unknown
       float* row = number_.data() + column_begin_[p];
+      const LocalColumn* place =
+          middle_ == Middle::none ? nullptr : place_.data() + place_begin_[p];
       for (int s = 1; s < own.slots; ++s) {
+        const LocalColumn to = target[place ? place[s] : s];
         row[target[0]] += own.at(0, s, i);
-        if (target[s] != none) row[target[s]] -= own.at(0, s, i);
+        if (to != none) row[to] -= own.at(0, s, i);
       }
     }
   });

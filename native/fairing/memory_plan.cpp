@@ -100,13 +100,14 @@ std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
 
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
 // rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
-// points an edge the normal matrix; on the finest level surfaces, steps, and what steps are
+// points an edge the normal matrix, of whichever energy; on the finest level surfaces, steps, and what steps are
 // accelerated with.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
                         bool tense) {
   constexpr std::int64_t moment_bytes = 112, surface_bytes = 480;  // bytes a point
-  const std::int64_t row = mixed(c, 84, 108), normal_matrix = mixed(c, 482, 620);
   const bool varies = energy == Energy::minimum_variation;
+  const std::int64_t row = mixed(c, 84, 108),
+                     normal_matrix = varies ? mixed(c, 1190, 1680) : mixed(c, 486, 624);
   std::int64_t normal_matrices = 0, factored = 0;
   for (int l = 0; l <= levels; ++l) {
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.used_points(l);

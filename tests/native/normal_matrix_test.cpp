@@ -62,6 +62,45 @@ TEST(NormalMatrix, DoesWhatThePassesDo) {
     }
 }
 
+TEST(NormalMatrix, HasTheConnectionBetween) {
+  for (const auto& control : {octahedron(), cube(), dodecahedron()})
+    for (int level = 1; level <= 3; ++level) {
+      const ControlMesh mesh = make_control_mesh(control.view(), {});
+      const GridLevel lattice(mesh, level);
+      RingJacobian rows(lattice);
+      Connection connection(lattice);
+      fill(rows);
+      fill(connection.weights());
+      const Unknowns unknowns = some_unknowns(mesh);
+      Workers workers(2);
+      ElementSlots<float, 1> exchange;
+      std::mt19937 random(9);
+      Normal<float> normal;
+      const std::size_t points = lattice.size();
+      Array<float> x(points), expected(points), y(points), moment(3 * points), turned(3 * points);
+      const auto pass = [&] {
+        visit_moments(rows, workers, x.data(), [&](const Run& run, const float* lanes) {
+          for (std::size_t i = 0; i < run.count; ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+              moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
+        });
+        connection.apply(0.25, workers, moment.data(), turned.data());
+        apply_transposed(rows, unknowns, workers, exchange, turned.data(), expected.data());
+      };
+      for (float& number : x) number = normal(random);
+      pass();
+      for (std::size_t i = 0; i < points; ++i)
+        if (expected[i] == 0) x[i] = 0;
+      pass();
+      NormalMatrix square(rows, unknowns, NormalMatrix::Middle::connection);
+      square.update(rows, workers, nullptr, {&connection, 0.25f});
+      square.apply(x.data(), workers, y.data());
+      float largest = 0;
+      for (const float number : expected) largest = std::max(largest, std::abs(number));
+      for (std::size_t i = 0; i < points; ++i) EXPECT_NEAR(y[i], expected[i], 1e-5f * largest) << i;
+    }
+}
+
 TEST(NormalMatrix, IsNotForLargeRingsNorLargeFaces) {
   const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   const GridLevel fine(mesh, 5);
