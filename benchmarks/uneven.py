@@ -24,7 +24,7 @@ TINY, COARSEST = 1200, 6000
 SHARE = 0.95  # of the faces are less thin than the figure that a mesh is sorted by
 CLASSES = (5, 10, 30, np.inf)  # longest edge over height
 STRETCHES = (10, 100, 1000)
-HEADS = ("thinness", "meshes", "factored", "blocks", "median µs", "worst µs", "worst mesh")
+HEADS = ("thinness", "meshes", "factored", "lines", "median µs", "worst µs", "worst mesh")
 
 
 def synthetic() -> Iterator[tuple[str, np.ndarray, Any]]:
@@ -85,7 +85,7 @@ def one(vertices: np.ndarray, faces: Any) -> dict[str, Any]:
             r["direct"] and r["unknowns"] > (COARSEST if r["level"] == first else TINY)
             for r in reports
         ),
-        "blocks": any(r.get("blocks", False) for r in reports),
+        "lines": any(r.get("lines", False) for r in reports),
         "iterations": [r["iterations"] for r in reports],
         "corrections": [r["pad_corrections"] for r in reports],
         "converged": reports[-1]["converged"],
@@ -106,7 +106,7 @@ def summarize(entries: dict[str, dict[str, Any]]) -> list[list[Any]]:
                     f"{below:g} to {bound:g}",
                     len(inside),
                     sum(e["factored"] for e in inside.values()),
-                    sum(e["blocks"] for e in inside.values()),
+                    sum(e["lines"] for e in inside.values()),
                     statistics.median(e["microseconds"] for e in inside.values()),
                     inside[worst]["microseconds"],
                     worst,

@@ -21,7 +21,7 @@ py::dict to_python(const LevelReport& l) {
       "level"_a = l.level, "points"_a = l.points, "unknowns"_a = l.unknowns,
       "iterations"_a = l.iterations, "residual"_a = l.residual, "energy_error"_a = l.energy_error,
       "largest_eigenvalue"_a = l.largest_eigenvalue, "smoother_degree"_a = l.smoother_degree,
-      "direct"_a = l.direct, "blocks"_a = l.blocks, "converged"_a = l.converged,
+      "direct"_a = l.direct, "lines"_a = l.lines, "converged"_a = l.converged,
       "residuals"_a = l.residuals, "pad_corrections"_a = l.pad_corrections,
       "pad_force"_a = l.pad_force, "constraint_rounds"_a = l.constraint_rounds,
       "constraint_gap"_a = l.constraint_gap, "normal_angle"_a = l.normal_angle / degree);

@@ -3,18 +3,11 @@
 
 #include <cmath>
 
-#include "parallel/memory_news.h"
+#include "multigrid/ring_lines.h"
 #include "parallel/reductions.h"
 #include "sparse/unknown_points.h"
 
 namespace fairing {
-namespace {
-
-// Of a normal matrix: a point with a regular ring, and all that may be taken for blocks.
-constexpr std::size_t bytes_of_square = 460, most_bytes_of_square = std::size_t(1) << 28;
-
-}  // namespace
-
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
     : shared_(shared), grid_(grid), rows_(grid), square_{NormalMatrix::suits(rows_)} {}
 
@@ -108,16 +101,11 @@ void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<f
   });
 }
 
-SymmetricRows CurvatureLevel::rows() const {
-  const std::size_t bytes = bytes_of_square * grid_.size();
-  if (varies() || !NormalMatrix::is_linear(rows_) || bytes > most_bytes_of_square ||
-      !MemoryLedger::fits(square_.matrix ? 0 : bytes))
-    return {};
-  if (!square_.matrix) announce_memory(bytes);
-  SymmetricRows out = square().rows(shared_.workers);
-  for (std::size_t v = 0; v < shared_.weights.size(); ++v) out.add_to_diagonal(v, float(weight(v)));
-  for (std::size_t p = 0; p < damping_.size(); ++p) out.add_to_diagonal(p, damping_[p]);
-  return out;
+// Total curvature only.
+void CurvatureLevel::write_lines(LineBand& band, Workers& workers) {
+  if (!varies())
+    write_ring_lines(grid_, shared_.unknowns, inverse_diagonal_, workers, JacobianRows{rows_},
+                     band);
 }
 
 void CurvatureLevel::set_damping(const Array<float>& mu) {

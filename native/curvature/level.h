@@ -104,7 +104,7 @@ class CurvatureLevel final : public LevelOperator {
   bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
-  SymmetricRows rows() const override;
+  void write_lines(LineBand& band, Workers& workers) override;
 
  private:
   struct Tensors;

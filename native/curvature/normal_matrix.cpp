@@ -221,20 +221,6 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
   });
 }
 
-SymmetricRows NormalMatrix::rows(Workers& workers) const {
-  SymmetricRows out;
-  out.first.assign(column_begin_.begin(), column_begin_.end());
-  out.entry.resize(column_.size());
-  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      for (std::size_t k = out.first[p]; k < out.first[p + 1]; ++k)
-        out.entry[k] = {column_[k], number_[k]};
-      std::sort(out.entry.data() + out.first[p], out.entry.data() + out.first[p + 1]);
-    }
-  });
-  return out;
-}
-
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
   workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

@@ -47,9 +47,6 @@ class NormalMatrix {
   // y <- the matrix times x; zero where a point is no unknown.
   void apply(const float* x, Workers& workers, float* y) const;
 
-  // A row a point, empty where it is no unknown.
-  SymmetricRows rows(Workers& workers) const;
-
  private:
   using LocalColumn = std::uint16_t;
 

@@ -236,6 +236,20 @@ void apply_square(const RingJacobian& rows, const Unknowns& unknowns, Workers& w
 void square_diagonal(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
                      ElementSlots<float, 1>& slots, const float* weight, float* out);
 
+// The rows as multigrid/ring_lines.h asks for them.
+struct JacobianRows {
+  const RingJacobian& rows;
+  RowRun<const float> own{};
+
+  void read(const Run& run) { own = rows.of(run); }
+  int slots() const { return own.slots; }
+  float product(int s, int t, std::size_t i) const {
+    float sum = 0;
+    for (int c = 0; c < 3; ++c) sum += own.at(c, s, i) * own.at(c, t, i);
+    return sum;
+  }
+};
+
 // Calls visit(p, rows, i, points) for every point p in order, which is point i of its run with
 // these rows; points[s] is slot s.
 template <class Visit>

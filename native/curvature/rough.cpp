@@ -41,8 +41,6 @@ std::vector<double> facing_of_stars(const GridLevel& grid, const Array<double>& 
 }  // namespace
 
 void RoughSteps::run(Pads* pads, const StepStart& start, CurvatureLevelReport& report) {
-  // A crumpled surface is hard for blocks too, and what they leave of a solve upsets the loads.
-  it_.system.allow_blocks(false);
   run_on_points(start, report);
   if (it_.level < it_.system.finest()) return;
   if (pads) go_onto(*pads, start, report);

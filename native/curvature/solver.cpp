@@ -59,7 +59,6 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (pads_.take()) iterate_.current.held.loads.clear();
-  system_.allow_blocks(below_.is_plain);
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);

@@ -24,10 +24,12 @@ constexpr double usual_steps = 4;  // nobody knows how many there will be; most 
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
+  // Loads are corrected by what a solve leaves: with 3, as for the plate, spheres at level 7 ended
+  // 4e-4 off. With 4, 5 and 6 the runs take the same time.
+  out.usual_degree = 6;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
-  out.may_block = out.operators_change = true;
   // As for the thin plate: the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;

@@ -76,9 +76,6 @@ class GaussNewtonSystem {
   Symmetrizer& symmetrizer() { return symmetrizer_; }
   Workers& workers() { return shared_.workers; }
 
-  // Whether the smoother may work on blocks from here on (Hierarchy).
-  void allow_blocks(bool allowed) { hierarchy_.allow_blocks(allowed); }
-
   // The surface's linearization about its points, and with it K of `level`.
   void linearize(int level, LinearizedSurface& surface);
   // The systems of the levels below `level` about a surface of that level, injected.

@@ -15,7 +15,7 @@ namespace fairing {
 namespace {
 
 // Thin: of triangles alone more than a fifth, otherwise more than a fortieth of the faces are longer
-// than 16 times their area by length, as quads of 1 to 16 are: of 130 meshes these took blocks. Even:
+// than 16 times their area by length, as quads of 1 to 16 are. Even:
 // at most a tenth are longer than that of an equilateral triangle 1.7 times, or of a square twice.
 void judge_shapes(const ControlMesh& mesh, Counts& c) {
   std::size_t thin = 0, uneven = 0;

@@ -25,7 +25,7 @@ struct Counts {
   std::int64_t in_large_rings = 0;
   // Faces of each part that edges of unknowns connect: a factor is one of each.
   std::vector<std::int64_t> parts{};
-  bool thin = false;  // so many thin faces that the smoother will take blocks
+  bool thin = false;  // many thin faces: rows have few numbers in common
   bool even = false;  // hardly any face that is not about as long as wide
 
   std::int64_t faces() const { return triangles + quads; }

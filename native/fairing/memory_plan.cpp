@@ -25,8 +25,8 @@ std::int64_t mixed(const Counts& c, double triangle, double quad) {
   return std::int64_t(triangle + (all > 0 ? quads / all : 0) * (quad - triangle)) + 1;
 }
 
-// Bytes a point of the smoother's blocks, where faces are thin (multigrid/block_jacobi.h).
-std::int64_t block_bytes(const Counts& c) { return c.thin ? mixed(c, 240, 140) : 0; }
+// Bytes a point of the smoother's lines (multigrid/line_jacobi.h): most points may be on one.
+constexpr std::int64_t line_bytes = 28;
 
 // The assembled matrices of the thin plate, on levels with small faces, and those of the transfers
 // between them. Bytes an unknown, measured: equal rows along edges and inside faces share their
@@ -36,7 +36,6 @@ std::int64_t matrix_bytes(const Counts& c, int levels) {
   constexpr double row[2][4] = {{80, 125, 90, 66}, {108, 146, 112, 82}},
                    transfer[2][4] = {{80, 88, 97, 60}, {100, 115, 108, 63}};
   const double differing = c.thin ? 1.3 : 1;  // rows of thin faces have fewer numbers in common
-  const std::int64_t blocks = block_bytes(c);
   std::int64_t bytes = 0;
   for (int l = 1; l <= std::min(levels, 4); ++l) {
     if (!has_rows(1 << l, std::size_t(c.points(l)))) continue;
@@ -44,7 +43,7 @@ std::int64_t matrix_bytes(const Counts& c, int levels) {
     bytes += c.in_large_rings * std::int64_t(sizeof(float) + sizeof(RowChunk::LocalColumn));
     bytes += (mixed(c, differing * row[0][l - 1] + below * transfer[0][l - 1],
                     differing * row[1][l - 1] + below * transfer[1][l - 1]) +
-              blocks) *
+              line_bytes) *
              c.unknowns(l);
   }
   return bytes;
@@ -114,7 +113,7 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
     if (c.unknowns(l) <= std::int64_t(l > 1 ? tiny_level : direct_limit))
       factored = c.used_points(l);
   }
-  const std::int64_t rows = (varies ? 2 * row + moment_bytes : row + block_bytes(c)) +
+  const std::int64_t rows = (varies ? 2 * row + moment_bytes : row + line_bytes) +
                             (tense ? row / 3 : 0),
                      on_finest = surface_bytes * c.points(levels),
                      usual = on_finest + 2 * std::int64_t(factor_bytes(std::size_t(factored)));
@@ -123,8 +122,7 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
-// that proves hard while the run is on its way gets blocks (multigrid/block_jacobi.h), or is factored
-// (v_cycle.h); that comes on top: MemoryLedger::fits() keeps to the limit then.
+// that proves hard while the run is on its way is factored (v_cycle.h); that comes on top: MemoryLedger::fits() keeps to the limit then.
 std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, bool back_leg) {
   const std::int64_t n = std::int64_t(1) << levels;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a hierarchy adapts: the smoother's degree, blocks in place of the diagonal, factors.
+// How a hierarchy adapts: the smoother's degree, and factors.
 #include <algorithm>
 #include <cmath>
 
@@ -20,15 +20,6 @@ constexpr int most_degree = 96;
 constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which takes the hardest part away.
 constexpr int most_degree_over_factor = 12;
-
-// An iteration with the diagonal and the usual degree that gains less, as a logarithm, is slow: it
-// takes more than 18 to 1e-4, where even meshes take five to ten; with a smaller degree, as much
-// less. Blocks serve better then, with this degree to begin with. Odd degrees gain less than the
-// even ones below them.
-constexpr double slow_gain = 0.5;
-constexpr int degree_of_blocks = 2;
-// With more, blocks cost more than what they are there for.
-constexpr int most_degree_of_blocks = 8;
 
 // Numbers a column of a narrow level's factor; that of a plate has some 80.
 constexpr std::size_t most_numbers_of_narrow = 20;
@@ -54,8 +45,8 @@ bool Hierarchy::knows_factor_below(std::size_t index) const {
   return index == cycle_.base + 1 && coarse_->direct();
 }
 
-bool Hierarchy::may_factor(std::size_t index) const {
-  if (is_bounded_) return unknowns_[index] <= options_.cheap_factor;
+bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
+  if (limits.may_end_early) return unknowns_[index] <= options_.cheap_factor;
   if (unknowns_[index] <= direct_limit_of_hard) return true;
   if (!knows_factor_below(index)) return false;
   const double growth =
@@ -69,84 +60,24 @@ bool Hierarchy::factors_cheaply(std::size_t index) const {
           coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
 }
 
-Hierarchy::Convergence Hierarchy::Convergence::after(const PcgResult& result,
-                                                     bool from_start) const {
-  const double last = result.history.back();
-  double gain = last > 0 ? std::log(result.history.front() / last) : 0.0;
-  if (from_start && result.energy_error > 0) gain = std::max(gain, -std::log(result.energy_error));
-  return {iterations + result.iterations, gained + gain};
-}
-
 bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
-  if (wants_blocks(index, convergence_[index].after(so_far, limits.from_start))) return false;
-  if (so_far.iterations % probe_interval == first_probe)
-    raise_degree(index, so_far, limits.tolerance);
-  return !blocks_fail(index) && !is_too_hard(index);
+  if (so_far.iterations % probe_interval == first_probe) raise_degree(so_far, limits);
+  return !is_too_hard(index, limits);
 }
 
-bool Hierarchy::changes_smoother(std::size_t index) {
-  if (!blocks_fail(index)) return wants_blocks(index, convergence_[index]);
-  options_.may_block = false;
-  leave_blocks();
-  return true;
+bool Hierarchy::fits_factor(std::size_t index, const PcgLimits& limits) const {
+  return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
 }
 
-bool Hierarchy::fits_factor(std::size_t index) const {
-  return may_factor(index) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
-}
-
-bool Hierarchy::is_too_hard(std::size_t index) const {
-  return fits_factor(index) &&
+bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
+  return fits_factor(index, limits) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index));
-}
-
-// Skew makes a mesh hard on all levels alike: where the one below has blocks, this one needs them.
-bool Hierarchy::wants_blocks(std::size_t index, const Convergence& so_far) const {
-  if (!options_.may_block || !blocks_allowed_ || cycle_.levels[index].blocks) return false;
-  if (options_.operators_change && factors_cheaply(index)) return false;
-  const double share = std::min(1.0, double(cycle_.degree) / VCycle::usual_degree);
-  return (index > 0 && cycle_.levels[index - 1].blocks) || is_too_hard(index) ||
-         (so_far.iterations >= first_probe &&
-          so_far.gained < slow_gain * so_far.iterations * share);
-}
-
-// Where a factor may follow, and blocks want as many steps as the diagonal.
-bool Hierarchy::blocks_fail(std::size_t index) const {
-  return options_.operators_change && cycle_.levels[index].blocks &&
-         cycle_.degree > most_degree_of_blocks;
-}
-
-void Hierarchy::take_blocks(std::size_t index) {
-  for (std::size_t l = cycle_.base; l <= index && options_.may_block; ++l) {
-    CycleLevel& level = cycle_.levels[l];
-    if (level.blocks || (l == cycle_.base && coarse_->direct())) continue;
-    level.blocks = BlockJacobi::make(*level.op, workers_);
-    options_.may_block = level.blocks != nullptr;
-    if (level.blocks) level.largest_eigenvalue = 0;  // of another matrix; without blocks it stays
-  }
-  if (options_.may_block) cycle_.degree = degree_of_blocks;
-}
-
-void Hierarchy::allow_blocks(bool allowed) {
-  blocks_allowed_ = allowed;
-  if (!allowed) leave_blocks();
-}
-
-// What wanted blocks is hard: it is factored next, if it may be.
-void Hierarchy::leave_blocks() {
-  for (std::size_t l = 0; l < cycle_.levels.size(); ++l) {
-    CycleLevel& level = cycle_.levels[l];
-    if (!level.blocks) continue;
-    level.blocks.reset();
-    level.largest_eigenvalue = 0;
-    cycle_.degree =
-        may_factor(l) ? degree_of_hard(unknowns_[l], factors_cheaply(l)) : VCycle::usual_degree;
-  }
 }
 
 // From here on this level is the coarsest, solved directly.
 void Hierarchy::promote_to_coarsest(std::size_t index) {
-  coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, 0, true);
+  coarse_ =
+      std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, unknowns_[index], true);
   is_factor_old_ = false;
   ++factors_;
   cycle_.coarse = coarse_.get();
@@ -156,18 +87,17 @@ void Hierarchy::promote_to_coarsest(std::size_t index) {
 
 // What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows,
 // so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
-void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double tolerance) {
+void Hierarchy::raise_degree(const PcgResult& result, const PcgLimits& limits) {
   // The first iterations are the easy ones; the latest tell more.
   const int window = std::min(result.iterations, probe_interval);
   const double gained =
       std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
   const double missing =
-      std::log(std::max(result.residual / tolerance, result.energy_error / tolerance));
+      std::log(std::max(result.residual, result.energy_error) / limits.tolerance);
   const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
   if (ahead <= iterations_wanted) return;
-  int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
-  if (cycle_.levels[index].blocks) degree += degree % 2;
-  cycle_.degree = std::min(degree, is_bounded_ ? most_degree_over_factor : most_degree);
+  const int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
+  cycle_.degree = std::min(degree, limits.may_end_early ? most_degree_over_factor : most_degree);
 }
 
 // Harder meshes take a larger degree than the usual one. Where a single iteration gained more than a
@@ -175,14 +105,15 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, double 
 // the smoother. What has been raised stays.
 void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
                               double solve_gain) {
-  if (!adapts(last.direct) || last.blocks || last.iterations == 0) return;
+  if (!adapts(last.direct) || last.iterations == 0) return;
   const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
   const double for_iterations =
       last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
   const double for_gain = std::min<double>(
       last.smoother_degree * last.iterations * std::log(solve_gain) / std::log(tolerance),
-      VCycle::usual_degree);
-  const int least = cycle_.degree > VCycle::usual_degree ? cycle_.degree : VCycle::usual_degree / 2;
+      options_.usual_degree);
+  const int least =
+      cycle_.degree > options_.usual_degree ? cycle_.degree : options_.usual_degree / 2;
   cycle_.degree =
       std::clamp(int(std::ceil(std::max(for_iterations, for_gain))), least, most_degree);
 }

@@ -113,83 +113,74 @@ void LevelOperator::subtract_product(const float* x, float* room, float* y, Work
   for_each_index(workers, size(), [=](std::size_t i) { y[i] -= room[i]; });
 }
 
-void smooth(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
-            double largest_eigenvalue, int degree, SmoothFrom from, bool last_residual,
-            SmootherState& s) {
+void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
+            int degree, SmoothFrom from, bool last_residual, SmootherState& s) {
   const auto first_step = float(4.0 / 3.0 / largest_eigenvalue);
   const auto relax = [&](float momentum, float step, bool adds_d) {
     const SmoothingStep now{s.step.data(), s.next.data(), s.x.data(), s.residual.data(),
                             momentum,      step,          adds_d};
-    if (blocks) {
-      op.apply(now.d, now.next);
-      blocks->finish_step(now);
-    } else {
-      op.relax(now, workers);
-    }
+    op.relax(now, workers);
+    if (lines) lines->add(step, now.r, now.x, now.next);
     std::swap(s.step, s.next);
   };
-  if (from == SmoothFrom::zero && blocks)
-    blocks->start_from_zero(first_step, s.residual.data(), s.x.data(), s.step.data());
-  else if (from == SmoothFrom::zero)
+  if (from == SmoothFrom::zero) {
     start_from_zero(op, workers, first_step, s);
-  else
+    if (lines) lines->add(first_step, s.residual.data(), s.x.data(), s.step.data());
+  } else {
     relax(0, first_step, true);
+  }
   for (int k = 1; k < degree; ++k)
     relax(float((2.0 * k - 1) / (2.0 * k + 3)),
           float((8.0 * k + 4) / (2.0 * k + 3) / largest_eigenvalue), false);
   if (last_residual) op.subtract_product(s.step.data(), s.next.data(), s.residual.data(), workers);
 }
 
-double largest_eigenvalue(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
+double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start) {
   const std::size_t components = op.components(), size = op.size();
-  const Array<float>& inverse = op.inverse_diagonal();
-  Array<float> roots(blocks ? 0 : size);
-  if (!blocks)
-    workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-        std::fill_n(roots.data() + components * p, components,
-                    float(std::sqrt(double(inverse[p]))));
+  const float* inverse = op.inverse_diagonal().data();
+  const auto precondition = [&](const Array<float>& r, Array<float>& z) {
+    for_each_index(workers, size, [&](std::size_t i) { z[i] = inverse[i / components] * r[i]; });
+    if (lines) lines->add(1, r.data(), z.data(), nullptr);
+  };
+  // Lanczos in the scalar product of B^-1, B being the diagonal with the lines: (v_i, z_j) = (i = j)
+  // for z = B^-1 v.
+  Array<float> v(size), before(size, 0.0f), z(size + vector_room), product(size);
+  const auto length = [&](const Array<float>& r) {
+    precondition(r, z);
+    return std::sqrt(std::max(
+        sum(workers, size, [&](std::size_t i) { return double(r[i]) * double(z[i]); }), 0.0));
+  };
+  for_each_index(workers, size, [&](std::size_t i) { v[i] = start[i]; });
+  double beta = length(v);
+  if (!(beta > 0) || !std::isfinite(beta)) return 4.0;  // nothing to solve; any safe value
+  const auto scale = [&](Array<float>& r, double by) {
+    for_each_index(workers, size, [&](std::size_t i) {
+      r[i] = float(r[i] / by);
+      z[i] = float(z[i] / by);
     });
-  const auto root = [&](std::size_t i) { return blocks ? 1.0 : double(roots[i]); };
-  // Lanczos for D^-1/2 K D^-1/2, or L^-1 K L^-T: v are its vectors, `scaled` is what K is applied
-  // to.
-  Array<float> v(size), before(size), scaled(size + vector_room), product(size);
-  for_each_index(workers, size, [&](std::size_t i) { scaled[i] = start[i]; });
-  if (blocks) blocks->forward(scaled.data());
-  const double length = std::sqrt(sum(workers, size, [&](std::size_t i) {
-    const double s = double(scaled[i]) * root(i);
-    return s * s;
-  }));
-  if (!(length > 0) || !std::isfinite(length)) return 4.0;  // nothing to solve; any safe value
-  for_each_index(workers, size, [&](std::size_t i) {
-    v[i] = float(double(scaled[i]) * root(i) / length);
-    before[i] = 0;
-  });
+  };
+  scale(v, beta);
+  beta = 0;
   Eigen::VectorXd diagonal(lanczos_steps), off(lanczos_steps);
   int m = 0;
-  double beta = 0;
   for (; m < lanczos_steps; ++m) {
-    for_each_index(workers, size, [&](std::size_t i) { scaled[i] = float(v[i] * root(i)); });
-    if (blocks) blocks->backward(scaled.data());
-    op.apply(scaled.data(), product.data());
-    if (blocks) blocks->forward(product.data());
-    for_each_index(workers, size, [&](std::size_t i) {
-      product[i] = float(product[i] * root(i) - beta * before[i]);
-    });
+    op.apply(z.data(), product.data());
     const double alpha =
-        sum(workers, size, [&](std::size_t i) { return double(product[i]) * v[i]; });
+        sum(workers, size, [&](std::size_t i) { return double(product[i]) * z[i]; });
     diagonal(m) = alpha;
-    for_each_index(workers, size,
-                   [&](std::size_t i) { product[i] = float(product[i] - alpha * v[i]); });
-    beta = norm(workers, size, product.data());
+    for_each_index(workers, size, [&](std::size_t i) {
+      product[i] = float(product[i] - alpha * v[i] - beta * before[i]);
+    });
+    beta = length(product);
     off(m) = beta;
     if (!(beta > lanczos_end * alpha)) {
       ++m;
       break;
     }
     std::swap(before, v);
-    for_each_index(workers, size, [&](std::size_t i) { v[i] = float(product[i] / beta); });
+    std::swap(v, product);
+    scale(v, beta);
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
   eigen.computeFromTridiagonal(diagonal.head(m), off.head(m > 1 ? m - 1 : 0),

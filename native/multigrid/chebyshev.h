@@ -2,8 +2,8 @@
 // The smoother, and the one number that it needs.
 #pragma once
 
-#include "multigrid/block_jacobi.h"
 #include "multigrid/level_operator.h"
+#include "multigrid/line_jacobi.h"
 
 namespace fairing {
 
@@ -28,12 +28,10 @@ enum class SmoothFrom {
 //
 //   z_k = (2k - 1)/(2k + 3) z_{k-1} + (8k + 4)/(2k + 3)/lambda D^-1 r_k,  x += z_k,  z_{-1} = 0.
 //
-// No lower end of the spectrum has to be guessed. `blocks`, which may be null, stand for D. Updates
-// x, and the residual with it unless `last_residual` is false (then the residual is stale, and one
+// No lower end of the spectrum has to be guessed. `lines`, which may be null, join D. Updates x, and the residual with it unless `last_residual` is false (then the residual is stale, and one
 // application of K saved).
-void smooth(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
-            double largest_eigenvalue, int degree, SmoothFrom from, bool last_residual,
-            SmootherState& state);
+void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
+            int degree, SmoothFrom from, bool last_residual, SmootherState& state);
 
 // The vectors' part of a step, for `count` points from `first` on: product is K d there, the
 // vectors of `step` begin at point 0.
@@ -43,7 +41,7 @@ void finish_step(const SmoothingStep& step, std::size_t components, const float*
 // The largest eigenvalue of D^-1 K, by a few Lanczos steps from D^-1 `start` (a safe margin
 // included). A start that moves with the mesh, such as a residual, makes the estimate independent
 // of numbering and position.
-double largest_eigenvalue(LevelOperator& op, const BlockJacobi* blocks, Workers& workers,
+double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start);
 
 }  // namespace fairing

@@ -23,7 +23,7 @@ constexpr double settled_margin = 1.03;
 
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options)
     : workers_(workers), options_(options), cycle_(workers) {
-  if (options.smoother_degree > 0) cycle_.degree = options.smoother_degree;
+  cycle_.degree = options.smoother_degree > 0 ? options.smoother_degree : options.usual_degree;
 }
 
 void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns) {
@@ -33,7 +33,6 @@ void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t un
   level.state.resize(op.size());
   cycle_.levels.push_back(std::move(level));
   unknowns_.push_back(unknowns);
-  convergence_.emplace_back();
 }
 
 void Hierarchy::complete() {
@@ -48,8 +47,7 @@ void Hierarchy::complete() {
 
 void Hierarchy::refresh(std::size_t top, bool spectrum) {
   if (coarse_->direct() && top >= cycle_.base) refactor();
-  for (std::size_t l = 0; l <= top; ++l)
-    if (cycle_.levels[l].blocks && !cycle_.levels[l].blocks->refactor()) leave_blocks();
+  refactor_lines(top);
   if (spectrum)
     for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
 }
@@ -59,6 +57,13 @@ void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
     is_factor_old_ = true;
   else if (fresh)
     refresh(top, true);
+  else
+    refactor_lines(top);
+}
+
+void Hierarchy::refactor_lines(std::size_t top) {
+  for (std::size_t l = 0; l <= top; ++l)
+    if (cycle_.levels[l].lines) cycle_.levels[l].lines->refactor();
 }
 
 void Hierarchy::refactor() {
@@ -70,7 +75,6 @@ void Hierarchy::refactor() {
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                             const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
-  is_bounded_ = limits.may_end_early;
   if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
     solve_direct(solver, limits, system, out);
@@ -84,7 +88,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
   }
   PcgResult result = iterate(index, limits, system, each, out);
   if (!result.converged && limits.may_adapt && adapts(out.direct) &&
-      (is_too_hard(index) || (result.broke_down && fits_factor(index)))) {
+      (is_too_hard(index, limits) || (result.broke_down && fits_factor(index, limits)))) {
     promote_to_coarsest(index);
     solve_direct(*coarse_, limits, system, out);
     if (out.converged) return out;
@@ -96,39 +100,32 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
   out.residual = result.residual;
   out.energy_error = result.energy_error;
   out.largest_eigenvalue = cycle_.levels[index].largest_eigenvalue;
-  out.blocks = cycle_.levels[index].blocks != nullptr;
+  out.lines = cycle_.levels[index].lines && cycle_.levels[index].lines->serves();
   out.converged = result.converged;
   out.enough = result.enough;
   return out;
 }
 
-// Conjugate gradients, once more where the smoother takes blocks on the way; to the end, or until
-// the level is too hard.
 PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                              const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
-  PcgLimits rest = limits;
-  if (options_.operators_change) convergence_[index] = {};
-  for (;;) {
-    if (adapt && wants_blocks(index, convergence_[index])) take_blocks(index);
-    estimate_eigenvalues(index, system.r);
-    PcgResult result = conjugate_gradients(cycle_, index, workers_, rest, system, pcg_,
-                                           [&](const PcgResult& so_far) {
-                                             each(so_far);
-                                             return !adapt || goes_on(index, so_far, rest);
-                                           });
-    if (adapt) convergence_[index] = convergence_[index].after(result, rest.from_start);
-    out.iterations += result.iterations;
-    const bool first = out.residuals.empty();
-    out.residuals.insert(out.residuals.end(), result.history.begin() + (first ? 0 : 1),
-                         result.history.end());
-    rest.max_iterations -= result.iterations;
-    if (!adapt || result.converged || rest.max_iterations <= 0 || !changes_smoother(index))
-      return result;
-    rest.from_start = false;
-    rest.residual_scale = result.residual_scale;
-    rest.energy_scale = result.energy_scale;
-  }
+  for (std::size_t l = cycle_.base; l <= index; ++l) seek_lines(l);
+  estimate_eigenvalues(index, system.r);
+  PcgResult result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
+                                         [&](const PcgResult& so_far) {
+                                           each(so_far);
+                                           return !adapt || goes_on(index, so_far, limits);
+                                         });
+  out.iterations += result.iterations;
+  out.residuals = result.history;
+  return result;
+}
+
+void Hierarchy::seek_lines(std::size_t index) {
+  CycleLevel& level = cycle_.levels[index];
+  if (level.has_sought_lines || (index == cycle_.base && coarse_->direct())) return;
+  level.has_sought_lines = true;
+  level.lines = LineJacobi::make(*level.op, workers_);
 }
 
 bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system,
@@ -193,11 +190,11 @@ void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   for (std::size_t l = lowest; l <= top; ++l) {
     CycleLevel& level = cycle_.levels[l];
     const double below = l > cycle_.base ? cycle_.levels[l - 1].largest_eigenvalue : 0;
-    if (below > 0 && l >= options_.settled && !level.blocks)
+    if (below > 0 && l >= options_.settled && !level.lines)
       level.largest_eigenvalue = settled_margin * below;
     else
       level.largest_eigenvalue =
-          largest_eigenvalue(*level.op, level.blocks.get(), workers_, level.state.residual.data());
+          largest_eigenvalue(*level.op, level.lines.get(), workers_, level.state.residual.data());
   }
 }
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/types.h"
+#include "multigrid/line_band.h"
 #include "parallel/memory.h"
 #include "parallel/workers.h"
-#include "sparse/matrix.h"
 
 namespace fairing {
 
@@ -90,9 +90,9 @@ class LevelOperator {
   virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
 
   virtual AssembledSystem assemble() const = 0;  // small levels only
-  // K in single precision, a row a point, empty where it is no unknown. None: there is too much of
-  // it.
-  virtual SymmetricRows rows() const { return {}; }
+  // Offers K's couplings where lines are still sought, and adds its numbers along them. Where nothing
+  // is offered, the smoother has no lines.
+  virtual void write_lines(LineBand&, Workers&) {}
 };
 
 }  // namespace fairing

@@ -123,11 +123,11 @@ double CoarseSolver::norm_of_terms(const double* x) const {
   }));
 }
 
-void CoarseSolver::solve(const BlockJacobi* blocks, double largest_eigenvalue, int degree,
+void CoarseSolver::solve(const LineJacobi* lines, double largest_eigenvalue, int degree,
                          SmootherState& state) {
   if (!factor_) {
     // As much as on any other level: more gains no iteration, and small faces are dear.
-    smooth(op_, blocks, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
+    smooth(op_, lines, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
     return;
   }
   const std::size_t size = op_.size();
@@ -141,12 +141,12 @@ void CoarseSolver::solve(const BlockJacobi* blocks, double largest_eigenvalue, i
 void VCycle::run(std::size_t top) {
   CycleLevel& level = levels[top];
   if (top == base) {
-    coarse->solve(level.blocks.get(), level.largest_eigenvalue, degree, level.state);
+    coarse->solve(level.lines.get(), level.largest_eigenvalue, degree, level.state);
     return;
   }
   SmootherState& s = level.state;
   const auto smooth_from = [&](SmoothFrom from, bool last_residual) {
-    smooth(*level.op, level.blocks.get(), workers_, level.largest_eigenvalue, degree, from,
+    smooth(*level.op, level.lines.get(), workers_, level.largest_eigenvalue, degree, from,
            last_residual, s);
   };
   smooth_from(SmoothFrom::zero, true);

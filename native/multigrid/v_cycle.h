@@ -33,8 +33,7 @@ class CoarseSolver {
   std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: none
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
-  void solve(const BlockJacobi* blocks, double largest_eigenvalue, int degree,
-             SmootherState& state);
+  void solve(const LineJacobi* lines, double largest_eigenvalue, int degree, SmootherState& state);
   // x <- K^-1 b in double; direct() only.
   void solve(const double* b, double* x) const;
   // |D x|, D the diagonal of K: what products with x are made of.
@@ -67,8 +66,9 @@ constexpr std::size_t factor_bytes(std::size_t unknowns) {
 // One level as the cycle sees it.
 struct CycleLevel {
   LevelOperator* op = nullptr;
-  LevelTransfer* transfer = nullptr;    // to the next coarser level; null on the coarsest
-  std::unique_ptr<BlockJacobi> blocks;  // of the smoother; null: the diagonal serves
+  LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
+  std::unique_ptr<LineJacobi> lines;  // of the smoother; null: the diagonal serves
+  bool has_sought_lines = false;
   double largest_eigenvalue = 0;
   SmootherState state;
 };
@@ -83,8 +83,7 @@ class VCycle {
   std::vector<CycleLevel> levels;  // coarsest first
   CoarseSolver* coarse = nullptr;  // of levels[base]
   std::size_t base = 0;
-  static constexpr int usual_degree = 6;
-  int degree = usual_degree;  // of the smoother, before and after
+  int degree = 0;  // of the smoother, before and after
 
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.

@@ -68,15 +68,6 @@ struct RowsLoop {
   };
 };
 
-template <class Visit>
-void visit_numbers(const RowChunk& chunk, Visit&& visit) {
-  std::uint32_t k = 0;
-  for (std::size_t r = 0; r < chunk.row.size(); ++r)
-    for (const float* number = chunk.number.data() + chunk.row[r].number; k < chunk.row[r].end;
-         ++k, ++number)
-      if (*number != 0) visit(r, std::size_t(chunk.column[chunk.local_column[k]]), *number);
-}
-
 }  // namespace
 
 template <int C>
@@ -167,14 +158,14 @@ MatrixColumns AssembledMatrix::by_columns() const {
   out.first.assign(columns_ + 1, 0);
   for (const RowChunk& chunk : chunk_) {
     stop_if_cancelled();
-    visit_numbers(chunk, [&](std::size_t, std::size_t column, float) { ++out.first[column + 1]; });
+    visit_chunk(chunk, [&](std::size_t, std::size_t column, float) { ++out.first[column + 1]; });
   }
   for (std::size_t c = 0; c < columns_; ++c) out.first[c + 1] += out.first[c];
   out.entry.resize(out.first.back());
   std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
   for (std::size_t c = 0; c < chunk_.size(); ++c) {
     stop_if_cancelled();
-    visit_numbers(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
+    visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
       out.entry[next[column]++] = {Index(c * chunk_rows + row), number};
     });
   }

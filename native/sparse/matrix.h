@@ -67,6 +67,16 @@ struct RowChunk {
   }
 };
 
+// Calls visit(row of the chunk, column, number) for all but zeros, which fill up rows.
+template <class Visit>
+void visit_chunk(const RowChunk& chunk, const Visit& visit) {
+  std::uint32_t k = 0;
+  for (std::size_t r = 0; r < chunk.row.size(); ++r)
+    for (std::uint32_t number = chunk.row[r].number; k < chunk.row[r].end; ++k, ++number)
+      if (chunk.number[number] != 0)
+        visit(r, std::size_t(chunk.column[chunk.local_column[k]]), chunk.number[number]);
+}
+
 // product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x
 // holds C numbers a column and `vector_room` (multigrid/level_operator.h) more. Every number sees
 // the same operations in the same order on all machines.
@@ -162,17 +172,10 @@ struct MatrixColumns {
   std::vector<std::size_t> first;
   std::vector<std::pair<Index, float>> entry;
 
-  // To an entry that is there.
-  void add_to_diagonal(std::size_t c, float number) {
-    for (std::size_t k = first[c]; k < first[c + 1]; ++k)
-      if (entry[k].first == Index(c)) entry[k].second += number;
-  }
-
   std::size_t bytes() const {
     return first.capacity() * sizeof(first[0]) + entry.capacity() * sizeof(entry[0]);
   }
 };
-using SymmetricRows = MatrixColumns;
 
 class AssembledMatrix {
  public:
@@ -211,6 +214,17 @@ class AssembledMatrix {
   float diagonal(std::size_t row) const;
 
   MatrixColumns by_columns() const;
+
+  // Calls visit(row, column, number) for all numbers, in parallel: those of a row on one thread.
+  template <class Visit>
+  void visit_numbers(Workers& workers, const Visit& visit) const {
+    workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c)
+        visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
+          visit(Index(c * chunk_rows + row), Index(column), number);
+        });
+    });
+  }
 
   // Calls finish(row, count, product) on blocks of rows, in parallel, with product the matrix times
   // x there, C numbers a row, 1 or 3: what comes after the product is done while it is in the

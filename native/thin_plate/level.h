@@ -126,15 +126,12 @@ class ThinPlateLevel final : public LevelOperator {
     return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
                                shared_.workers, surface_.get());
   }
-  SymmetricRows rows() const override {
-    if (matrix_) return matrix_->rows();
-    const std::unique_ptr<PlateMatrix> matrix =
-        surface_ ? PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers, true)
-                 : PlateMatrix::make(grid_, shared_.stencils, shared_.unknowns, shared_.workers,
-                                     /*passing=*/true);
-    if (!matrix) return {};
-    matrix->set_weights(shared_.weights);
-    return matrix->rows();
+  void write_lines(LineBand& band, Workers& workers) override {
+    if (matrix_)
+      matrix_->write_lines(inverse_diagonal_, band, workers);
+    else if (!surface_)
+      write_plate_lines(grid_, shared_.stencils, shared_.unknowns, inverse_diagonal_, workers,
+                        band);
   }
 
  private:

@@ -30,7 +30,6 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   HierarchyOptions out;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.may_block = true;
   out.settled = settled_level - std::size_t(base);
   if (tense) out.settled += settled_under_tension;
   return out;

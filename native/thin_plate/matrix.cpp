@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/matrix.h"
 
+#include <cmath>
+
 #include "parallel/cancel.h"
 #include "sparse/repeated_rows.h"
 
@@ -129,9 +131,8 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 }  // namespace
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
-                                               const Unknowns& unknowns, Workers& workers,
-                                               bool passing) {
-  if (!has_rows(passing ? 2 : grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
+                                               const Unknowns& unknowns, Workers& workers) {
+  if (!has_rows(grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
   std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const PlateRings plate(grid, stencils, unknowns, workers);
   const auto writer = [&] {
@@ -142,10 +143,8 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Sten
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid,
                                                const SurfaceDifferences& surface,
-                                               const Unknowns& unknowns, Workers& workers,
-                                               bool passing) {
-  if (!has_rows(passing ? 2 : grid.n(), grid.size()) ||
-      !worth_products(surface.products(), grid.size()))
+                                               const Unknowns& unknowns, Workers& workers) {
+  if (!has_rows(grid.n(), grid.size()) || !worth_products(surface.products(), grid.size()))
     return nullptr;
   std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const auto writer = [&] {
@@ -160,10 +159,20 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
     weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
 }
 
-SymmetricRows PlateMatrix::rows() const {
-  SymmetricRows out = rows_.by_columns();
-  for (std::size_t v = 0; 3 * v < weight_.size(); ++v) out.add_to_diagonal(v, weight_[3 * v]);
-  return out;
+void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& band,
+                              Workers& workers) const {
+  if (band.is_seeking()) {
+    rows_.visit_numbers(workers, [&](Index p, Index q, float number) {
+      if (p != q)
+        band.offer(p, q,
+                   std::abs(number) * std::sqrt(inverse_diagonal[std::size_t(p)] *
+                                                inverse_diagonal[std::size_t(q)]));
+    });
+    band.link();
+  }
+  if (band.lines() == 0) return;
+  band.begin();
+  rows_.visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
 }
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {

@@ -26,23 +26,20 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
 // cost more than an index a number. For the smoother, which wants many cheap applications.
 class PlateMatrix {
  public:
-  // Null where rings are so large that their squares are not linear, and unless it is for `passing`
-  // use where the passes are better: with many points a face. Throws where the run has been
-  // cancelled.
+  // Null where rings are so large that their squares are not linear, and where the passes are better:
+  // with many points a face. Throws where the run has been cancelled.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
-                                           const Unknowns& unknowns, Workers& workers,
-                                           bool passing = false);
+                                           const Unknowns& unknowns, Workers& workers);
 
   // The same with the differences of a surface.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const SurfaceDifferences& surface,
-                                           const Unknowns& unknowns, Workers& workers,
-                                           bool passing = false);
+                                           const Unknowns& unknowns, Workers& workers);
 
   // Of control vertices: what is added to their diagonal.
   void set_weights(const VertexWeights& weights);
 
-  // With the weights; rows of points that are no unknowns are empty.
-  SymmetricRows rows() const;
+  // As LevelOperator::write_lines(), with the inverse of the diagonal.
+  void write_lines(const Array<float>& inverse_diagonal, LineBand& band, Workers& workers) const;
 
   // One number a point; 1 where it is no unknown.
   Array<float> inverse_diagonal(Workers& workers) const;

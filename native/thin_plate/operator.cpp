@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/operator.h"
 
+#include "multigrid/ring_lines.h"
 #include "parallel/cancel.h"
 #include "thin_plate/kernels.h"
 #include "thin_plate/membrane.h"
@@ -79,6 +80,34 @@ struct ElementRows {
 double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+
+// The energy's rows as multigrid/ring_lines.h asks for them.
+struct PlateRingRows {
+  const GridLevel& grid;
+  RegionWeight joint;
+  ElementRows rows;
+  std::vector<EnergyRows::Column> column{};  // by slot
+  Run run{};
+
+  void read(const Run& now) {
+    run = now;
+    if (run.row > 1) return;
+    rows.read(run);
+    column.assign(1, {});
+    for (int side = 0; side < (run.kind == RunKind::face_row ? 2 : 1); ++side)
+      for (const auto& neighbour : rows.column) {
+        column.push_back(neighbour);
+        for (std::size_t c = 0; c < 3; ++c) column[0][c] -= neighbour[c];
+      }
+    if (rows.column.empty()) column.clear();
+  }
+  int slots() const { return int(column.size()); }
+  float product(int s, int t, std::size_t i) const {
+    const double weight = joint.weighs(run) ? joint.point(run, i) : 1.0;
+    return float(weight * grid.n() * grid.n() *
+                 dot(column[std::size_t(s)], column[std::size_t(t)]));
+  }
+};
 
 // What the squares of an element's coefficients add to the diagonal of K: at the point itself, and
 // at each neighbour.
@@ -245,6 +274,12 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;
   return diagonal;
+}
+
+void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
+                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band) {
+  write_ring_lines(grid, unknowns, inverse_diagonal, workers,
+                   PlateRingRows{grid, RegionWeight(grid), {grid.mesh(), stencils}}, band);
 }
 
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "grid/accumulate.h"
+#include "multigrid/line_band.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
 
@@ -36,6 +37,10 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
                                  Workers& workers, ElementSlots<double>& slots);
+
+// As LevelOperator::write_lines(), without the membrane.
+void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
+                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band);
 
 // E(x) over all points, unknowns or not, without the parts of the control vertices' weights and of
 // the membrane (thin_plate/membrane.h).

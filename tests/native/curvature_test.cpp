@@ -100,41 +100,6 @@ TEST(CurvatureLevel, PassesAgreeWithTheMatrix) {
       }
 }
 
-// On levels of many points a face too, whose passes know no rows.
-TEST(CurvatureLevel, RowsAreTheMatrixWithDamping) {
-  for (const auto& [name, control] : meshes_of_all_kinds())
-    for (int l = 2; l <= 4; ++l) {
-      SCOPED_TRACE(name + ", level " + std::to_string(l));
-      System s(control, l, CurvatureEnergy::total_curvature);
-      s.linearize(lumpy(s.lattice, 0.01));
-      Array<float> mu(s.lattice.size());
-      for (std::size_t i = 0; i < mu.size(); ++i) mu[i] = float(i % 3);
-      s.level.set_damping(mu);
-      const AssembledSystem assembled = s.level.assemble();
-      const SymmetricRows rows = s.level.rows();
-      ASSERT_EQ(rows.first.size(), s.lattice.size() + 1);
-      std::vector<Eigen::Triplet<double>> entries;
-      std::vector<Index> number(s.lattice.size(), -1);
-      for (std::size_t i = 0; i < assembled.unknown_points.size(); ++i)
-        number[std::size_t(assembled.unknown_points[i])] = Index(i);
-      for (std::size_t p = 0; p < s.lattice.size(); ++p)
-        for (std::size_t k = rows.first[p]; k < rows.first[p + 1]; ++k) {
-          const auto [q, entry] = rows.entry[k];
-          EXPECT_TRUE(k == rows.first[p] || rows.entry[k - 1].first < q);
-          entries.emplace_back(number[p], number[std::size_t(q)], entry);
-        }
-      SparseMatrix found(assembled.matrix.rows(), assembled.matrix.cols());
-      found.setFromTriplets(entries.begin(), entries.end());
-      EXPECT_LT((found - assembled.matrix).norm(), 1e-6 * assembled.matrix.norm());
-    }
-}
-
-TEST(CurvatureLevel, VariationHasNoRows) {
-  System s(cube(), 2, CurvatureEnergy::minimum_variation);
-  s.linearize(lumpy(s.lattice, 0.01));
-  EXPECT_TRUE(s.level.rows().first.empty());
-}
-
 TEST(CurvatureLevel, IsSymmetricAndPositive) {
   for (const CurvatureEnergy energy : both) {
     System s(cube(), 3, energy);

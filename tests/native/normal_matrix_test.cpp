@@ -79,7 +79,7 @@ TEST(NormalMatrix, HasTheConnectionBetween) {
       const std::size_t points = lattice.size();
       Array<float> x(points), expected(points), y(points), moment(3 * points), turned(3 * points);
       const auto pass = [&] {
-        visit_moments(rows, workers, x.data(), [&](const Run& run, const float* lanes) {
+        visit_moments(rows, workers, x.data(), [&](const fairing::Run& run, const float* lanes) {
           for (std::size_t i = 0; i < run.count; ++i)
             for (std::size_t c = 0; c < 3; ++c)
               moment[3 * (run.first + i) + c] = lanes[c * run.count + i];

@@ -21,9 +21,10 @@ LEVELS, FEWER, MANY = 3, 2, 100  # levels; those of meshes with more faces
 CONVERGED = 1e-3**0.5  # the decrement: its square, a share of the energy, is below a thousandth
 STEPS, ITERATIONS = 10, 40
 
-# It has several surfaces, with folds and without: vertices moved by 1e-13 lead to another one. So
+# They have several surfaces, with folds and without: vertices moved by 1e-13 lead to another one. So
 # either may come out.
 BISHOP = "creases/opensubdiv-shapes__catmark_bishop"
+FISH = "cages/odedstein-meshes__fish_fish_control_mesh"
 SLOW = {  # damped steps, short ones: how many to convergence
     "cages/opensubdiv-shapes__catmark_lefthanded": "12 steps",
     "cages/opensubdiv-shapes__catmark_righthanded": "13 steps",
@@ -36,16 +37,17 @@ FOLDED = {  # edges, before the cure and after it
     "cages/opensubdiv-shapes__catmark_righthanded": "80, 25 left",
     "cages/trimesh__mirror": "10, and every filling has several times the energy",
     BISHOP: "7, 4 left or none",
+    FISH: "22, 2 left or none",
     "creases/opensubdiv-shapes__catmark_car": "260, 28 left",
     "creases/opensubdiv-shapes__catmark_car, creases": "226, 26 left",
     "mechanical/trimesh__fandisk": "3, none of them cured",
     "mechanical/trimesh__plate_holes": "24, none of them cured",
 }
-GROWS = {  # from level 2 to 3
-    "cages/geometry-central__bob_small": "iterations of the later steps double",
-    "cages/geometry-central__cat_head": "iterations of the later steps double",
-}
-ON_TWO_LEVELS = [*GROWS, "cages/geometry-central__sphere_small"]  # not direct, and small enough
+ON_TWO_LEVELS = [  # not direct, and small enough
+    "cages/geometry-central__bob_small",
+    "cages/geometry-central__cat_head",
+    "cages/geometry-central__sphere_small",
+]
 
 
 def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> list:
@@ -59,7 +61,9 @@ def cases(exceptions: dict[str, str] | None = None, *, creased: bool = True) -> 
             name = file.id.removeprefix("good/") + (", creases" if with_creases else "")
             marks = [*file.marks]
             if name in (exceptions or {}):
-                marks.append(pytest.mark.xfail(reason=exceptions[name], strict=name != BISHOP))
+                marks.append(
+                    pytest.mark.xfail(reason=exceptions[name], strict=name not in (BISHOP, FISH))
+                )
             result.append(pytest.param(path, with_creases, marks=marks, id=name))
     return result
 
@@ -134,7 +138,7 @@ def test_linear_solves_are_short(path, creased):
 
 
 @pytest.mark.parametrize(
-    ("path", "creased"), [case for case in cases(GROWS, creased=False) if case.id in ON_TWO_LEVELS]
+    ("path", "creased"), [case for case in cases(creased=False) if case.id in ON_TWO_LEVELS]
 )
 def test_solves_are_no_longer_on_a_finer_level(path, creased):
     vertices, faces, _ = mesh_of(path)

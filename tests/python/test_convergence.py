@@ -9,19 +9,19 @@ import pytest
 import tight
 from surfaces import output_faces
 
-# Iterations at the finest of L = 3, 4, 5 (2, 3, 4 of the larger meshes), as measured and a little
-# over.
+# Iterations at the finest of L = 3, 4, 5 (2, 3, 4 of the larger meshes), counted as below: as measured
+# and a little over.
 ITERATIONS = {
-    ("icosahedron", 0.5): 9,
-    ("icosahedron", 1.0): 9,
-    ("cube", 0.5): 16,
-    ("cube", 1.0): 16,
-    ("torus_triangles", 0.5): 19,
-    ("torus_quads", 0.5): 23,
-    ("creature", 0.5): 27,
-    ("three_handles", 0.5): 22,
-    ("wavy_patch", 0.5): 13,
-    ("random_hull", 0.5): 25,
+    ("icosahedron", 0.5): 5,
+    ("icosahedron", 1.0): 5,
+    ("cube", 0.5): 9,
+    ("cube", 1.0): 9,
+    ("torus_triangles", 0.5): 7,
+    ("torus_quads", 0.5): 19,
+    ("creature", 0.5): 22,
+    ("three_handles", 0.5): 13,
+    ("wavy_patch", 0.5): 7,
+    ("random_hull", 0.5): 10,
 }
 TRIANGLES = ("icosahedron", "octahedron", "tetrahedron", "random_hull", "torus_triangles")
 
@@ -49,9 +49,9 @@ def test_converges(name, exponent):
 
 
 def counted(level) -> float:
-    """Iterations; those of a smaller degree d than the usual six count as much less as they cost: a
-    V-cycle takes 2 d + 1 products with the matrix."""
-    return level["iterations"] * min(1, (2 * level["smoother_degree"] + 1) / 13)
+    """Iterations by what they cost, in those of degree six: a V-cycle of degree d takes 2 d + 1 products
+    with the matrix."""
+    return level["iterations"] * (2 * level["smoother_degree"] + 1) / 13
 
 
 @pytest.mark.parametrize("name, exponent", sorted(ITERATIONS))
@@ -64,18 +64,18 @@ def test_iterations_are_few_and_do_not_grow(name, exponent):
         for levels in range(top - 2, top + 1)
     ]
     assert max(counts) <= ITERATIONS[name, exponent], counts
-    assert counts[2] <= counts[1] + 3, counts
+    assert counts[2] <= 1.6 * counts[1], counts
 
 
 def test_easy_levels_take_a_smaller_degree():
     """A solve between two corrections of loads takes two iterations whatever they gain. All levels of
-    an even sphere are easy, those of the creature are not."""
+    an even sphere are easy."""
     even, uneven = (
         df.fair(*mesh, levels, threads=1).report["levels"][-1]
         for mesh, levels in ((meshes.icosahedron(), 5), (meshes.creature(), 3))
     )
-    assert even["smoother_degree"] == 3 and even["iterations"] <= 8
-    assert uneven["smoother_degree"] >= 6
+    assert even["smoother_degree"] == 2 and even["iterations"] <= 8
+    assert uneven["smoother_degree"] > even["smoother_degree"]
 
 
 @pytest.mark.parametrize("count", [8, 64, 360])

@@ -85,13 +85,13 @@ def poles():
         (meshes.torus(), 3, "minimum_variation"),
         (meshes.torus(), 4, "minimum_variation"),
         (meshes.creature(), 3, "minimum_variation"),
-        (meshes.random_hull(), 5, "minimum_variation"),
+        (meshes.random_hull(40), 4, "minimum_variation"),
         (meshes.icosahedron(), 5, "minimum_variation"),
     ],
-    ids=["thin faces", "quads, 3", "quads, 4", "creature", "18,000 points", "even"],
+    ids=["thin faces", "quads, 3", "quads, 4", "creature", "9,700 points", "even"],
 )
 def test_what_proves_hard_is_expected(mesh, levels, energy):
-    """Blocks on thin faces, and the factor of a level of minimum variation but on even ones."""
+    """Lines on thin faces, and the factor of a level of minimum variation but on even ones."""
     report = df.fair(*mesh, levels, energy, threads=1).report
     assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.3
 
@@ -108,14 +108,16 @@ def test_the_mended_mesh_is_counted():
 
 def hard():
     """A run on a level that is factored on the way, which nobody knows before."""
-    return *meshes.random_hull(), 5, "total_curvature"
+    points, faces = meshes.torus(10, 8)
+    rough = points + 0.15 * np.random.default_rng(1).normal(size=points.shape)
+    return rough, faces, 3, "total_curvature"
 
 
 def test_a_run_that_takes_more_says_so_before():
     with pytest.warns(df.MemoryWarning, match=r"at least .* MB, more than the .* MB predicted"):
         report = df.fair(*hard(), threads=1).report
     assert report["peak_bytes"] > 1.1 * report["predicted_bytes"]
-    assert [w["code"] for w in report["warnings"]] == ["MEMORY_EXCEEDED"]
+    assert "MEMORY_EXCEEDED" in [w["code"] for w in report["warnings"]]
     # an error in its place ends the run
     with warnings.catch_warnings():
         warnings.simplefilter("error", df.MemoryWarning)

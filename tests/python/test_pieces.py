@@ -10,7 +10,7 @@ import pytest
 from piece_meshes import MESHES, ring, sheet, torus
 from shared_data import creases_of, read_obj, shared_files
 
-TIGHT = {"relative_residual": 1e-9}
+TIGHT = {"relative_residual": 1e-11}  # so that loads on pads end far below what is compared
 
 
 def bound(rings):

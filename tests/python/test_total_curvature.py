@@ -187,10 +187,15 @@ def test_rigid_motion_and_scale(name):
 
 @pytest.mark.parametrize("name", QUICK)
 def test_numbering_does_not_matter(name):
+    """Of the smoother's lines, those that close are cut somewhere. Where hangs on the numbering; then
+    the steps' errors differ, and points come to lie elsewhere along the surface."""
     vertices, faces = meshes.ALL[name]()
     moved, turned, _ = relabelled(vertices, faces)
     expected, found = (fair(mesh, 2, **SETTLED) for mesh in ((vertices, faces), (moved, turned)))
-    assert_same_positions(found.vertices, expected.vertices, 1e-7 * size_of(vertices))
+    closes = name == "creature"
+    assert_same_positions(
+        found.vertices, expected.vertices, (5e-6 if closes else 1e-7) * size_of(vertices)
+    )
 
 
 @pytest.mark.parametrize("boundary", ["curve", "linear"])

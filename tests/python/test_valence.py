@@ -61,7 +61,7 @@ def test_steps_end_where_rounding_begins():
     told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
     assert fine["converged"] or told
     steps = [*coarse["steps"], *fine["steps"]]
-    assert all(step["iterations"] <= 3 * (1 + step["pad_corrections"]) for step in steps)
+    assert sum(step["iterations"] for step in steps) <= 24
 
 
 @pytest.mark.parametrize("name", ["icosahedron", "torus_quads"])

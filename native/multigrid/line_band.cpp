@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multigrid/line_band.h"
+
+#include <algorithm>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// Points: of fourth order, the longest wave on a line is n^4 times as soft as the shortest one, and
+// the 24 bits of single precision take 64^4. Longer lines are cut; coarse levels have their waves.
+constexpr std::size_t longest_line = 64;
+
+}  // namespace
+
+void LineBand::link() {
+  const auto linked = [&](std::size_t p, std::size_t k) {
+    const Index q = strongest_[p].outstanding(k);
+    return q != none && strongest_[std::size_t(q)].has(Index(p)) ? q : none;
+  };
+  std::vector<std::uint8_t> taken(points_, 0);
+  // From an end on, in pieces of about one length.
+  const auto follow = [&](std::size_t p) {
+    const std::size_t first = point_.size();
+    Index last = none;
+    for (Index at = Index(p); at != none;) {
+      const auto a = std::size_t(at);
+      taken[a] = 1;
+      point_.push_back(at);
+      Index next = none;
+      for (std::size_t k = 0; k < 2; ++k)
+        if (const Index q = linked(a, k); q != none && q != last && !taken[std::size_t(q)])
+          next = q;
+      last = at;
+      at = next;
+    }
+    const std::size_t length = point_.size() - first;
+    const std::size_t pieces = (length + longest_line - 1) / longest_line;
+    for (std::size_t k = 1; k <= pieces; ++k) begin_.push_back(first + length * k / pieces);
+  };
+  // From their ends; those that are closed then from anywhere.
+  for (const bool closed : {false, true})
+    for (std::size_t p = 0; p < points_; ++p) {
+      stop_if_cancelled(p);
+      const int links = (linked(p, 0) != none) + (linked(p, 1) != none);
+      if (!taken[p] && links == (closed ? 2 : 1)) follow(p);
+    }
+  Array<Strongest>().swap(strongest_);
+  std::size_t longest = 0;
+  for (std::size_t l = 0; l < lines(); ++l) longest = std::max(longest, length(l));
+  span_ = double(longest) + 2;
+  place_.assign(lines() > 0 ? points_ : 0, -1.0);
+  for (std::size_t l = 0; l < lines(); ++l)
+    for (std::size_t i = 0; i < length(l); ++i)
+      place_[std::size_t(points_of(l)[i])] = span_ * double(l) + double(i);
+}
+
+}  // namespace fairing
