@@ -29,17 +29,24 @@ class LineBand {
   bool is_seeking() const { return !strongest_.empty(); }
   // How strongly p is coupled to q: |K_pq| over the root of K_pp K_qq.
   void offer(Index p, Index q, float coupling) { strongest_[std::size_t(p)].offer(q, coupling); }
-  // After the last offer. Two points are linked where each is among the two that the other is coupled
-  // to most strongly. So lines lie along whatever direction is stiff: across thin faces, from one to
-  // the next.
-  void link();
 
   std::size_t lines() const { return begin_.size() - 1; }
   std::size_t length(std::size_t line) const { return begin_[line + 1] - begin_[line]; }
   const Index* points_of(std::size_t line) const { return point_.data() + begin_[line]; }
 
-  // Before numbers are added, and after they have been read.
-  void begin() { number_.assign(3 * points_, 0.0f); }
+  // What an operator does with a band: offer(), which makes all offers, where they are still sought,
+  // and then add(), which adds all numbers to none, where there is a line.
+  template <class Offer, class Add>
+  void write(const Offer& offer, const Add& add) {
+    if (is_seeking()) {
+      offer();
+      link();
+    }
+    if (lines() == 0) return;
+    number_.assign(3 * points_, 0.0f);
+    add();
+  }
+  // After numbers have been read.
   void clear() { Array<float>().swap(number_); }
   // A point's place on all lines: on one and the same, places differ as points are apart; -1: the
   // point is on none. One number a point.
@@ -75,6 +82,11 @@ class LineBand {
   const Array<float>& numbers() const { return number_; }
 
  private:
+  // After the last offer. Two points are linked where each is among the two that the other is coupled
+  // to most strongly. So lines lie along whatever direction is stiff: across thin faces, from one to
+  // the next.
+  void link();
+
   static constexpr Index none = -1;
   // The two points that one is coupled to most strongly, and the third coupling.
   struct Strongest {

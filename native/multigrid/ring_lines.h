@@ -88,13 +88,8 @@ template <class Rows>
 void write_ring_lines(const GridLevel& grid, const Unknowns& unknowns,
                       const Array<float>& inverse_diagonal, Workers& workers, const Rows& rows,
                       LineBand& band) {
-  if (band.is_seeking()) {
-    offer_couplings(grid, unknowns, inverse_diagonal, rows, band);
-    band.link();
-  }
-  if (band.lines() == 0) return;
-  band.begin();
-  add_along_lines(grid, workers, rows, band);
+  band.write([&] { offer_couplings(grid, unknowns, inverse_diagonal, rows, band); },
+             [&] { add_along_lines(grid, workers, rows, band); });
 }
 
 }  // namespace fairing

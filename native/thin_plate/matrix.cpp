@@ -161,18 +161,15 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
 
 void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& band,
                               Workers& workers) const {
-  if (band.is_seeking()) {
-    rows_.visit_numbers(workers, [&](Index p, Index q, float number) {
-      if (p != q)
-        band.offer(p, q,
-                   std::abs(number) * std::sqrt(inverse_diagonal[std::size_t(p)] *
-                                                inverse_diagonal[std::size_t(q)]));
-    });
-    band.link();
-  }
-  if (band.lines() == 0) return;
-  band.begin();
-  rows_.visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
+  const auto offer = [&](Index p, Index q, float number) {
+    if (p != q)
+      band.offer(p, q,
+                 std::abs(number) * std::sqrt(inverse_diagonal[std::size_t(p)] *
+                                              inverse_diagonal[std::size_t(q)]));
+  };
+  const auto add = [&](Index p, Index q, float number) { band.add(p, q, number); };
+  band.write([&] { rows_.visit_numbers(workers, offer); },
+             [&] { rows_.visit_numbers(workers, add); });
 }
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {

@@ -81,7 +81,7 @@ double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The energy's rows as multigrid/ring_lines.h asks for them.
+// The energy's columns by the points of a ring, as multigrid/ring_lines.h asks for them.
 struct PlateRingRows {
   const GridLevel& grid;
   RegionWeight joint;
@@ -102,40 +102,11 @@ struct PlateRingRows {
     if (rows.column.empty()) column.clear();
   }
   int slots() const { return int(column.size()); }
-  float product(int s, int t, std::size_t i) const {
+  double number(int s, int t, std::size_t i) const {
     const double weight = joint.weighs(run) ? joint.point(run, i) : 1.0;
-    return float(weight * grid.n() * grid.n() *
-                 dot(column[std::size_t(s)], column[std::size_t(t)]));
+    return weight * grid.n() * grid.n() * dot(column[std::size_t(s)], column[std::size_t(t)]);
   }
-};
-
-// What the squares of an element's coefficients add to the diagonal of K: at the point itself, and
-// at each neighbour.
-struct Squares {
-  ElementRows rows;
-  double own = 0;
-  std::vector<double> neighbour{};
-
-  void read(const Run& run) {
-    if (run.row > 1) return;
-    rows.read(run);
-    own = 0;
-    neighbour.clear();
-    const bool second = run.kind == RunKind::face_row;
-    for (int side = 0; side < (second ? 2 : 1); ++side)
-      for (const auto& c : rows.column) neighbour.push_back(dot(c, c));
-    if (second) {
-      double all = 0;
-      for (const auto& a : rows.column)
-        for (const auto& b : rows.column) all += dot(a, b);
-      own = 4 * all;
-    } else {
-      EnergyRows::Column total = {};
-      for (const auto& column : rows.column)
-        for (std::size_t c = 0; c < 3; ++c) total[c] += column[c];
-      own = dot(total, total);
-    }
-  }
+  float product(int s, int t, std::size_t i) const { return float(number(s, t, i)); }
 };
 
 }  // namespace
@@ -243,10 +214,8 @@ template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<dou
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
                                  Workers& workers, ElementSlots<double>& slots) {
-  const double level_scale = double(grid.n()) * double(grid.n());
-  const RegionWeight joint(grid);
   // The same sums as K's, of the squared coefficients; all three coordinates carry the same number.
-  const auto body = [&](const Run& run, double* const* target, Squares& squares) {
+  const auto body = [&](const Run& run, double* const* target, PlateRingRows& rows) {
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
       for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;
     };
@@ -256,20 +225,14 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
       const MembraneWeights membrane(grid.mesh(), stencils, element_of(grid.mesh(), run));
       for (std::size_t i = 0; i < run.count; ++i) put(0, i, membrane.total());
     }
-    squares.read(run);
-    if (squares.rows.column.empty()) return;
-    const bool weighted = joint.weighs(run);
-    for (std::size_t i = 0; i < run.count; ++i) {
-      const double weight = weighted ? joint.point(run, i) : 1.0;
-      for (std::size_t s = 0; s < squares.neighbour.size(); ++s)
-        put(1 + s, i, level_scale * weight * squares.neighbour[s]);
-      put(0, i, level_scale * weight * squares.own);
-    }
+    rows.read(run);
+    for (std::size_t i = 0; i < run.count; ++i)
+      for (int s = 0; s < rows.slots(); ++s) put(std::size_t(s), i, rows.number(s, s, i));
   };
   Array<double> sums(3 * grid.size());
   accumulate_runs(
       grid, workers, slots, &unknowns, sums.data(),
-      [&] { return Squares{{grid.mesh(), stencils}}; }, body);
+      [&] { return PlateRingRows{grid, RegionWeight(grid), {grid.mesh(), stencils}}; }, body);
   Array<float> diagonal(grid.size());
   for (std::size_t i = 0; i < diagonal.size(); ++i)
     diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;

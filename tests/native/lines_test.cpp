@@ -128,17 +128,14 @@ class DenseOperator final : public LevelOperator {
         for (Eigen::Index q = 0; q < k_.cols(); ++q)
           if (p != q && k_(p, q) != 0) each(Index(p), Index(q), float(k_(p, q)));
     };
-    if (band.is_seeking()) {
-      visit([&](Index p, Index q, float number) {
-        band.offer(p, q, float(std::abs(number) / std::sqrt(k_(p, p) * k_(q, q))));
-      });
-      band.link();
-    }
-    band.begin();
-    visit([&](Index p, Index q, float number) { band.add(p, q, number); });
+    band.write(
+        [&] {
+          visit([&](Index p, Index q, float number) {
+            band.offer(p, q, float(std::abs(number) / std::sqrt(k_(p, p) * k_(q, q))));
+          });
+        },
+        [&] { visit([&](Index p, Index q, float number) { band.add(p, q, number); }); });
   }
-
-  const Dense& matrix() const { return k_; }
 
  private:
   Dense k_;
