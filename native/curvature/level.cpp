@@ -8,6 +8,7 @@
 #include "sparse/unknown_points.h"
 
 namespace fairing {
+
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
     : shared_(shared), grid_(grid), rows_(grid), square_{NormalMatrix::suits(rows_)} {}
 
@@ -51,11 +52,7 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
       moment.resize(3 * grid_.size());
       turned.resize(3 * grid_.size());
     }
-    visit_moments(rows_, shared_.workers, x, [&](const Run& run, const T* lanes) {
-      for (std::size_t i = 0; i < run.count; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-          moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
-    });
+    take_moments(rows_, shared_.workers, x, moment.data());
     connection_->apply(share_, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);

@@ -18,13 +18,8 @@ constexpr std::size_t grain = 1024;  // rows worth a thread
 // numbers, and with the connection 37 or 49.
 constexpr std::size_t sums = 6;
 
-}  // namespace
-
-bool NormalMatrix::suits(const RingJacobian& rows) {
-  return rows.grid().n() <= most_pieces_of_matrix && is_linear(rows);
-}
-
-bool NormalMatrix::is_linear(const RingJacobian& rows) {
+// Whether no rings are so large that their squares are not linear.
+bool is_linear(const RingJacobian& rows) {
   const GridLevel& grid = rows.grid();
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
@@ -32,6 +27,35 @@ bool NormalMatrix::is_linear(const RingJacobian& rows) {
     products += slots * slots;
   }
   return worth_products(products, grid.size());
+}
+
+// Points in the order in which a row first names them, row after row.
+class NamedPoints {
+ public:
+  NamedPoints(std::size_t points, Array<Index>& named) : seen_(points, 0), named_(named) {}
+
+  // Where its points begin.
+  std::size_t begin_row() { return first_ = named_.size(); }
+  // A point's place in the row.
+  std::uint16_t place(Index q) {
+    std::size_t& at = seen_[std::size_t(q)];
+    if (at <= first_) {
+      named_.push_back(q);
+      at = named_.size();
+    }
+    return std::uint16_t(at - 1 - first_);
+  }
+
+ private:
+  std::vector<std::size_t> seen_;  // 1 + the place among all
+  Array<Index>& named_;
+  std::size_t first_ = 0;
+};
+
+}  // namespace
+
+bool NormalMatrix::suits(const RingJacobian& rows) {
+  return rows.grid().n() <= most_pieces_of_matrix && is_linear(rows);
 }
 
 NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns, Middle middle)
@@ -59,23 +83,15 @@ void NormalMatrix::find_turned() {
   for (const Index q : own.member) places += own.size(std::size_t(q));
   place_.reserve(places);
   turned_.member.reserve(regular_columns * ring_.size());
-  // 1 + the place among all members, for those of this row
-  std::vector<std::size_t> seen(ring_.size(), 0);
+  NamedPoints points(ring_.size(), turned_.member);
   for (std::size_t p = 0; p < ring_.size(); ++p) {
     stop_if_cancelled(p);
-    const std::size_t first = turned_.member.size();
-    turned_.begin.push_back(std::uint32_t(first));
+    turned_.begin.push_back(std::uint32_t(points.begin_row()));
     place_begin_.push_back(place_.size());
     for (std::uint32_t k = own.begin[p]; k < own.begin[p + 1]; ++k) {
       const auto q = std::size_t(own.member[k]);
-      for (std::uint32_t m = own.begin[q]; m < own.begin[q + 1]; ++m) {
-        std::size_t& at = seen[std::size_t(own.member[m])];
-        if (at <= first) {
-          turned_.member.push_back(own.member[m]);
-          at = turned_.member.size();
-        }
-        place_.push_back(LocalColumn(at - 1 - first));
-      }
+      for (std::uint32_t m = own.begin[q]; m < own.begin[q + 1]; ++m)
+        place_.push_back(points.place(own.member[m]));
     }
   }
   turned_.begin.push_back(std::uint32_t(turned_.member.size()));
@@ -106,26 +122,16 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
   for (const RingSlot& entry : ring_slot_) targets += other.size(entry.ring);
   target_.reserve(targets);
   column_.reserve((middle_ == Middle::none ? 1 : 2) * regular_columns * unknown.size());
-  // 1 + the place among all columns, for those of this row
-  std::vector<std::size_t> seen(unknown.size(), 0);
+  NamedPoints points(unknown.size(), column_);
   for (std::size_t p = 0; p < unknown.size(); ++p) {
     stop_if_cancelled(p);
-    const std::size_t first = column_.size();
-    column_begin_.push_back(first);
+    column_begin_.push_back(points.begin_row());
     target_begin_.push_back(target_.size());
     for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
       const std::uint32_t r = ring_slot_[k].ring;
       for (std::uint32_t m = other.begin[r]; m < other.begin[r + 1]; ++m) {
-        const auto q = std::size_t(other.member[m]);
-        if (unknown[q] < 0) {
-          target_.push_back(none);
-          continue;
-        }
-        if (seen[q] <= first) {
-          column_.push_back(Index(q));
-          seen[q] = column_.size();
-        }
-        target_.push_back(LocalColumn(seen[q] - 1 - first));
+        const Index q = other.member[m];
+        target_.push_back(unknown[std::size_t(q)] < 0 ? none : points.place(q));
       }
     }
   }

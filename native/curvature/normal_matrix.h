@@ -25,9 +25,8 @@ struct SharedConnection {
 
 class NormalMatrix {
  public:
-  // Whether no rings are so large that their squares are not linear.
-  static bool is_linear(const RingJacobian& rows);
-  // Whether a level is better served so: few points a face beside that.
+  // Whether a level is better served so: few points a face, and no rings so large that their squares
+  // are not linear.
   static bool suits(const RingJacobian& rows);
 
   // R^T R, or with L between.

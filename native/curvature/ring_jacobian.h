@@ -221,6 +221,16 @@ void visit_moments(const RingJacobian& rows, Workers& workers, const T* x, Put&&
       });
 }
 
+// moment <- R x, three interleaved numbers a point.
+template <class T>
+void take_moments(const RingJacobian& rows, Workers& workers, const T* x, T* moment) {
+  visit_moments(rows, workers, x, [&](const Run& run, const T* lanes) {
+    for (std::size_t i = 0; i < run.count; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
+  });
+}
+
 // out <- R^T y on the unknowns; y has three interleaved numbers a point.
 template <class T>
 void apply_transposed(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,

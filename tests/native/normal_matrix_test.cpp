@@ -32,73 +32,75 @@ Unknowns some_unknowns(const ControlMesh& mesh) {
   return u;
 }
 
-TEST(NormalMatrix, DoesWhatThePassesDo) {
+// Random rows on one level of a mesh, some of whose points are unknowns.
+struct RandomRows {
+  ControlMesh mesh;
+  GridLevel lattice;
+  RingJacobian rows;
+  Unknowns unknowns;
+  Workers workers{2};
+  ElementSlots<float, 1> exchange;
+
+  RandomRows(const OwnedPolygonMesh& control, int level)
+      : mesh(make_control_mesh(control.view(), {})),
+        lattice(mesh, level),
+        rows(lattice),
+        unknowns(some_unknowns(mesh)) {
+    fill(rows);
+  }
+
+  // pass(x, y) does to a random vector what the matrix does.
+  template <class Pass>
+  void expect_same(const NormalMatrix& matrix, const Pass& pass) {
+    std::mt19937 random(9);
+    Normal<float> normal;
+    Array<float> x(lattice.size()), expected(x.size()), y(x.size());
+    for (float& number : x) number = normal(random);
+    // what is no unknown is zero in every vector of the solver
+    pass(x.data(), expected.data());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (expected[i] == 0) x[i] = 0;
+    pass(x.data(), expected.data());
+    matrix.apply(x.data(), workers, y.data());
+    float largest = 0;
+    for (const float number : expected) largest = std::max(largest, std::abs(number));
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i], expected[i], 1e-5f * largest) << i;
+  }
+};
+
+template <class Body>
+void on_all(const Body& body) {
   for (const auto& control : {octahedron(), cube(), dodecahedron()})
     for (int level = 1; level <= 3; ++level) {
-      const ControlMesh mesh = make_control_mesh(control.view(), {});
-      const GridLevel lattice(mesh, level);
-      RingJacobian rows(lattice);
-      ASSERT_TRUE(NormalMatrix::suits(rows));
-      fill(rows);
-      const Unknowns unknowns = some_unknowns(mesh);
-      Workers workers(2);
-      ElementSlots<float, 1> exchange;
-      std::mt19937 random(9);
-      Normal<float> normal;
-      Array<float> x(lattice.size()), expected(x.size()), y(x.size());
-      for (float& number : x) number = normal(random);
-      // what is no unknown is zero in every vector of the solver
-      apply_square(rows, unknowns, workers, exchange, x.data(), expected.data());
-      for (std::size_t i = 0; i < x.size(); ++i)
-        if (expected[i] == 0) x[i] = 0;
-      apply_square(rows, unknowns, workers, exchange, x.data(), expected.data());
-      NormalMatrix square(rows, unknowns);
-      square.update(rows, workers);
-      square.apply(x.data(), workers, y.data());
-      float largest = 0;
-      for (const float number : expected) largest = std::max(largest, std::abs(number));
-      for (std::size_t i = 0; i < x.size(); ++i)
-        EXPECT_NEAR(y[i], expected[i], 1e-5f * largest) << i;
+      RandomRows setting(control, level);
+      body(setting);
     }
 }
 
+TEST(NormalMatrix, DoesWhatThePassesDo) {
+  on_all([](RandomRows& s) {
+    ASSERT_TRUE(NormalMatrix::suits(s.rows));
+    NormalMatrix square(s.rows, s.unknowns);
+    square.update(s.rows, s.workers);
+    s.expect_same(square, [&](const float* x, float* y) {
+      apply_square(s.rows, s.unknowns, s.workers, s.exchange, x, y);
+    });
+  });
+}
+
 TEST(NormalMatrix, HasTheConnectionBetween) {
-  for (const auto& control : {octahedron(), cube(), dodecahedron()})
-    for (int level = 1; level <= 3; ++level) {
-      const ControlMesh mesh = make_control_mesh(control.view(), {});
-      const GridLevel lattice(mesh, level);
-      RingJacobian rows(lattice);
-      Connection connection(lattice);
-      fill(rows);
-      fill(connection.weights());
-      const Unknowns unknowns = some_unknowns(mesh);
-      Workers workers(2);
-      ElementSlots<float, 1> exchange;
-      std::mt19937 random(9);
-      Normal<float> normal;
-      const std::size_t points = lattice.size();
-      Array<float> x(points), expected(points), y(points), moment(3 * points), turned(3 * points);
-      const auto pass = [&] {
-        visit_moments(rows, workers, x.data(), [&](const fairing::Run& run, const float* lanes) {
-          for (std::size_t i = 0; i < run.count; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-              moment[3 * (run.first + i) + c] = lanes[c * run.count + i];
-        });
-        connection.apply(0.25, workers, moment.data(), turned.data());
-        apply_transposed(rows, unknowns, workers, exchange, turned.data(), expected.data());
-      };
-      for (float& number : x) number = normal(random);
-      pass();
-      for (std::size_t i = 0; i < points; ++i)
-        if (expected[i] == 0) x[i] = 0;
-      pass();
-      NormalMatrix square(rows, unknowns, NormalMatrix::Middle::connection);
-      square.update(rows, workers, nullptr, {&connection, 0.25f});
-      square.apply(x.data(), workers, y.data());
-      float largest = 0;
-      for (const float number : expected) largest = std::max(largest, std::abs(number));
-      for (std::size_t i = 0; i < points; ++i) EXPECT_NEAR(y[i], expected[i], 1e-5f * largest) << i;
-    }
+  on_all([](RandomRows& s) {
+    Connection connection(s.lattice);
+    fill(connection.weights());
+    NormalMatrix square(s.rows, s.unknowns, NormalMatrix::Middle::connection);
+    square.update(s.rows, s.workers, nullptr, {&connection, 0.25f});
+    Array<float> moment(3 * s.lattice.size()), turned(moment.size());
+    s.expect_same(square, [&](const float* x, float* y) {
+      take_moments(s.rows, s.workers, x, moment.data());
+      connection.apply(0.25, s.workers, moment.data(), turned.data());
+      apply_transposed(s.rows, s.unknowns, s.workers, s.exchange, turned.data(), y);
+    });
+  });
 }
 
 TEST(NormalMatrix, IsNotForLargeRingsNorLargeFaces) {
