@@ -15,8 +15,8 @@ namespace fairing {
 namespace {
 
 // Thin: of triangles alone more than a fifth, otherwise more than a fortieth of the faces are longer
-// than 16 times their area by length, as quads of 1 to 16 are. Even:
-// at most a tenth are longer than that of an equilateral triangle 1.7 times, or of a square twice.
+// than 16 times their area by length, as quads of 1 to 16 are.
+// Even: at most a tenth are longer than that of an equilateral triangle 1.7 times, or of a square twice.
 void judge_shapes(const ControlMesh& mesh, Counts& c) {
   std::size_t thin = 0, uneven = 0;
   for (const Face& face : mesh.faces) {

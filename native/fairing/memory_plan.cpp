@@ -99,8 +99,8 @@ std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
 
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
 // rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
-// points an edge the normal matrix, of whichever energy; on the finest level surfaces, steps, and what steps are
-// accelerated with.
+// points an edge the normal matrix, of whichever energy; on the finest level surfaces, steps, and what
+// steps are accelerated with.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
                         bool tense) {
   constexpr std::int64_t moment_bytes = 112, surface_bytes = 480;  // bytes a point
@@ -122,7 +122,8 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level
-// that proves hard while the run is on its way is factored (v_cycle.h); that comes on top: MemoryLedger::fits() keeps to the limit then.
+// that proves hard while the run is on its way is factored (v_cycle.h); that comes on top:
+// MemoryLedger::fits() keeps to the limit then.
 std::int64_t peak_bytes(const Counts& c, int levels, Energy energy, bool tense, bool back_leg) {
   const std::int64_t n = std::int64_t(1) << levels;
   const std::int64_t points = c.points(levels), below = levels > 0 ? c.points(levels - 1) : 0;

@@ -154,13 +154,13 @@ double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& w
   for_each_index(workers, size, [&](std::size_t i) { v[i] = start[i]; });
   double beta = length(v);
   if (!(beta > 0) || !std::isfinite(beta)) return 4.0;  // nothing to solve; any safe value
-  const auto scale = [&](Array<float>& r, double by) {
+  const auto scale = [&](double by) {
     for_each_index(workers, size, [&](std::size_t i) {
-      r[i] = float(r[i] / by);
+      v[i] = float(v[i] / by);
       z[i] = float(z[i] / by);
     });
   };
-  scale(v, beta);
+  scale(beta);
   beta = 0;
   Eigen::VectorXd diagonal(lanczos_steps), off(lanczos_steps);
   int m = 0;
@@ -180,7 +180,7 @@ double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& w
     }
     std::swap(before, v);
     std::swap(v, product);
-    scale(v, beta);
+    scale(beta);
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
   eigen.computeFromTridiagonal(diagonal.head(m), off.head(m > 1 ? m - 1 : 0),

@@ -28,8 +28,9 @@ enum class SmoothFrom {
 //
 //   z_k = (2k - 1)/(2k + 3) z_{k-1} + (8k + 4)/(2k + 3)/lambda D^-1 r_k,  x += z_k,  z_{-1} = 0.
 //
-// No lower end of the spectrum has to be guessed. `lines`, which may be null, join D. Updates x, and the residual with it unless `last_residual` is false (then the residual is stale, and one
-// application of K saved).
+// No lower end of the spectrum has to be guessed. `lines`, which may be null, join D. Updates x, and
+// the residual with it unless `last_residual` is false (then the residual is stale, and one application
+// of K saved).
 void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
             int degree, SmoothFrom from, bool last_residual, SmootherState& state);
 
@@ -38,8 +39,8 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
 void finish_step(const SmoothingStep& step, std::size_t components, const float* inverse_diagonal,
                  std::size_t first, std::size_t count, const float* product);
 
-// The largest eigenvalue of D^-1 K, by a few Lanczos steps from D^-1 `start` (a safe margin
-// included). A start that moves with the mesh, such as a residual, makes the estimate independent
+// The largest eigenvalue of D^-1 K, where `lines` join D, by a few Lanczos steps from `start` (a safe
+// margin included). A start that moves with the mesh, such as a residual, makes the estimate independent
 // of numbering and position.
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start);

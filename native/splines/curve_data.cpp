@@ -16,6 +16,7 @@ constexpr int reach = 3;
 constexpr double collinear = 0.17;
 // Creases that leave the fitted tangent plane by more (its sine) are not in one: the surface has a
 // kink at their vertex, as where straight boundary edges meet at a corner.
+constexpr double off_plane = 2 * collinear;
 
 // Lagrange's weights at x of `count` nodes from `first` on, one apart.
 std::vector<double> interpolation(double x, int first, int count) {
@@ -163,11 +164,11 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);
     const double along = both.normalized().dot(normal);
-    if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - 2 * collinear * 2 * collinear))
+    if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - off_plane * off_plane))
       return both.normalized() * (along < 0 ? -1.0 : 1.0);
     if (both.norm() > collinear) return Vec3::Zero();
   }
-  if (std::abs(normal.dot(tangents.front())) > 2 * collinear) return Vec3::Zero();
+  if (std::abs(normal.dot(tangents.front())) > off_plane) return Vec3::Zero();
   return across(normal, tangents.front());
 }
 

@@ -25,7 +25,8 @@ struct FaceWeights {
   double diagonal(int c) const { return direction[c % 2 == 0 ? 1 : 3]; }
 };
 
-// Of less than a sine of `rounding`, cotangents are taken from that. Across each grid edge lie two equal triangles, each with half the cotangent of the angle there.
+// Across each grid edge lie two equal triangles, each with half the cotangent of the angle there. Of
+// angles whose sine is less than `rounding`, cotangents are taken from that.
 FaceWeights triangle_weights(const FlatFace& flat) {
   const auto square = [&](std::size_t s) { return flat.length[s] * flat.length[s]; };
   const double longest = std::max({square(0), square(1), square(2)}),
