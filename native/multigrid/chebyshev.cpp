@@ -2,6 +2,7 @@
 #include "multigrid/chebyshev.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -75,15 +76,15 @@ struct StepLoop {
   }
 };
 
-// x = d = step D^-1 r
-void start_from_zero(const LevelOperator& op, Workers& workers, float step, SmootherState& s) {
+// z = step D^-1 r, and `copy` as well unless it is null.
+void divide_by_diagonal(const LevelOperator& op, Workers& workers, float step, const float* r,
+                        float* z, float* copy) {
   const std::size_t components = op.components();
   const float* inverse = op.inverse_diagonal().data();
   workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
-    const float* r = s.residual.data() + components * begin;
-    float *x = s.x.data() + components * begin, *d = s.step.data() + components * begin;
-    for (std::size_t p = begin; p < end; ++p)
-      for (std::size_t a = 0; a < components; ++a) *x++ = *d++ = step * inverse[p] * *r++;
+    for (std::size_t p = begin, i = components * begin; p < end; ++p)
+      for (std::size_t a = 0; a < components; ++a, ++i) z[i] = step * inverse[p] * r[i];
+    if (copy) std::copy(z + components * begin, z + components * end, copy + components * begin);
   });
 }
 
@@ -124,7 +125,7 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
     std::swap(s.step, s.next);
   };
   if (from == SmoothFrom::zero) {
-    start_from_zero(op, workers, first_step, s);
+    divide_by_diagonal(op, workers, first_step, s.residual.data(), s.x.data(), s.step.data());
     if (lines) lines->add(first_step, s.residual.data(), s.x.data(), s.step.data());
   } else {
     relax(0, first_step, true);
@@ -137,17 +138,13 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
 
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start) {
-  const std::size_t components = op.components(), size = op.size();
-  const float* inverse = op.inverse_diagonal().data();
-  const auto precondition = [&](const Array<float>& r, Array<float>& z) {
-    for_each_index(workers, size, [&](std::size_t i) { z[i] = inverse[i / components] * r[i]; });
-    if (lines) lines->add(1, r.data(), z.data(), nullptr);
-  };
+  const std::size_t size = op.size();
   // Lanczos in the scalar product of B^-1, B being the diagonal with the lines: (v_i, z_j) = (i = j)
   // for z = B^-1 v.
   Array<float> v(size), before(size, 0.0f), z(size + vector_room), product(size);
   const auto length = [&](const Array<float>& r) {
-    precondition(r, z);
+    divide_by_diagonal(op, workers, 1, r.data(), z.data(), nullptr);
+    if (lines) lines->add(1, r.data(), z.data(), nullptr);
     return std::sqrt(std::max(
         sum(workers, size, [&](std::size_t i) { return double(r[i]) * double(z[i]); }), 0.0));
   };

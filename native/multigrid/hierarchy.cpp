@@ -2,6 +2,7 @@
 #include "multigrid/hierarchy.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "parallel/reductions.h"
 
@@ -170,8 +171,18 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
     out.converged = norm(workers_, size, r) <= rounding_of_terms * solver.norm_of_terms(x);
 }
 
-// Stencils hardly change from level to level, and from some fineness on the spectrum's upper end
-// neither. Each level's Lanczos iteration starts from the residual, restricted: that turns and
+// Of the spectrum's upper end, from the level below to this one; 0: unknown. Stencils hardly change
+// from level to level, and of what they do each level leaves about half. (On lines that is more: they
+// reach farther from level to level.)
+double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
+  const auto of = [&](std::size_t below) {
+    return index >= cycle_.base + below ? cycle_.levels[index - below].largest_eigenvalue : 0;
+  };
+  if (!cycle_.levels[index].lines) return of(1) > 0 ? settled_margin : 0;
+  return of(1) > 0 && of(2) > 0 ? std::max(settled_margin, std::sqrt(of(1) / of(2))) : 0;
+}
+
+// Each level's Lanczos iteration starts from the residual, restricted: that turns and
 // renumbers with the mesh.
 void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   const auto unknown = [&](std::size_t l) { return cycle_.levels[l].largest_eigenvalue == 0; };
@@ -189,9 +200,9 @@ void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   }
   for (std::size_t l = lowest; l <= top; ++l) {
     CycleLevel& level = cycle_.levels[l];
-    const double below = l > cycle_.base ? cycle_.levels[l - 1].largest_eigenvalue : 0;
-    if (below > 0 && l >= options_.settled && !level.lines)
-      level.largest_eigenvalue = settled_margin * below;
+    const double growth = l >= options_.settled ? growth_of_eigenvalue(l) : 0;
+    if (growth > 0)
+      level.largest_eigenvalue = growth * cycle_.levels[l - 1].largest_eigenvalue;
     else
       level.largest_eigenvalue =
           largest_eigenvalue(*level.op, level.lines.get(), workers_, level.state.residual.data());
