@@ -12,7 +12,6 @@ namespace {
 
 using Bundle = LineJacobi::Bundle;
 constexpr std::size_t lanes = LineJacobi::lanes;
-constexpr std::size_t grain = 4;  // bundles worth a thread
 
 struct LineJob {
   const Bundle* bundle;
@@ -116,7 +115,7 @@ void LineJacobi::refactor() {
 }
 
 void LineJacobi::factor() {
-  workers_.for_parts(bundle_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(bundle_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       for (std::size_t l = 0; l < lanes && lanes * b + l < order_.size(); ++l)
         factor_line(order_[lanes * b + l], bundle_[b], l);
@@ -155,7 +154,7 @@ void LineJacobi::factor_line(std::size_t line, Bundle& b, std::size_t lane) cons
 void LineJacobi::add(float step, const float* r, float* x, float* change) const {
   if (!serves_) return;
   const std::size_t components = op_.components();
-  workers_.for_parts(bundle_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(bundle_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const LineJob job{
           &bundle_[b], step,

@@ -10,6 +10,7 @@
 
 #include "grid/accumulate.h"
 #include "multigrid/line_band.h"
+#include "sparse/unknown_points.h"
 
 namespace fairing {
 
@@ -36,27 +37,30 @@ float coupling(const Rows& rows, const Run& run, int s, std::size_t i) {
 
 template <class Rows>
 void offer_couplings(const GridLevel& grid, const Unknowns& unknowns,
-                     const Array<float>& inverse_diagonal, Rows rows, LineBand& band) {
-  std::vector<std::uint8_t> is_unknown(grid.size(), 0);
-  for_each_run(grid, [&](const Run& run) {
-    std::fill_n(is_unknown.begin() + std::ptrdiff_t(run.first), run.count,
-                std::uint8_t(unknowns.has(run)));
-  });
-  std::vector<Index> points;
-  for_each_run(grid, [&](const Run& run) {
-    rows.read(run);
-    for (std::size_t i = 0; i < run.count && unknowns.has(run); ++i) {
-      points.assign(1, Index(run.first + i));
-      append_ring(grid, run, i, points);
-      for (int s = 1; s < rows.slots(); ++s) {
-        const auto q = std::size_t(points[std::size_t(s)]);
-        if (is_unknown[q])
-          band.offer(points[0], Index(q),
-                     coupling(rows, run, s, i) *
-                         std::sqrt(inverse_diagonal[run.first + i] * inverse_diagonal[q]));
-      }
-    }
-  });
+                     const Array<float>& inverse_diagonal, Workers& workers, const Rows& rows,
+                     LineBand& band) {
+  const std::vector<std::uint8_t> is_unknown = unknown_points(grid, unknowns);
+  struct State {
+    Rows rows;
+    std::vector<Index> points;
+  };
+  for_each_run(
+      grid, workers, [&] { return State{rows, {}}; },
+      [&](const Run& run, State& state) {
+        if (!unknowns.has(run)) return;
+        state.rows.read(run);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          state.points.assign(1, Index(run.first + i));
+          append_ring(grid, run, i, state.points);
+          for (int s = 1; s < state.rows.slots(); ++s) {
+            const auto q = std::size_t(state.points[std::size_t(s)]);
+            if (is_unknown[q])
+              band.offer(state.points[0], Index(q),
+                         coupling(state.rows, run, s, i) *
+                             std::sqrt(inverse_diagonal[run.first + i] * inverse_diagonal[q]));
+          }
+        }
+      });
 }
 
 template <class Rows>
@@ -88,7 +92,7 @@ template <class Rows>
 void write_ring_lines(const GridLevel& grid, const Unknowns& unknowns,
                       const Array<float>& inverse_diagonal, Workers& workers, const Rows& rows,
                       LineBand& band) {
-  band.write([&] { offer_couplings(grid, unknowns, inverse_diagonal, rows, band); },
+  band.write([&] { offer_couplings(grid, unknowns, inverse_diagonal, workers, rows, band); },
              [&] { add_along_lines(grid, workers, rows, band); });
 }
 

@@ -108,7 +108,10 @@ void CoarseSolver::solve(const double* b, double* x) const {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
-  right = factor_->ldlt->solve(right).eval();
+  workers_.for_parts(components, 1, [&](std::size_t begin, std::size_t end) {
+    for (auto a = Eigen::Index(begin); a < Eigen::Index(end); ++a)
+      right.col(a) = factor_->ldlt->solve(right.col(a)).eval();
+  });
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t a = 0; a < components; ++a)
       x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));

@@ -15,7 +15,7 @@ namespace fairing {
 
 constexpr std::size_t vector_block = 4096;  // numbers a block of sums
 // Fewer numbers are not worth waking a thread.
-constexpr std::size_t vector_grain = 1 << 15;
+constexpr std::size_t vector_grain = 1 << 13;
 
 // Calls body(i) for i in [0, size).
 template <class Body>

@@ -192,7 +192,7 @@ class AssembledMatrix {
   bool build(Workers& workers, MakeWriter&& make_writer) {
     chunk_.resize((rows_ + chunk_rows - 1) / chunk_rows);
     std::atomic<bool> fits = true;
-    workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
       RowBuilder builder(columns_);
       auto write = make_writer();
       for (std::size_t c = begin; c < end; ++c) {
@@ -218,7 +218,7 @@ class AssembledMatrix {
   // Calls visit(row, column, number) for all numbers, in parallel: those of a row on one thread.
   template <class Visit>
   void visit_numbers(Workers& workers, const Visit& visit) const {
-    workers.for_parts(chunk_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
         visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
           visit(Index(c * chunk_rows + row), Index(column), number);
@@ -231,8 +231,7 @@ class AssembledMatrix {
   // cache. x has `vector_room` more.
   template <int C, class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
-    constexpr std::size_t grain = 8;  // chunks worth a thread
-    workers.for_parts(chunk_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
       alignas(64) float product[C * chunk_rows + 4];
       for (std::size_t c = begin; c < end; ++c) {
         chunk_product<C>(chunk_[c], x, product);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parallel/cancel.h"
+#include "parallel/reductions.h"
 #include "sparse/repeated_rows.h"
 
 namespace fairing {
@@ -161,15 +162,17 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
 
 void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& band,
                               Workers& workers) const {
-  const auto offer = [&](Index p, Index q, float number) {
-    if (p != q)
-      band.offer(p, q,
-                 std::abs(number) * std::sqrt(inverse_diagonal[std::size_t(p)] *
-                                              inverse_diagonal[std::size_t(q)]));
+  const auto offer = [&] {
+    Array<float> root(points_);
+    for_each_index(workers, points_,
+                   [&](std::size_t p) { root[p] = std::sqrt(inverse_diagonal[p]); });
+    rows_.visit_numbers(workers, [&](Index p, Index q, float number) {
+      if (p != q) band.offer(p, q, std::abs(number) * root[std::size_t(p)] * root[std::size_t(q)]);
+    });
   };
-  const auto add = [&](Index p, Index q, float number) { band.add(p, q, number); };
-  band.write([&] { rows_.visit_numbers(workers, offer); },
-             [&] { rows_.visit_numbers(workers, add); });
+  band.write(offer, [&] {
+    rows_.visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
+  });
 }
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
