@@ -258,6 +258,7 @@ struct JacobianRows {
     for (int c = 0; c < 3; ++c) sum += own.at(c, s, i) * own.at(c, t, i);
     return sum;
   }
+  static bool is_same_along_run() { return false; }
 };
 
 // Calls visit(p, rows, i, points) for every point p in order, which is point i of its run with

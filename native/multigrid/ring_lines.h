@@ -3,9 +3,10 @@
 //
 // `Rows` gives the rows of a run: read(run), then slots(), the point itself being slot 0 and its
 // neighbours following in the order of RunGather, and product(s, t, i): the scalar product of the
-// columns of slots s and t about point i.
+// columns of slots s and t about point i; is_same_along_run(): whether those of all points are.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "grid/accumulate.h"
@@ -43,20 +44,25 @@ void offer_couplings(const GridLevel& grid, const Unknowns& unknowns,
   struct State {
     Rows rows;
     std::vector<Index> points;
+    std::vector<float> coupling;  // by slot
   };
   for_each_run(
-      grid, workers, [&] { return State{rows, {}}; },
-      [&](const Run& run, State& state) {
+      grid, workers, [&] { return State{rows, {}, {}}; },
+      [&](const Run& run, State& own) {
         if (!unknowns.has(run)) return;
-        state.rows.read(run);
+        own.rows.read(run);
+        const auto slots = std::size_t(own.rows.slots());
+        own.coupling.resize(slots);
         for (std::size_t i = 0; i < run.count; ++i) {
-          state.points.assign(1, Index(run.first + i));
-          append_ring(grid, run, i, state.points);
-          for (int s = 1; s < state.rows.slots(); ++s) {
-            const auto q = std::size_t(state.points[std::size_t(s)]);
+          own.points.assign(1, Index(run.first + i));
+          append_ring(grid, run, i, own.points);
+          for (std::size_t s = 1; s < slots; ++s) {
+            if (i == 0 || !own.rows.is_same_along_run())
+              own.coupling[s] = coupling(own.rows, run, int(s), i);
+            const auto q = std::size_t(own.points[s]);
             if (is_unknown[q])
-              band.offer(state.points[0], Index(q),
-                         coupling(state.rows, run, s, i) *
+              band.offer(own.points[0], Index(q),
+                         own.coupling[s] *
                              std::sqrt(inverse_diagonal[run.first + i] * inverse_diagonal[q]));
           }
         }
@@ -76,6 +82,12 @@ void add_along_lines(const GridLevel& grid, Workers& workers, const Rows& rows, 
       [&](const Run& run, float* const* target, State& state) {
         state.rows.read(run);
         const double* const* place = state.place(run);
+        const auto is_on_line = [&](int s) {
+          return std::any_of(place[s], place[s] + run.count, [](double p) { return p >= 0; });
+        };
+        bool any = false;
+        for (int s = 0; s < state.rows.slots() && !any; ++s) any = is_on_line(s);
+        if (!any) return;
         for (int s = 0; s < state.rows.slots(); ++s)
           for (int t = s + 1; t < state.rows.slots(); ++t)
             for (std::size_t i = 0; i < run.count; ++i)

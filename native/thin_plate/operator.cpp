@@ -107,6 +107,7 @@ struct PlateRingRows {
     return weight * grid.n() * grid.n() * dot(column[std::size_t(s)], column[std::size_t(t)]);
   }
   float product(int s, int t, std::size_t i) const { return float(number(s, t, i)); }
+  bool is_same_along_run() const { return !joint.weighs(run); }
 };
 
 }  // namespace
