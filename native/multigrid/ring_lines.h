@@ -15,25 +15,34 @@
 
 namespace fairing {
 
-// K's number between a point and its neighbour in slot s, were all rings about like its own: where
-// the lattice is regular that sums over all pairs of slots that are as far apart. Elsewhere it takes
-// the two points' own rings.
+// K's numbers between the points of a run and their neighbours, were all rings about like their own:
+// where the lattice is regular each sums over all pairs of slots that are as far apart. Elsewhere it
+// takes the two points' own rings. Slot by slot, one number a point, or one for all.
 template <class Rows>
-float coupling(const Rows& rows, const Run& run, int s, std::size_t i) {
-  const bool quad = rows.slots() == 1 + int(std::size(quad_ring));
-  const bool regular =
-      run.kind == RunKind::face_row && (quad || rows.slots() == 1 + int(std::size(triangle_ring)));
-  if (!regular) return 2 * std::abs(rows.product(0, s, i));
-  const std::span<const GridPoint> ring = face_ring(quad);
-  const auto step = [&](int slot) {
-    return slot == 0 ? GridPoint{0, 0} : ring[std::size_t(slot) - 1];
+void find_couplings(const Rows& rows, const Run& run, std::vector<float>& coupling) {
+  const int slots = rows.slots(), half = slots / 2;
+  const std::size_t count = rows.is_same_along_run() ? 1 : run.count;
+  coupling.assign(std::size_t(slots) * count, 0.0f);
+  const auto add = [&](int slot, int s, int t, float share) {
+    float* sum = coupling.data() + std::size_t(slot) * count;
+    for (std::size_t i = 0; i < count; ++i) sum[i] += share * rows.product(s, t, i);
   };
-  float sum = 0;
-  for (int a = 0; a < rows.slots(); ++a)
-    for (int b = 0; b < rows.slots(); ++b)
-      if (step(a).i - step(b).i == step(s).i && step(a).j - step(b).j == step(s).j)
-        sum += rows.product(a, b, i);
-  return std::abs(sum);
+  const bool quad = slots == 1 + int(std::size(quad_ring));
+  if (run.kind != RunKind::face_row || !(quad || slots == 1 + int(std::size(triangle_ring)))) {
+    for (int s = 1; s < slots; ++s) add(s, 0, s, 2);
+    return;
+  }
+  const auto step = [&](int slot) {
+    return slot == 0 ? GridPoint{0, 0} : face_ring(quad)[std::size_t(slot) - 1];
+  };
+  for (int slot = 1; slot <= half; ++slot) {
+    for (int s = 0; s < slots; ++s)
+      for (int t = 0; t < slots; ++t)
+        if (step(s).i - step(t).i == step(slot).i && step(s).j - step(t).j == step(slot).j)
+          add(slot, s, t, 1);
+    const auto first = coupling.begin() + slot * std::ptrdiff_t(count);
+    std::copy_n(first, count, first + half * std::ptrdiff_t(count));  // of the opposite neighbour
+  }
 }
 
 template <class Rows>
@@ -44,25 +53,24 @@ void offer_couplings(const GridLevel& grid, const Unknowns& unknowns,
   struct State {
     Rows rows;
     std::vector<Index> points;
-    std::vector<float> coupling;  // by slot
+    std::vector<float> coupling;
   };
   for_each_run(
       grid, workers, [&] { return State{rows, {}, {}}; },
       [&](const Run& run, State& own) {
         if (!unknowns.has(run)) return;
         own.rows.read(run);
-        const auto slots = std::size_t(own.rows.slots());
-        own.coupling.resize(slots);
+        find_couplings(own.rows, run, own.coupling);
         for (std::size_t i = 0; i < run.count; ++i) {
           own.points.assign(1, Index(run.first + i));
           append_ring(grid, run, i, own.points);
-          for (std::size_t s = 1; s < slots; ++s) {
-            if (i == 0 || !own.rows.is_same_along_run())
-              own.coupling[s] = coupling(own.rows, run, int(s), i);
+          const float* coupling = own.coupling.data() + (own.rows.is_same_along_run() ? 0 : i);
+          const std::size_t stride = own.rows.is_same_along_run() ? 1 : run.count;
+          for (std::size_t s = 1; s < std::size_t(own.rows.slots()); ++s) {
             const auto q = std::size_t(own.points[s]);
             if (is_unknown[q])
               band.offer(own.points[0], Index(q),
-                         own.coupling[s] *
+                         std::abs(coupling[s * stride]) *
                              std::sqrt(inverse_diagonal[run.first + i] * inverse_diagonal[q]));
           }
         }
@@ -74,28 +82,29 @@ void add_along_lines(const GridLevel& grid, Workers& workers, const Rows& rows, 
   struct State {
     Rows rows;
     RunGather<double> place;
+    std::vector<int> slots;  // that have points on lines
   };
   ElementSlots<float, 3> slots;
   accumulate_runs(
       grid, workers, slots, nullptr, band.numbers().data(),
-      [&] { return State{rows, RunGather<double>(grid, band.places().data())}; },
-      [&](const Run& run, float* const* target, State& state) {
-        state.rows.read(run);
-        const double* const* place = state.place(run);
-        const auto is_on_line = [&](int s) {
-          return std::any_of(place[s], place[s] + run.count, [](double p) { return p >= 0; });
-        };
-        bool any = false;
-        for (int s = 0; s < state.rows.slots() && !any; ++s) any = is_on_line(s);
-        if (!any) return;
-        for (int s = 0; s < state.rows.slots(); ++s)
-          for (int t = s + 1; t < state.rows.slots(); ++t)
-            for (std::size_t i = 0; i < run.count; ++i)
+      [&] { return State{rows, RunGather<double>(grid, band.places().data()), {}}; },
+      [&](const Run& run, float* const* target, State& own) {
+        own.rows.read(run);
+        const double* const* place = own.place(run);
+        own.slots.clear();
+        for (int s = 0; s < own.rows.slots(); ++s)
+          if (std::any_of(place[s], place[s] + run.count, [](double p) { return p >= 0; }))
+            own.slots.push_back(s);
+        for (std::size_t a = 0; a < own.slots.size(); ++a)
+          for (std::size_t b = a + 1; b < own.slots.size(); ++b)
+            for (std::size_t i = 0; i < run.count; ++i) {
+              const int s = own.slots[a], t = own.slots[b];
               if (band.are_on_one(place[s][i], place[t][i]))
-                band.visit_pair(place[s][i], place[t][i], state.rows.product(s, t, i),
+                band.visit_pair(place[s][i], place[t][i], own.rows.product(s, t, i),
                                 [&](bool to_t, int beside, float part) {
                                   target[to_t ? t : s][3 * i + std::size_t(beside)] += part;
                                 });
+            }
       });
 }
 
