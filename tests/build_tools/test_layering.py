@@ -154,5 +154,7 @@ def test_a_walk_passes_every_file_of_its_room(heading, folder):
     table = page().split(heading)[1].split("\n\n|")[1].split("\n\n")[0]
     cells = [row.split("|")[0] for row in table.replace("\n|", "\n").splitlines()[2:]]
     walked = [name.split(".")[0] for cell in cells for name in re.findall(r"`([\w.]+)`", cell)]
-    files = {p.stem for p in (NATIVE.parent / folder).iterdir() if p.suffix in {".h", ".cpp", ".py"}}
+    files = {
+        p.stem for p in (NATIVE.parent / folder).iterdir() if p.suffix in {".h", ".cpp", ".py"}
+    }
     assert sorted(walked) == sorted(files - {"options", "__init__"})
