@@ -35,6 +35,7 @@ SETTINGS = {
     "thin plate": {"energy": "thin_plate"},
     "total curvature": {"energy": "total_curvature"},
     "minimum variation": {"energy": "minimum_variation"},
+    "thin plate, limit": {"energy": "thin_plate", "interpolation": "limit"},  # what Panel takes
 }
 
 

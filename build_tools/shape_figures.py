@@ -108,13 +108,19 @@ def best_of_jobs(job: str) -> str:
 
 def jobs_table() -> str:
     """Known panels and hulls: angles to the true normals."""
-    tools = ("Subdivision Surface", "thin plate", "total curvature", "minimum variation")
+    tools = {
+        "Subdivision Surface": "Subdivision Surface",
+        "thin plate, limit": "thin plate, *Limit*",
+        "thin plate": "thin plate",
+        "total curvature": "total curvature",
+        "minimum variation": "minimum variation",
+    }
     rows = [
         [job, model, *(f"{found[t]['rms']:.2g} · {found[t]['at corners']:.2g}" for t in tools)]
         for job, models in result("jobs").items()
         for model, found in models.items()
     ]
-    return table(["job", "model", *tools], rows)
+    return table(["job", "model", *tools.values()], rows)
 
 
 DRAWN = {

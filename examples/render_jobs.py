@@ -19,6 +19,8 @@ import jobs  # noqa: E402
 from render_modelling import MODELS  # noqa: E402
 from render_row import View, draw_rows, render_tile  # noqa: E402
 
+from addon.purposes import PURPOSES  # noqa: E402
+
 OUT = ROOT / "docs" / "images" / "jobs"
 
 
@@ -28,9 +30,8 @@ def pressed(name):
     def faired(_control):
         job = jobs.JOBS[name]
         bpy.ops.object.fairing_for(**job.options)
-        if bpy.context.mode != "OBJECT":
-            bpy.ops.object.mode_set(mode="OBJECT")
-            bpy.ops.object.shade_smooth()
+        if name == "scan":  # its faces stay, and with them their shading, which is flat
+            jobs.shade_smooth(bpy.context.active_object)
         return bpy.context.active_object
 
     return faired
@@ -47,8 +48,15 @@ VIEWS = {
 }
 
 
+def words_of(name):
+    """What the job is called in the menu."""
+    purpose = jobs.JOBS[name].options["purpose"]
+    words = next(words for key, words, *_ in PURPOSES if key == purpose)
+    return words.split(" (")[0]
+
+
 def tiles_of(name):
-    ours = (f"For > {name.title()}", pressed(name))
+    ours = (f"For > {words_of(name)}", pressed(name))
     candidates = [*jobs.JOBS[name].rivals.items(), ours]
     return (
         ("As modelled", "clay", None),

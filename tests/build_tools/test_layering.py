@@ -127,5 +127,34 @@ def drawn(text):
 
 
 def test_the_picture_of_the_architecture_is_true():
-    page = NATIVE.parent / "docs" / "architecture.md"
-    assert drawn(page.read_text("utf-8")) == without_shortcuts(uses())
+    assert drawn(page()) == without_shortcuts(uses())
+
+
+def page():
+    return (NATIVE.parent / "docs" / "architecture.md").read_text("utf-8")
+
+
+def test_files_that_the_architecture_names_are_there():
+    root = NATIVE.parent
+    folders = ("native", "addon", "tests", "build_tools", "examples", "benchmarks", "cmake")
+    paths = [f"/{path.relative_to(root)}" for top in folders for path in (root / top).rglob("*.*")]
+    named = set(re.findall(r"`([\w./]+\.(?:h|cpp|py|cmake))`", page()))
+    assert len(named) > 50
+    assert sorted(n for n in named if not any(p.endswith(f"/{n}") for p in paths)) == []
+
+
+@pytest.mark.parametrize(
+    ("heading", "folder"),
+    [
+        ("### The steps of total curvature", "native/curvature"),
+        ("A live surface, in the order of an edit's way", "addon/live"),
+    ],
+)
+def test_a_walk_passes_every_file_of_its_room(heading, folder):
+    table = page().split(heading)[1].split("\n\n|")[1].split("\n\n")[0]
+    cells = [row.split("|")[0] for row in table.replace("\n|", "\n").splitlines()[2:]]
+    walked = [name.split(".")[0] for cell in cells for name in re.findall(r"`([\w.]+)`", cell)]
+    files = {
+        p.stem for p in (NATIVE.parent / folder).iterdir() if p.suffix in {".h", ".cpp", ".py"}
+    }
+    assert sorted(walked) == sorted(files - {"options", "__init__"})
