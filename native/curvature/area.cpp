@@ -70,7 +70,7 @@ class RunArea {
       const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v),
                    longest = std::max({uu, vv, (u - v).squaredNorm()}),
                    square = u.cross(v).squaredNorm();
-      if (!(square > ring_thinnest * longest * longest)) continue;
+      if (!(square > thinnest_ring_square * longest * longest)) continue;
       const double sine = std::sqrt(square), scale = 0.5 * t.share / sine;
       to_a[i] += scale * (vv - uv);
       to_b[i] += scale * (uu - uv);

@@ -21,11 +21,11 @@ struct Sums {
     const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b),
                  longest = std::max({aa, bb, (a - b).squaredNorm()}),
                  square = a.cross(b).squaredNorm(), sine = std::sqrt(square);
-    if (square > ring_thinnest * aa * bb)
+    if (square > thinnest_ring_square * aa * bb)
       angle += share * angle_of(sine, ab, std::sqrt(aa * bb));
     else if (ab < 0)
       angle += share * std::numbers::pi;
-    if (!(square > ring_thinnest * longest * longest)) return;
+    if (!(square > thinnest_ring_square * longest * longest)) return;
     const double scale = 0.5 * share / sine, at_a = scale * (aa - ab), at_b = scale * (bb - ab);
     laplacian += at_b * a + at_a * b;
     if (ab < 0)

@@ -68,7 +68,7 @@ struct ShapeLoop {
     Pack cosine, square, sine;
     dot(p, q, cosine);
     dot(cross, cross, square);
-    done &= square > ring_thinnest * ring.square[a] * ring.square[b];
+    done &= square > thinnest_ring_square * ring.square[a] * ring.square[b];
     P::root(square, sine);
     add(fan.normal, weight * ring.inverse[a] * ring.inverse[b], cross);
     const Pack scale = T(0.5) * weight / sine;

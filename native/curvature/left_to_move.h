@@ -17,9 +17,8 @@ class LeftToMove {
   // After a step of this decrement that would have moved no point farther than `movement`. One that
   // is not `solved` leaves as much as it has found.
   double after(double decrement, double movement, bool solved) {
-    const double ratio = last_ > 0 && solved ? decrement / last_ : 1;
-    const double trusted =
-        std::clamp(ratio * (has_ratio_ ? 1 : first_ratio), least_ratio_, most_ratio);
+    const double ratio = last_ > 0 && solved && has_ratio_ ? decrement / last_ : 1;
+    const double trusted = std::clamp(ratio, least_ratio_, most_ratio);
     has_ratio_ = last_ > 0;
     last_ = decrement;
     return trusted / (1 - trusted) * movement;
@@ -35,9 +34,8 @@ class LeftToMove {
   double last_decrement() const { return last_; }
 
  private:
-  // The first ratio is of a step that was not accelerated, and flatters.
-  static constexpr double first_ratio = 10;
-  // None above is believed, or a single step would be told to leave more than itself.
+  // None above is believed, or a single step would be told to leave more than itself. The first
+  // ratio is of a step that was not accelerated, which flatters: it counts as this.
   static constexpr double most_ratio = 0.5;
 
   double least_ratio_, last_ = 0;

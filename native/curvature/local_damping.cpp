@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curvature/steps.h"
 #include "parallel/reductions.h"
 #include "stencil/fit.h"
 
 namespace fairing {
 namespace {
 
-// mu where a prediction fails first; by what it grows where one fails, and falls where one holds.
+// mu where a prediction fails first, and what filled points keep (measured: without any they may fold
+// again, with 1 they hardly follow); by what it grows where one fails, and falls where one holds.
 constexpr float first = 0.05f, growth = 8, decay = 0.25f;
 // Squared difference from the prediction, relative to both squares and the mean density: above the
 // first it has failed (half of that after each rejected step), below the second it has held. In
@@ -21,9 +23,6 @@ constexpr double failed = 0.15, held = 0.02;
 // failed twice, until it may fall: the steps would not end otherwise.
 constexpr int patience = 5;
 constexpr float insistence = 3;
-// Where predictions have failed twice mu falls only below this decrement: there it would just slow
-// the last steps.
-constexpr double near_the_end = 0.03;
 
 Eigen::Matrix3d tensor(const float* m, const Linearization& surface, std::size_t point) {
   const Vec3 u = Eigen::Map<const Eigen::Vector3f>(surface.axis.data() + 3 * point).cast<double>();
@@ -61,13 +60,13 @@ void LocalDamping::start() {
   failures_.assign(grid_.size(), 0);
 }
 
-void LocalDamping::hold(const Array<float>& marks, float least) {
+void LocalDamping::hold(const Array<float>& marks) {
   start();
   if (least_.empty()) least_.assign(grid_.size(), 0.0f);
   for_each_index(workers_, marks.size(), [&](std::size_t i) {
     if (!(marks[i] > 0)) return;
-    least_[i] = least;
-    mu_[i] = std::max(mu_[i], least);
+    least_[i] = first;
+    mu_[i] = std::max(mu_[i], first);
   });
   any_ = true;
 }
@@ -106,7 +105,9 @@ bool LocalDamping::judge(const Array<float>& predicted, const Linearization& bef
       failures_[i] = std::uint8_t(std::min(failures_[i] + 1, 100));
       return;
     }
-    const bool released = double(miss[i]) < held && (failures_[i] < 2 || decrement < near_the_end);
+    // Near the end mu would just slow the last steps.
+    const bool released =
+        double(miss[i]) < held && (failures_[i] < 2 || decrement < damped_decrement);
     if (released)
       mu = decay * mu < first / 8 ? 0.0f : decay * mu;
     else if (steps >= patience && failures_[i] >= 2)

@@ -28,8 +28,8 @@ class LocalDamping {
   bool judge(const Array<float>& predicted, const Linearization& before, const Linearization& after,
              int rejections, int steps, double decrement);
 
-  // Marked points (above zero) have at least that factor from here on.
-  void hold(const Array<float>& marks, float least);
+  // Marked points (above zero) keep the least factor from here on.
+  void hold(const Array<float>& marks);
 
  private:
   void start();

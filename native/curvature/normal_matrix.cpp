@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "parallel/cancel.h"
+#include "parallel/reductions.h"
 #include "sparse/unknown_points.h"
 
 namespace fairing {
@@ -13,7 +14,7 @@ namespace {
 // twice as many numbers, 49.
 constexpr std::size_t regular_columns = 25;
 constexpr std::uint16_t none = 0xffff;
-constexpr std::size_t grain = 1024;  // rows worth a thread
+constexpr std::size_t grain = vector_grain / regular_columns;  // rows worth a thread
 // Partial sums of a row's products, none of which waits for another. Regular rows have 19 or 25
 // numbers, and with the connection 37 or 49.
 constexpr std::size_t sums = 6;

@@ -23,9 +23,9 @@ struct GaussNewtonOptions {
   // So many times the surface's area is minimized with total curvature; 0 for minimum variation.
   double tension = 0;
   // Steps end where less is left to move, in working units (the mesh's size is about one).
-  double step_tolerance = 1e-6;
+  double step_tolerance = 0;
   // How exact the loads on pads have to be: what is left of the force, relative.
-  double load_tolerance = 1e-4;
+  double load_tolerance = 0;
   int max_steps = 20;        // on each level, for each way of stepping that is tried there
   int max_iterations = 200;  // of each linear solve
   int smoother_degree = 0;   // Chebyshev's; 0: chosen from how the solves go

@@ -39,7 +39,7 @@ struct Fan {
 
   void add(const Neighbour& a, std::size_t a_place, const Neighbour& b, std::size_t b_place,
            const Wedge& wedge, double weight) {
-    if (!(wedge.sine * wedge.sine > ring_thinnest * a.square * b.square)) return;
+    if (!(wedge.sine * wedge.sine > thinnest_ring_square * a.square * b.square)) return;
     normal += (weight * a.inverse * b.inverse) * wedge.cross;
     const double scale = 0.5 * weight / wedge.sine;
     const double at_a = scale * (a.square - wedge.cosine), at_b = scale * (b.square - wedge.cosine);

@@ -33,7 +33,6 @@
 namespace fairing {
 
 constexpr double least_area_share = 0.1;  // of the barycentric area
-constexpr double ring_thinnest = 1e-24;   // squared sine below which a triangle has no cotangents
 // In the fit, beside what its distance makes of a quad's far corner.
 constexpr double far_corner_weight = 0.3;
 // Squared distance below which a neighbour is the point itself.

@@ -12,8 +12,6 @@ namespace {
 // A load acts along the normals of its pad. Where these turn away from the vertex's own by more than
 // 60 degrees, less than half of it holds the vertex, and pads fight each other.
 constexpr double least_facing = 0.5;
-// On pads the least total curvature is another's least: it may be so many times that on points.
-constexpr double most_over_points = 1.2;
 
 using Normal = Eigen::Map<const Vec3>;
 
@@ -52,7 +50,7 @@ void RoughSteps::polish(CurvatureLevelReport& report) {
   if (report.converged || !is_near(report, damped_decrement)) return;
   LinearizedSurface before = it_.current;
   CurvatureLevelReport polished = report;
-  steps_.polish(polishing_patience, report.energy, polished);
+  steps_.polish(short_patience, report.energy, polished);
   polished.folds = unfolding_.find().count();
   if (polished.folds <= report.folds)
     report = std::move(polished);
@@ -79,7 +77,7 @@ void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelRepor
   report.folds = unfolding_.find().count();
   const bool is_as_near = report.steps.back().length > 0 &&
                           is_near(report, damped_decrement) >= is_near(of_points, damped_decrement);
-  if (report.energy <= most_over_points * of_points.energy && report.folds <= of_points.folds &&
+  if (report.energy <= anothers_least * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
   for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);

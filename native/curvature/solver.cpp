@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature/solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -21,12 +22,6 @@ constexpr double start_decrement = 1e-2;
 // without).
 constexpr int first_of_variation = 3;
 
-// After control vertices have moved: a change of the energy, relative, at which what only
-// preconditions may stay as it is.
-constexpr double nearby = 0.02;
-
-// On pads the least total curvature is another's least: it may be a little above the plate's.
-constexpr double most_over_plate = 1.2;
 // So many times as far from the mesh's centre as the plate: a surface that has folded there is a
 // spike. One that has not may be the large sphere through a flat cap.
 constexpr double farthest_over_plate = 2;
@@ -50,7 +45,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
       unfolding_(iterate_, hold_, folded_faces_, steps_),
       rough_(iterate_, unfolding_, steps_),
       variation_(iterate_, steps_) {
-  system_.hold_by(&hold_);
+  system_.hold_by(hold_);
 }
 
 CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
@@ -143,8 +138,7 @@ StepEnd GaussNewtonSolver::end() {
 }
 
 void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
-  system_.shared().unknowns = hold_.without_held();
-  system_.hold_by(nullptr);
+  system_.let_go(hold_.without_held());
   iterate_.current.held.bounds.clear();
   if (!hold_.active()) return;
   hold_.enforce(surface().data());
@@ -195,7 +189,7 @@ bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& p
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
-  return (pads_.now() ? most_over_plate : 1.0) * report.plate_energy;
+  return (pads_.now() ? anothers_least : 1.0) * report.plate_energy;
 }
 
 bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
@@ -223,8 +217,8 @@ bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
   report.start_energy = report.energy = iterate_.op().fairness();
   if (!(report.start_energy <= unlike_energy * solved_.energy + flat_energy)) return false;
-  iterate_.is_near_earlier =
-      std::abs(report.start_energy - solved_.energy) <= nearby * solved_.energy;
+  iterate_.is_near_earlier = std::max(report.start_energy, solved_.energy) <=
+                             equal_energy * std::min(report.start_energy, solved_.energy);
   report.converged = true;
   const double start_tension = tension_of(surface());
   if (varies())

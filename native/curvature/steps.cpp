@@ -15,8 +15,6 @@ namespace {
 // A step that an eighth of does not help is in the wrong direction: other damping is worth more
 // than another linearization at a shorter length.
 constexpr double least_length = 1.0 / 8;
-// Damping has grown 8^4 times by then.
-constexpr int most_rejections = 4;
 
 bool search(StepMethod& method, const StepCount& count, StepReport& step) {
   for (step.length = 1; step.length >= least_length; step.length /= 2) {
@@ -32,7 +30,7 @@ bool search(StepMethod& method, const StepCount& count, StepReport& step) {
 
 void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
   StepCount count;
-  while (count.total() < most && count.rejected < most_rejections && method.begin(report)) {
+  while (count.total() < most && method.begin(report)) {
     StepReport& step = report.steps.emplace_back();
     method.find_step(step);
     if (search(method, count, step)) {
@@ -52,23 +50,13 @@ constexpr int longest_climb = 3;
 
 // The share of the energy that two damped steps have to gain together.
 constexpr double worthwhile_gain = 0.005;
-// The damping of what has been filled (measured: without any it may fold again, with 1 it hardly
-// follows).
-constexpr float filled_damping = 0.05f;
-
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
 // near the end, where the minimum of the discrete energy lies beside the solution of the equation.
 constexpr double allowed_rise = 0.1;
-// Decrement below which the energy says nothing about a step any more.
-constexpr double unchecked_decrement = 1e-2;
 
-// A step gains the whole energy at the most, a decrement of one. Loads that no solve has settled
-// claim more, and their work hides any rise of the energy. A little of it leads on nevertheless.
-constexpr double largest_decrement = 10;
-
-// Decrement below which steps are accelerated: each then leaves a fixed share of the error. Those of
-// minimum variation do so below damped_decrement (measured: a creature wanders about with 0.1).
-constexpr double accelerated_decrement = 0.1;
+// Steps of total curvature are accelerated once they are settling: each then leaves a fixed share of
+// the error. Those of minimum variation are below damped_decrement (measured: a creature wanders about
+// otherwise).
 constexpr std::size_t accelerated_steps = 3;  // that are remembered
 
 // Of minimum variation: so much of total curvature, in shares of both energies, and times the last
@@ -78,10 +66,6 @@ constexpr double share_of_curvature = 0.1;
 // Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
 // measured against itself and this share of the mean squared curvature.
 constexpr double flat_share = 1e-4;
-
-// A movement, in sizes of the mesh, after which nothing is left of the surface: the energy of what
-// has burst says nothing, not even where it is zero.
-constexpr double farthest = 1e3;
 
 // A step, and what it changes of the loads on pads.
 struct HeldStep {
@@ -176,7 +160,7 @@ class GaussNewtonMethod final : public StepMethod {
     const bool is_of_use = share > -plain_decrement * plain_decrement;  // else it is no rounding
     step.decrement =
         is_of_use ? std::sqrt(std::max(share, 0.0)) : std::numeric_limits<double>::infinity();
-    if (step.decrement < (varies() ? damped_decrement : accelerated_decrement)) accelerate();
+    if (step.decrement < (varies() ? damped_decrement : settling_decrement)) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
@@ -195,8 +179,7 @@ class GaussNewtonMethod final : public StepMethod {
   // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
   bool is_acceptable(const StepReport& step, double energy) const override {
     return !is_checked(step) ||
-           (step.decrement <= largest_decrement &&
-            !(energy > it_.current.energy + allowed_rise * step.decrement * scale()));
+           !(energy > it_.current.energy + allowed_rise * step.decrement * scale());
   }
 
   bool accept(const StepReport& step, const StepCount& count,
@@ -209,15 +192,13 @@ class GaussNewtonMethod final : public StepMethod {
     report.converged = end_.is_reached(step.decrement, report.left);
     if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
     report.converged &= step.constraint_gap <= it_.system.wanted_gap(it_.level);
-    const bool burst = !(step.movement <= farthest);
-    report.converged &= !burst;
     const bool too_late =
         patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement;
     flat_ = flat_energy_about(it_.current, it_.workers());
     // Where linear solves end too early for a step to lessen the decrement by half, the next ones
     // would gain as little.
     const bool is_stuck = varies() && !step.solved && before > 0 && 2 * step.decrement > before;
-    return report.converged || burst || too_late || is_stuck || leads_nowhere(step);
+    return report.converged || too_late || is_stuck || leads_nowhere(step);
   }
 
   bool reject() override {
@@ -260,19 +241,20 @@ class GaussNewtonMethod final : public StepMethod {
   // Whether plain steps have climbed too long, or damped ones gain next to nothing. The potential is
   // the energy less the work of the loads, which are others in each step: its changes are summed.
   bool leads_nowhere(const StepReport& step) {
-    if (step.decrement < unchecked_decrement) return false;
+    if (step.decrement < damped_decrement) return false;
     gained_ += gain_;
     const double last = std::exchange(last_gain_, gain_);
     if (damping_)
-      return end_.gain > 0 && ++damped_ > 1 && step.decrement < accelerated_decrement &&
+      return end_.gain > 0 && ++damped_ > 1 && step.decrement < settling_decrement &&
              last + gain_ < end_.gain * it_.current.energy;
     climbed_ = gained_ > most_gained_ ? 0 : climbed_ + 1;
     most_gained_ = std::max(most_gained_, gained_);
     return climbed_ >= longest_climb;
   }
 
+  // So near the end the energy says nothing about a step any more.
   bool is_checked(const StepReport& step) const {
-    return damping_ && !(step.decrement < unchecked_decrement);
+    return damping_ && !(step.decrement < damped_decrement);
   }
 
   SurfaceIterate& it_;
@@ -300,7 +282,7 @@ double flat_energy_about(const LinearizedSurface& surface, Workers& workers) {
 bool is_near(const CurvatureLevelReport& report, double decrement) {
   if (report.converged || report.steps.empty()) return report.converged;
   const StepReport& last = report.steps.back();
-  return last.length > 0 && last.movement <= farthest && last.decrement <= decrement;
+  return last.length > 0 && last.decrement <= decrement;
 }
 
 void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
@@ -331,7 +313,7 @@ void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<
   report = start.report;
   report.damped = true;
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
-  if (!filled.empty()) damping.hold(filled, filled_damping);
+  if (!filled.empty()) damping.hold(filled);
   run(pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 

@@ -3,6 +3,7 @@
 // least total curvature and to the least variation of curvature.
 #pragma once
 
+#include "base/rounding.h"
 #include "curvature/local_damping.h"
 #include "curvature/options.h"
 #include "curvature/system.h"
@@ -72,16 +73,16 @@ constexpr double plain_decrement = 1e-3;
 // A surface found in another way may have this many times the energy of the one it replaces: the
 // equation's solution lies beside the minimum of the discrete energy.
 constexpr double equal_energy = 1.01;
+// On pads, on points, or with fewer folds it is another least energy: it may be so many times the one.
+constexpr double anothers_least = 1.15;
 // One with this many times the energy of another has little to do with it.
 constexpr double unlike_energy = 1.5;
 // An energy that is rounding: a sphere has 8 pi, a plane none.
-constexpr double flat_energy = 1e-16;
+constexpr double flat_energy = rounding;
 
 // Plain steps have come to plain_decrement after so many, or never will; and where steps before have
 // come near the solution.
 constexpr int long_patience = 14, short_patience = 6;
-// Plain steps after damped ones: such as have not reached plain_decrement by then never will.
-constexpr int polishing_patience = 3;
 
 // Whether the steps have come near a solution: the last one was taken, and its decrement is at most
 // this. Nearer steps may still be needed for what was promised.

@@ -11,16 +11,13 @@
 namespace fairing {
 namespace {
 
-// Of the residual's norm. More accuracy gains no outer step, or at most one. Loads on pads change
-// from step to step anyway, and more than a tenth of the error is worth no iteration, unless control
-// vertices move: their ends hang on forces.
-constexpr double inner_accuracy = 1e-2, inner_accuracy_on_pads = 0.1;
+// Of the residual's norm. More accuracy gains no outer step, or at most one.
+constexpr double inner_accuracy = 1e-2;
 // Iterations of a solve for minimum variation. Its K is of sixth order, which V-cycles lessen slowly:
 // what they leave goes to the next step, which does not count as having arrived (left_to_move.h).
 constexpr int most_of_variation = 24;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
-constexpr double usual_steps = 4;  // nobody knows how many there will be; most runs take so many
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
@@ -111,7 +108,7 @@ PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
   PcgLimits limits;
   const bool loads_change = functional.pads && !hold_;
   const bool varies = functional.energy == CurvatureEnergy::minimum_variation;
-  limits.tolerance = loads_change || varies ? inner_accuracy_on_pads : inner_accuracy;
+  limits.tolerance = loads_change || varies ? inexact : inner_accuracy;
   limits.from_start = true;
   limits.by_error = loads_change;
   limits.may_end_early = varies;
@@ -168,17 +165,10 @@ StepWork GaussNewtonSystem::work(int level) const {
 void GaussNewtonSystem::report_progress(int level, std::size_t steps) {
   monitor_.check_cancelled();
   if (level < finest()) return;
-  const double share = double(steps) / (double(steps) + usual_steps);
+  // Nobody knows how many there will be.
+  const double share = double(steps) / double(steps + 1);
   monitor_.report(Phase::solve, progress_begin + (progress_end - progress_begin) * share);
 }
-
-namespace {
-
-// Decrement below which the surface changes so little from step to step that coarse levels, their
-// factor and the spectra serve as they are.
-constexpr double nearly_there = 0.1;
-
-}  // namespace
 
 void SurfaceIterate::begin(const Functional& functional) {
   if (current.number != op().linearizations() || !(current.functional == functional))
@@ -201,7 +191,7 @@ double SurfaceIterate::movement(double length) {
 
 bool SurfaceIterate::needs_coarse_levels(double last_decrement) {
   if (std::exchange(is_near_earlier, false)) return false;
-  return !(last_decrement > 0 && last_decrement < nearly_there);
+  return !(last_decrement > 0 && last_decrement < settling_decrement);
 }
 
 }  // namespace fairing

@@ -55,6 +55,13 @@ struct LinearizedSurface {
   Multipliers<1> held;  // what holds its control vertices; empty: not known
 };
 
+// Decrement below which the surface changes so little from step to step that coarse levels, their
+// factor and the spectra serve as they are.
+constexpr double settling_decrement = 0.1;
+
+// What solves leave of their error where what they solve for is about to change: loads, and ends.
+constexpr double inexact = 0.1;
+
 class GaussNewtonSystem {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. The references must
@@ -85,8 +92,10 @@ class GaussNewtonSystem {
   void set_damping(int level, const Array<float>& mu);
 
   // What holds the control vertices that move, along the normals, while total curvature is
-  // minimized. It must stay where it is until the next call; null: nothing does.
-  void hold_by(HoldAlongNormals* hold);
+  // minimized. It must stay where it is until let_go().
+  void hold_by(HoldAlongNormals& hold);
+  // From here on nothing holds control vertices: those that are none of `unknowns` stay.
+  void let_go(Unknowns unknowns);
   // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
   bool is_bound() const { return hold_ && hold_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }

@@ -16,12 +16,6 @@ namespace {
 // more each time.
 constexpr int most_rounds = 3;
 constexpr int rings = 2;
-// So many times the energy fewer folds may cost, and no fewer have to gain. Mostly it falls: the
-// folds had trapped the steps.
-constexpr double price_of_folds = 1.15;
-// A point that gains this share of all energy has burst: it and those around are not refilled.
-constexpr double burst = 0.01;
-constexpr int rings_of_burst = 4;
 
 double point_energy(const Linearization& about, std::size_t i) {
   const float* m = &about.shape[4 * i];
@@ -171,13 +165,14 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
     folds = find();
     again.folds_before = report.folds_before;
     again.folds = folds.count();
+    // Mostly the energy falls: the folds had trapped the steps.
     const double most = again.folds < report.folds
-                            ? std::min(price_of_folds * report.energy, report.plate_energy)
-                            : report.energy / price_of_folds;
+                            ? std::min(anothers_least * report.energy, report.plate_energy)
+                            : report.energy / anothers_least;
     if (again.energy <= most) {
       report = again;
       best = it_.current;
-    } else if (!mark_bursts(best.linearization, burst * report.energy, burst_before)) {
+    } else if (!mark_bursts(best.linearization, report.energy, burst_before)) {
       break;
     }
   }
@@ -201,15 +196,16 @@ void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
   it_.system.symmetrizer().points(it_.grid(), x);
 }
 
-// Marks what is around the points that have gained more energy than `most`; false: none has.
-bool Unfolding::mark_bursts(const Linearization& before, double most, Array<float>& marks) {
+// Marks what is around the points that have gained so much that the energy is no equal one; false:
+// none has.
+bool Unfolding::mark_bursts(const Linearization& before, double energy, Array<float>& marks) {
   Array<float> bursts(marks.size());
   for_each_index(it_.workers(), bursts.size(), [&](std::size_t i) {
-    const double bound = point_energy(before, i) + most;
+    const double bound = point_energy(before, i) + (equal_energy - 1) * energy;
     bursts[i] = point_energy(it_.current.linearization, i) > bound ? 1.0f : 0.0f;
   });
   if (!any(bursts)) return false;
-  dilate_marks(rings_of_burst, bursts);
+  dilate_marks(2 * rings, bursts);
   for_each_index(it_.workers(), marks.size(),
                  [&](std::size_t i) { marks[i] = std::max(marks[i], bursts[i]); });
   return true;

@@ -36,7 +36,7 @@ class Unfolding {
   void refill(const Array<float>& marks, Array<double>& x);
   void dilate_marks(int rings, Array<float>& marks);
   void solve_again(const StepStart& start, const Array<float>& marks, CurvatureLevelReport& report);
-  bool mark_bursts(const Linearization& before, double most, Array<float>& marks);
+  bool mark_bursts(const Linearization& before, double energy, Array<float>& marks);
 
   SurfaceIterate& it_;
   const ControlHold& hold_;
