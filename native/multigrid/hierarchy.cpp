@@ -172,15 +172,15 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
 }
 
 // Of the spectrum's upper end, from the level below to this one; 0: unknown. Stencils hardly change
-// from level to level. Lines reach farther from level to level: what that does to the spectrum becomes
-// half as much.
+// from level to level. Lines reach farther from level to level, to no end: what that does to the
+// spectrum becomes a quarter with half the edges.
 double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
   const auto of = [&](std::size_t below) {
     return index >= cycle_.base + below ? cycle_.levels[index - below].largest_eigenvalue : 0;
   };
   if (!cycle_.levels[index].lines) return of(1) > 0 ? settled_margin : 0;
   const bool both = of(1) > 0 && of(2) > 0 && cycle_.levels[index - 2].lines;
-  return both ? std::max(settled_margin, std::sqrt(of(1) / of(2))) : 0;
+  return both ? std::max(settled_margin, std::pow(of(1) / of(2), 0.25)) : 0;
 }
 
 // Each level's Lanczos iteration starts from the residual, restricted: that turns and
