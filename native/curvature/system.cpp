@@ -21,8 +21,7 @@ constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
-  // Loads are corrected by what a solve leaves: with 3, as for the plate, spheres at level 7 ended
-  // 4e-4 off. With 4, 5 and 6 the runs take the same time.
+  // With 4, 5 and 6 the runs take the same time.
   out.usual_degree = 6;
   out.smoother_degree = options.smoother_degree;
   out.always_factor = unknowns.any_vertex;
