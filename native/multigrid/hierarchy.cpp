@@ -124,9 +124,8 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
 
 void Hierarchy::seek_lines(std::size_t index) {
   CycleLevel& level = cycle_.levels[index];
-  if (level.has_sought_lines || (index == cycle_.base && coarse_->direct())) return;
-  level.has_sought_lines = true;
-  level.lines = LineJacobi::make(*level.op, workers_);
+  if (!level.lines && !(index == cycle_.base && coarse_->direct()))
+    level.lines = std::make_unique<LineJacobi>(*level.op, workers_);
 }
 
 bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system,
@@ -178,9 +177,13 @@ double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
   const auto of = [&](std::size_t below) {
     return index >= cycle_.base + below ? cycle_.levels[index - below].largest_eigenvalue : 0;
   };
-  if (!cycle_.levels[index].lines) return of(1) > 0 ? settled_margin : 0;
-  const bool both = of(1) > 0 && of(2) > 0 && cycle_.levels[index - 2].lines;
-  return both ? std::max(settled_margin, std::pow(of(1) / of(2), 0.25)) : 0;
+  const auto has_lines = [&](std::size_t l) {
+    return cycle_.levels[l].lines && cycle_.levels[l].lines->any();
+  };
+  if (!has_lines(index)) return of(1) > 0 ? settled_margin : 0;
+  return of(1) > 0 && of(2) > 0 && has_lines(index - 2)
+             ? std::max(settled_margin, std::pow(of(1) / of(2), 0.25))
+             : 0;
 }
 
 // Each level's Lanczos iteration starts from the residual, restricted: that turns and

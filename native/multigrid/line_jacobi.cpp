@@ -79,13 +79,16 @@ struct LineLoop {
 
 }  // namespace
 
-std::unique_ptr<LineJacobi> LineJacobi::make(LevelOperator& op, Workers& workers) {
-  std::unique_ptr<LineJacobi> out(new LineJacobi(op, workers));
-  op.write_lines(out->band_, workers);
-  if (out->band_.is_seeking() || out->band_.lines() == 0) return nullptr;
-  out->bundle_lines();
-  out->factor();
-  return out;
+LineJacobi::LineJacobi(LevelOperator& op, Workers& workers)
+    : op_(op), workers_(workers), band_(op.points()) {
+  op.write_lines(band_, workers);
+  serves_ = !band_.is_seeking() && band_.lines() > 0;
+  if (serves_) {
+    bundle_lines();
+    factor();
+  } else {
+    band_ = LineBand(0);
+  }
 }
 
 // Those of one length go together.
@@ -109,6 +112,7 @@ void LineJacobi::bundle_lines() {
 }
 
 void LineJacobi::refactor() {
+  if (!any()) return;
   op_.write_lines(band_, workers_);
   serves_ = !band_.numbers().empty();
   if (serves_) factor();

@@ -16,9 +16,9 @@ namespace fairing {
 // for any number of threads. All functions throw where the run has been cancelled.
 class LineJacobi {
  public:
-  // Null where nothing is coupled strongly, or the operator does not tell. The operator must outlive
-  // the lines.
-  static std::unique_ptr<LineJacobi> make(LevelOperator& op, Workers& workers);
+  // Seeks lines: there are none where nothing is coupled strongly, or the operator does not tell.
+  // Then B is D. The operator must outlive the lines.
+  LineJacobi(LevelOperator& op, Workers& workers);
   ~LineJacobi() { MemoryLedger::remove(bytes_); }
   LineJacobi(const LineJacobi&) = delete;
   LineJacobi& operator=(const LineJacobi&) = delete;
@@ -26,6 +26,7 @@ class LineJacobi {
   // Call after the operator has changed. Lines keep their points; where the operator has nothing to
   // tell of them any more, B is D until it has.
   void refactor();
+  bool any() const { return !bundle_.empty(); }
   bool serves() const { return serves_; }
 
   // What B gives beyond the diagonal: x, change += step (B^-1 - D^-1) r; `change` may be null.
@@ -40,8 +41,6 @@ class LineJacobi {
   };
 
  private:
-  LineJacobi(LevelOperator& op, Workers& workers)
-      : op_(op), workers_(workers), band_(op.points()) {}
   void bundle_lines();
   void factor();
   void factor_line(std::size_t line, Bundle& bundle, std::size_t lane) const;
@@ -51,7 +50,7 @@ class LineJacobi {
   LineBand band_;
   std::vector<std::size_t> order_;  // lines, longest first: `lanes` of them make a bundle
   std::vector<Bundle> bundle_;
-  bool serves_ = true;
+  bool serves_ = false;
   std::size_t bytes_ = 0;
 };
 

@@ -67,8 +67,7 @@ constexpr std::size_t factor_bytes(std::size_t unknowns) {
 struct CycleLevel {
   LevelOperator* op = nullptr;
   LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
-  std::unique_ptr<LineJacobi> lines;  // of the smoother; null: the diagonal serves
-  bool has_sought_lines = false;
+  std::unique_ptr<LineJacobi> lines;  // of the smoother; null: not yet sought
   double largest_eigenvalue = 0;
   SmootherState state;
 };

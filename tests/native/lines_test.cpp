@@ -168,8 +168,8 @@ TEST(Lines, SolveForTheirBand) {
   for (const std::size_t components : {1u, 3u}) {
     const Dense k = beams({2, 40, 3, 17, 5, 5, 9, 30, 4, 12, 6}, 7);
     DenseOperator op(k, components);
-    const auto lines = LineJacobi::make(op, workers);
-    ASSERT_TRUE(lines);
+    const LineJacobi lines(op, workers);
+    ASSERT_TRUE(lines.any());
     const Eigen::Index size = k.rows(), each = Eigen::Index(components);
     Dense r = Dense::Random(each, size);
     const Dense expected = k.ldlt().solve(r.transpose()).transpose();
@@ -177,7 +177,7 @@ TEST(Lines, SolveForTheirBand) {
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index a = 0; a < each; ++a)
         x[std::size_t(each * i + a)] = float(r(a, i) / k(i, i));
-    lines->add(1, load.data(), x.data(), change.data());
+    lines.add(1, load.data(), x.data(), change.data());
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index a = 0; a < each; ++a) {
         const auto at = std::size_t(each * i + a);
@@ -195,14 +195,14 @@ TEST(Lines, StayDefiniteWhereTheyTurnBack) {
   k += Dense::Identity(12, 12);
   ASSERT_GT(Eigen::SelfAdjointEigenSolver<Dense>(k).eigenvalues()(0), 0);
   DenseOperator op(k, 1);
-  const auto lines = LineJacobi::make(op, workers);
-  ASSERT_TRUE(lines);
+  const LineJacobi lines(op, workers);
+  ASSERT_TRUE(lines.any());
   Dense inverse(12, 12);
   for (Eigen::Index i = 0; i < 12; ++i) {
     std::vector<float> r(12), x(12);
     r[std::size_t(i)] = 1;
     x[std::size_t(i)] = float(1 / k(i, i));
-    lines->add(1, r.data(), x.data(), nullptr);
+    lines.add(1, r.data(), x.data(), nullptr);
     for (Eigen::Index j = 0; j < 12; ++j) inverse(j, i) = x[std::size_t(j)];
   }
   EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-6 * inverse.norm());
