@@ -50,7 +50,7 @@ void RoughSteps::polish(CurvatureLevelReport& report) {
   if (report.converged || !is_near(report, damped_decrement)) return;
   LinearizedSurface before = it_.current;
   CurvatureLevelReport polished = report;
-  steps_.polish(short_patience, report.energy, polished);
+  steps_.polish(longest_climb, report.energy, polished);
   polished.folds = unfolding_.find().count();
   if (polished.folds <= report.folds)
     report = std::move(polished);

@@ -45,9 +45,6 @@ void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
 
 namespace {
 
-// So many plain steps in a row may climb; the next one has to come below the lowest place so far.
-constexpr int longest_climb = 3;
-
 // The share of the energy that two damped steps have to gain together.
 constexpr double worthwhile_gain = 0.005;
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so

@@ -83,6 +83,9 @@ constexpr double flat_energy = rounding;
 // Plain steps have come to plain_decrement after so many, or never will; and where steps before have
 // come near the solution.
 constexpr int long_patience = 14, short_patience = 6;
+// So many plain steps in a row may climb; the next one has to come below the lowest place so far. As
+// many after damped ones have come to plain_decrement, or never will.
+constexpr int longest_climb = 3;
 
 // Whether the steps have come near a solution: the last one was taken, and its decrement is at most
 // this. Nearer steps may still be needed for what was promised.

@@ -78,6 +78,12 @@ def poles():
     return vertices, np.concatenate([faces + k * 362 for k, (_, faces) in enumerate(parts)])
 
 
+def egg():
+    """Even faces; nothing varies on a sphere, where no step to less variation is taken."""
+    vertices, faces = meshes.icosahedron()
+    return vertices * [1, 1, 1.5], faces
+
+
 @pytest.mark.parametrize(
     "mesh, levels, energy",
     [
@@ -86,7 +92,7 @@ def poles():
         (meshes.torus(), 4, "minimum_variation"),
         (meshes.creature(), 3, "minimum_variation"),
         (meshes.random_hull(40), 4, "minimum_variation"),
-        (meshes.icosahedron(), 5, "minimum_variation"),
+        (egg(), 5, "minimum_variation"),
     ],
     ids=["thin faces", "quads, 3", "quads, 4", "creature", "9,700 points", "even"],
 )

@@ -86,7 +86,7 @@ def test_random_hulls_become_spheres(name, levels):
 def test_fine_levels_are_as_exact(degree):
     """Loads are not corrected by what a solve leaves: read in the control vertices' own rows alone,
     it left the cube 2e-6 off here, and 4e-4 at level 7."""
-    assert radius_error(meshes.cube(), 6, smoother_degree=degree) <= 5e-7
+    assert radius_error(inscribed.NAMED["cube"](), 6, smoother_degree=degree) <= 5e-7
 
 
 @pytest.mark.parametrize("name", ["icosahedron", "cube", "J37"])
