@@ -27,7 +27,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   // Loads are corrected by what a solve leaves: with 3, as for the plate, spheres at level 7 ended
   // 4e-4 off. With 4, 5 and 6 the runs take the same time.
   out.usual_degree = 6;
-  out.smoother_degree = options.smoother_degree;
+  out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
   // As for the thin plate: the area's share of the diagonal falls from level to level.
@@ -54,7 +54,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
                                      Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
-      max_iterations_(options.max_iterations),
+      max_iterations_(options.solve.max_iterations),
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
       shared_{mesh, unknowns, workers},
