@@ -97,9 +97,9 @@ void bind_options(py::module_& m) {
   setting("normals", &O::normals);
   setting("tension", &O::tension);
   setting("method", &O::paper, &PaperOptions::method);
-  setting("relative_residual", &O::relative_residual);
-  setting("max_iterations", &O::max_iterations);
-  setting("smoother_degree", &O::smoother_degree);
+  setting("relative_residual", &O::solve, &SolveOptions::relative_residual);
+  setting("max_iterations", &O::solve, &SolveOptions::max_iterations);
+  setting("smoother_degree", &O::solve, &SolveOptions::smoother_degree);
   setting("sweeps", &O::paper, &PaperOptions::sweeps);
   setting("threads", &O::threads);
   setting("memory_limit", &O::memory_limit);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "multigrid/solve_options.h"
+
 namespace fairing {
 
 // The functional whose rows are assembled. Displacing a surface by h along its normals turns its
@@ -26,9 +28,8 @@ struct GaussNewtonOptions {
   double step_tolerance = 0;
   // How exact the loads on pads have to be: what is left of the force, relative.
   double load_tolerance = 0;
-  int max_steps = 20;        // on each level, for each way of stepping that is tried there
-  int max_iterations = 200;  // of each linear solve
-  int smoother_degree = 0;   // Chebyshev's; 0: chosen from how the solves go
+  int max_steps = 20;  // on each level, for each way of stepping that is tried there
+  SolveOptions solve;
 };
 
 // One Gauss-Newton step.

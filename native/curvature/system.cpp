@@ -23,7 +23,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   HierarchyOptions out;
   // With 4, 5 and 6 the runs take the same time.
   out.usual_degree = 6;
-  out.smoother_degree = options.smoother_degree;
+  out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
   // As for the thin plate: the area's share of the diagonal falls from level to level.
@@ -50,7 +50,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
                                      Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
-      max_iterations_(options.max_iterations),
+      max_iterations_(options.solve.max_iterations),
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
       shared_{mesh, unknowns, workers},

@@ -265,8 +265,8 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
   if (gauss_newton && !gauss_newton->can_move()) return false;
   if (gauss_newton) gauss_newton->leave_plate(recent_.surface());
   recent_.extrapolate(control_.working);
-  const double tolerance = gauss_newton ? std::max(options.relative_residual, start_tolerance)
-                                        : options.relative_residual;
+  const double tolerance = gauss_newton ? std::max(options.solve.relative_residual, start_tolerance)
+                                        : options.solve.relative_residual;
   systems_->plate().solve_moved(recent_.extrapolated(), data_of(control_), tolerance,
                                 recent_.state(), recent_.surface(), report.levels,
                                 [&](const double* start) {

@@ -56,7 +56,8 @@ double columns_of_plate(const Counts& c, int level, double unknowns) {
     return double(factor_bytes(std::size_t(unknowns))) / (double(matrix_entry) * unknowns);
   const double doublings = std::log2(std::max(unknowns, 2.0));
   const double entries = double(mixed(c, 100 * doublings - 250, 100 * doublings - 180)) / 10;
-  return std::max(2.0, std::min(level > 2 ? entries : 0.9 * entries, 1 + unknowns / 2));
+  const double few = level > 2 ? 1 : 0.9;  // the share that few points a face leave
+  return std::max(2.0, std::min(few * entries, 1 + unknowns / 2));
 }
 
 // The factor of a level, part by part. Borders and curves leave fewer neighbours: half as many where
@@ -75,10 +76,9 @@ std::int64_t plate_factor_bytes(const Counts& c, int level) {
 // Numbers a column of the factor of minimum variation, whose rows reach farther than a plate's.
 // Measured on 1,700 to 29,000 unknowns: 137 to 295 of triangles, 230 to 340 of quads, about 15 %
 // less where faces have few points.
-double columns_of_variation(const Counts& c, int level, std::int64_t unknowns) {
+double columns_of_variation(const Counts& c, std::int64_t unknowns) {
   const double doublings = std::log2(double(std::max<std::int64_t>(unknowns, 2)));
-  const auto entries = double(mixed(c, 39 * doublings - 283, 52 * doublings - 425));
-  return std::max(30.0, level > 2 ? entries : 0.85 * entries);
+  return std::max(30.0, double(mixed(c, 39 * doublings - 283, 52 * doublings - 425)));
 }
 
 // What the level takes that steps to minimum variation prove hard, beside what they hold there of
@@ -90,7 +90,7 @@ std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
     if (c.unknowns(l) <= std::int64_t(direct_limit_of_steps)) hard = l;
   if (hard < 0) return on_finest;
   const std::int64_t points = c.used_points(hard);
-  const double factor = double(matrix_entry) * columns_of_variation(c, hard, points);
+  const double factor = double(matrix_entry) * columns_of_variation(c, points);
   const std::int64_t assembled = mixed(c, 1450, 1930) * points,
                      beside =
                          hard < levels ? on_finest + assembled : std::max(on_finest, assembled);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/rounding.h"
 #include "parallel/memory.h"
 
 namespace fairing {
@@ -85,7 +86,9 @@ void check_paper(const FairOptions& o) {
 
 // By default what cannot be seen is left, as it is by the thin plate.
 double FairOptions::step_tolerance_wanted() const {
-  return step_tolerance > 0 ? step_tolerance : std::clamp(0.1 * relative_residual, 1e-6, 1e-5);
+  if (step_tolerance > 0) return step_tolerance;
+  // in sizes of the mesh; less for who asks for less, as far as rows in single precision tell
+  return std::clamp(0.1 * solve.relative_residual, single_rounding, 1e-5);
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {
@@ -137,10 +140,10 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   check_edge_sharpness(mesh.vertex_count(), o.sharpness);
   if (!o.sharpness.vertices.empty())
     check_per_vertex(mesh, "vertex_sharpness", o.sharpness.vertices);
-  in_range("relative_residual", o.relative_residual, 1e-13, 0.5);
+  in_range("relative_residual", o.solve.relative_residual, 1e-13, 0.5);
   in_range("step_tolerance", o.step_tolerance, 0, 0.1);
   if (o.max_steps < 1) refuse("max_steps must be at least 1.");
-  if (o.max_iterations < 1) refuse("max_iterations must be at least 1.");
+  if (o.solve.max_iterations < 1) refuse("max_iterations must be at least 1.");
   if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
   in_range("pad_size", o.pad_size, 0, 1);
   in_range("tension", o.tension, 0, 1);
@@ -149,8 +152,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
     refuse(
         "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "
         "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
-  if (o.smoother_degree < 0 || o.smoother_degree > 1000)
-    refuse("smoother_degree must be from 0 to 1000.");
+  in_range("smoother_degree", o.solve.smoother_degree, 0, 1000);
   check_paper(o);
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)

@@ -12,6 +12,7 @@
 #include "mesh/control_mesh.h"
 #include "mesh/limit_positions.h"
 #include "mesh/polygon_mesh.h"
+#include "multigrid/solve_options.h"
 #include "paper/options.h"
 #include "stencil/chart.h"
 
@@ -102,12 +103,7 @@ struct FairOptions {
   // Whether any vertex may move, and only so far.
   bool has_tolerance() const;
 
-  // Where conjugate gradients end: the residual relative to the control polyhedron's, and the
-  // estimated error relative to the solution in the energy norm; 1e-13 to 0.5.
-  double relative_residual = 1e-4;
-  int max_iterations = 200;
-  // Of the Chebyshev smoother; 0: chosen from how the coarse levels converge.
-  int smoother_degree = 0;
+  SolveOptions solve;
 
   // 0: one a core. The result is the same for any number.
   int threads = 0;

@@ -12,10 +12,9 @@ namespace {
 
 // A change that the fit explains but for this share is of the kind that was seen before; otherwise
 // another kind begins, and the last surface becomes the earlier one.
-constexpr double same_kind = 1e-2;
-// Columns of the least squares that are shorter than this share of the present change are left out:
+// Columns of the least squares that are shorter than that share of the present change are left out:
 // they would be enlarged together with their errors.
-constexpr double least_column = 1e-4;
+constexpr double same_kind = 1e-2;
 
 double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
   double most = 0;
@@ -46,7 +45,7 @@ RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions
   }
   Eigen::Matrix<double, 7, 1> unit;
   for (int k = 0; k < 7; ++k)
-    unit[k] = gram(k, k) > least_column * least_column * change && gram(k, k) > 0
+    unit[k] = gram(k, k) > same_kind * same_kind * change && gram(k, k) > 0
                   ? 1 / std::sqrt(gram(k, k))
                   : 0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(unit.asDiagonal() * gram *

@@ -41,9 +41,7 @@ ThinPlateSolver& FairingSystems::plate() {
     const FairOptions& options = problem_.options;
     ThinPlateOptions own;
     own.levels = options.levels;
-    own.relative_residual = options.relative_residual;
-    own.max_iterations = options.max_iterations;
-    own.smoother_degree = options.smoother_degree;
+    own.solve = options.solve;
     own.pad_size = options.width_of_pads();
     own.normals = problem_.normals.fixed;
     // Steps to other energies begin better from the control metric's plate (docs/notes/comparison.md).
@@ -76,11 +74,11 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   const double length = problem_.units.edge_in_space;
   options.tension = membrane_strength(problem_.options.tension) / (length * length);
   options.step_tolerance = problem_.options.step_tolerance_wanted();
-  options.load_tolerance =
-      std::clamp(5 * problem_.options.relative_residual, 1e-4, largest_force_left);
+  const double forces_left = 5 * problem_.options.solve.relative_residual;
+  // of what loads carry; less than 1e-4 has not been measured
+  options.load_tolerance = std::clamp(forces_left, 1e-4, largest_force_left);
   options.max_steps = problem_.options.max_steps;
-  options.max_iterations = problem_.options.max_iterations;
-  options.smoother_degree = problem_.options.smoother_degree;
+  options.solve = problem_.options.solve;
   return std::make_unique<GaussNewtonSolver>(
       problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
       problem_.hold_of<HoldAlongNormals>(control, weight_unit(problem_.mesh)), plate().pads(),

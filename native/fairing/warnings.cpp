@@ -58,7 +58,7 @@ Warning of_plate(const LevelReport& level, const FairOptions& options) {
         "On level %d fixed normals have not settled after %d corrections: up to %.2g degrees are "
         "left. The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
         level.level, level.pad_corrections, level.normal_angle / degree);
-  if (level.pad_corrections > 0 && level.residual <= options.relative_residual)
+  if (level.pad_corrections > 0 && level.residual <= options.solve.relative_residual)
     return warning(
         "NOT_CONVERGED_PADS",
         "On level %d the loads on pads have not settled after %d corrections: %.1e of them is "
@@ -68,7 +68,7 @@ Warning of_plate(const LevelReport& level, const FairOptions& options) {
       "NOT_CONVERGED",
       "On level %d the solver stopped after %d iterations at a relative residual of %.1e (target: "
       "%.1e). The surface is usable.",
-      level.level, level.iterations, level.residual, options.relative_residual);
+      level.level, level.iterations, level.residual, options.solve.relative_residual);
 }
 
 Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) {

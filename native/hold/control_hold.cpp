@@ -43,7 +43,7 @@ ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
       tolerance_(std::move(tolerances)) {
   if (!unknowns.any_vertex) return;
   for (std::size_t v = 0; v < tolerance_.size(); ++v) {
-    tolerance_[v] *= tolerance_aim;
+    tolerance_[v] *= 1 - 1 / stiff;  // springs give way
     active_ |= bound(v);
   }
   base_.assign(std::size_t(mesh.vertex_count()), 0.0);

@@ -8,14 +8,11 @@
 
 #include "grid/ring.h"
 #include "grid/runs.h"
+#include "hold/load_steps.h"
 #include "stencil/fit.h"
 
 namespace fairing {
 namespace {
-
-// A compliance whose determinant is less than so much of that of a multiple of one is not trusted
-// in its weak direction.
-constexpr double least_determinant = 1e-3;
 
 Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
   return mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
@@ -170,7 +167,8 @@ void Couples::set_compliance(std::vector<Eigen::Matrix2d> slopes) {
   measured_total_ = total_;
   for (Eigen::Matrix2d& slope : compliance_) {
     const double mean = 0.5 * slope.trace();
-    if (!(slope.determinant() > least_determinant * mean * mean))
+    // in its weak direction it is not trusted where that has no more than solves leave
+    if (!(slope.determinant() > coarse_force_tolerance * mean * mean))
       slope = (mean > 0 ? mean : slope.norm()) * Eigen::Matrix2d::Identity();
   }
 }

@@ -13,7 +13,6 @@ namespace {
 constexpr double least_reach = 0.1;
 // A vertex so near an end at the start stands on it: in half intervals.
 constexpr double near_end = 0.9;
-constexpr int most_turns = 4;  // of one vertex, from end to end, in a step
 
 }  // namespace
 
@@ -21,7 +20,6 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
                                   const std::vector<double>& sides) {
   along_.resize(weights_.size());
   reach_.assign(size(), 0.0);
-  turns_.assign(size(), 0);
   sides_ = sides;
   sides_.resize(size(), 0.0);
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -63,11 +61,10 @@ bool HoldAlongNormals::turn(const double* h) {
   bool any = false;
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
-    const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0 && turns_[v] < most_turns;
+    const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0;
     const bool arrives = sides_[v] == 0 && excess(v, h[v]) > 0;
     if (!leaves && !arrives) continue;
     sides_[v] = leaves ? 0 : along_[v] + h[v] > 0 ? 1 : -1;
-    ++turns_[v];
     choose_weight(v);
     any = true;
   }

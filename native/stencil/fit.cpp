@@ -36,7 +36,7 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   const Eigen::LLT<Eigen::Matrix2d> root(moment);
   if (root.info() != Eigen::Success) return false;
   const Eigen::Matrix2d l = root.matrixL();
-  if (!(l(0, 0) > 0) || !(l(1, 1) > thinnest_ring * l(0, 0))) return false;
+  if (!(l(0, 0) > 0) || !(l(1, 1) > rounding * l(0, 0))) return false;
   const Eigen::Matrix2d w = l.inverse();
   FitRows a(5, Eigen::Index(ring.size()));
   for (std::size_t j = 0; j < ring.size(); ++j) a.col(Eigen::Index(j)) = basis(w * ring[j]);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/rounding.h"
 #include "stencil/chart.h"
 
 namespace fairing {
@@ -27,8 +28,8 @@ Coefficients basis(const Vec2& p);
 // A direction whose singular value is below this share of the largest counts as undetermined: what
 // it would add is noise. And the same where singular values are squared, in normal equations.
 constexpr double undetermined = 3e-3, undetermined_square = 3e-3 * 3e-3;
-// A ring is a line that is thinner than this share of its length.
-constexpr double thinnest_ring = 1e-12, thinnest_ring_square = 1e-24;
+// A ring is a line whose width over its length is but rounding.
+constexpr double thinnest_ring_square = rounding * rounding;
 
 // Rows that turn the differences f_j - f_0 over the chart's ring into the coefficients.
 //

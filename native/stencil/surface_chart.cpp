@@ -10,8 +10,6 @@
 namespace fairing {
 namespace {
 
-constexpr double no_angle = 1e-3;  // of a full turn
-
 double power(const Vec3& offset, double exponent) {
   const double square = offset.squaredNorm();
   return exponent == centripetal ? std::sqrt(std::sqrt(square)) : std::pow(square, 0.5 * exponent);
@@ -44,7 +42,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
     total += chart.ring[i].y();
     chart.area += 0.5 * a * b * sine / (ring.far[i] || ring.far[j] ? 4 : 3);
   }
-  if (!(total > no_angle * full_turn) || !(chart.area > 0)) return false;
+  if (!(total > single_rounding * full_turn) || !(chart.area > 0)) return false;
   const double scale = turn_scale(ring.closed, total);
   double angle = 0;
   for (std::size_t k = 0; k < size; ++k) {

@@ -14,9 +14,6 @@ namespace fairing {
 // One a control vertex, >= 0, in the energy's own unit; empty: none.
 using VertexWeights = std::vector<double>;
 
-// What is aimed at of a tolerance: rounding must not carry a vertex over it.
-constexpr double tolerance_aim = 0.9999;
-
 // The factor on the energy of each point at and near a joint, the closed line along which a region
 // that is faired meets the surface that stays. 1 everywhere else, and on a mesh without a region.
 //

@@ -21,7 +21,6 @@ constexpr Eigen::Index most_dense = 600;
 // Of Lanczos, and vectors of signs whose mean is the trace (Hutchinson 1990). With over `most_dense`
 // unknowns the trace is within 3 per cent, alike for all amounts.
 constexpr int quadrature_nodes = 60, sign_vectors = 8;
-constexpr double step_tolerance = 1e-5;  // of conjugate gradients, relative
 // Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
 // How much the score keeps of what plain cross-validation says: 1 is all. On 35 vertices with little
@@ -190,8 +189,8 @@ Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
   Columns d = start, left = wanted - multiply(d), ahead = inverse.asDiagonal() * left;
   Eigen::RowVector3d energy = left.cwiseProduct(ahead).colwise().sum();
   const double scale = wanted.cwiseProduct(inverse.asDiagonal() * wanted).sum();
-  for (Eigen::Index k = 0; k < unknowns() && energy.sum() > step_tolerance * step_tolerance * scale;
-       ++k) {
+  const double least = single_rounding * single_rounding * scale;
+  for (Eigen::Index k = 0; k < unknowns() && energy.sum() > least; ++k) {
     stop_if_cancelled();
     const Columns product = multiply(ahead);
     const Eigen::RowVector3d curvature = ahead.cwiseProduct(product).colwise().sum();

@@ -8,10 +8,6 @@
 namespace fairing {
 namespace {
 
-// Of each solve, the relative residual; twice as much of the forces is left at control vertices. Strain
-// is within 0.6 % of the largest with what a tenth of it gives.
-constexpr double probe_tolerance = 1e-2;
-
 // visit(u) for all vertices that share an edge or a quad with v.
 template <class Visit>
 void visit_neighbours(const ControlMesh& mesh, Index v, Visit&& visit) {
@@ -119,7 +115,8 @@ void probe_loads(ThinPlateSolver& solver, const FeatureCurves& curves,
                            [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
     PlateState state = solver.unheld();
     state.loads.assign(targets.size(), Vec3::Zero());
-    solver.solve_again({targets, none}, probe_tolerance, state, x, 2 * probe_tolerance);
+    // twice as much of the forces is left at control vertices
+    solver.solve_again({targets, none}, difference_tolerance, state, x, 2 * difference_tolerance);
     for (std::size_t s = first; s < end; ++s) {
       for (std::size_t v = 0; v < loads.size(); ++v)
         loads[v] = state.loads[v][Eigen::Index(s - first)];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rounding.h"
 #include "grid/linear.h"
 #include "hold/pads.h"
 #include "parallel/reductions.h"
@@ -12,10 +13,6 @@
 
 namespace fairing {
 namespace {
-
-// Where the control polyhedron's own residual is less than so many times its rounding, it measures
-// nothing: the polyhedron is the solution already.
-constexpr double least_over_noise = 1e8;
 
 // Edges in eight pieces below: from such levels on the largest eigenvalue hardly changes. (With four
 // it does: what the smoother then amplified took 14 iterations on a rough sphere in place of five.)
@@ -28,7 +25,7 @@ constexpr std::size_t settled_under_tension = 2;  // levels later
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
                                    int base, bool tense) {
   HierarchyOptions out;
-  out.smoother_degree = options.smoother_degree;
+  out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.settled = settled_level - std::size_t(base);
   if (tense) out.settled += settled_under_tension;
@@ -173,8 +170,9 @@ ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
-  const double noise = rounding_of_terms * terms;
-  return {std::max(norm(workers(), size, r), least_over_noise * noise), noise};
+  // Where the control polyhedron's own residual is but rounding, it measures nothing: the polyhedron
+  // is the solution already.
+  return {std::max(norm(workers(), size, r), single_rounding * terms), rounding_of_terms * terms};
 }
 
 }  // namespace fairing

@@ -27,8 +27,6 @@
 namespace fairing {
 namespace {
 
-// Of the way to go, for the progress: nobody knows how many iterations the rounds will take.
-constexpr double left_by_iteration = 0.9;
 constexpr int most_corrections = 32;  // a level
 
 // Who asks for an exact surface gets exact loads.
@@ -130,7 +128,8 @@ struct ThinPlateSolver::Rounds {
     const LevelSolve solve = levels().solve(
         level, now, {[&](const double* y, double* r) { residual(y, r); }, x(), run.r.data()},
         [&](const PcgResult& so_far) {
-          run.report_done(level, 1 - std::pow(left_by_iteration, before + so_far.iterations));
+          // nobody knows how many iterations the rounds will take
+          run.report_done(level, 1 - 1 / std::sqrt(1.0 + before + so_far.iterations));
         });
     static_cast<LevelSolve&>(report()) = solve;
     report().iterations += before;
@@ -150,8 +149,8 @@ struct ThinPlateSolver::Rounds {
   }
 
   double wanted_force() const {
-    return std::max(run.rough_force,
-                    top() ? force_tolerance(options().relative_residual) : coarse_force_tolerance);
+    return std::max(run.rough_force, top() ? force_tolerance(options().solve.relative_residual)
+                                           : coarse_force_tolerance);
   }
   double wanted_tilt() const { return largest_angle_left / largest_force_left * wanted_force(); }
 
@@ -172,7 +171,7 @@ struct ThinPlateSolver::Rounds {
   // Couples are tried out after a solve: the smoother is to know the whole of the surface first.
   Sizes correct_couples() {
     if (!couples->knows_compliance())
-      run.solver.supports_.measure_couples(level, options().max_iterations);
+      run.solver.supports_.measure_couples(level, options().solve.max_iterations);
     correction.moments = couples->correction(x());
     report().normal_angle = tilt = 0;
     Sizes out;

@@ -14,14 +14,8 @@ namespace {
 
 // Coarse levels are only starts for finer ones: solving them further than their own error is waste.
 constexpr double coarse_tolerance = 1e-4;
-// The differences that other control positions make are starts as well, and small beside the
-// surface.
-constexpr double difference_tolerance = 1e-2;
-
-// Shares of the run in the progress: before the finest level's iterations and after them; the
-// latter where Gauss-Newton steps follow, which take longer.
-constexpr double solve_begin = 0.25, solve_end = 0.8, begin_of_steps = 0.3;
-constexpr double share_of_coarser = 0.25;  // of the next finer one's: that of its points
+// Of the next finer level's time: that of its points.
+constexpr double share_of_coarser = 0.25;
 
 }  // namespace
 
@@ -61,7 +55,7 @@ PcgLimits ThinPlateSolver::Run::limits(int level, double tolerance, double energ
   limits.residual_scale = scale.residual;
   limits.noise = scale.noise;
   limits.energy_scale = std::sqrt(energy);
-  limits.max_iterations = solver.options_.max_iterations;
+  limits.max_iterations = solver.options_.solve.max_iterations;
   return limits;
 }
 
@@ -92,12 +86,12 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   return {report, report};
 }
 
-// On the finest level the iterations are most of the run.
+// On the finest level the iterations are most of the run, unless Gauss-Newton steps follow: they go on
+// from where this level begins. Else measuring does from where it ends.
 void ThinPlateSolver::Run::report_done(int level, double done) const {
-  if (level != top()) return;
-  const double end = solver.options_.starts_steps ? begin_of_steps : solve_end;
-  solver.monitor_.report(Phase::solve,
-                         solve_begin + (end - solve_begin) * std::clamp(done, 0.0, 1.0));
+  if (level != top() || solver.options_.starts_steps) return;
+  const double share = share_of_coarser + 0.5 * std::clamp(done, 0.0, 1.0);
+  solver.monitor_.report(Phase::solve, share);
 }
 
 PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hold, Array<double>& x,
@@ -109,14 +103,14 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
   HoldInSpace* const constraint = hold.active() ? &hold : nullptr;
   if (constraint) constraint->set_stiffness(supports_.stiffness());
   const auto tolerance = [&](int level) {
-    return level >= levels_.top() ? options_.relative_residual
-                                  : std::max(coarse_tolerance, options_.relative_residual);
+    return level >= levels_.top() ? options_.solve.relative_residual
+                                  : std::max(coarse_tolerance, options_.solve.relative_residual);
   };
   PlateState state = supports_.unheld();
   Run run{*this, data, state, x};
   double energy_below = 0;  // energies hardly change from level to level
   for (int l = run.base(); l <= run.top(); ++l) {
-    monitor_.report(Phase::solve, solve_begin * std::pow(share_of_coarser, run.top() - l));
+    monitor_.report(Phase::solve, std::pow(share_of_coarser, run.top() - l + 1));
     if (constraint && l > run.base()) {
       constraint->renew(x.data());
       levels_.set_weights(constraint->weights(), l);
@@ -202,7 +196,7 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
   rough.tolerance = difference_tolerance;
   rough.from_start = true;
   rough.noise = state.limits.noise;
-  rough.max_iterations = options_.max_iterations;
+  rough.max_iterations = options_.solve.max_iterations;
   PlateState change = supports_.unheld();
   Array<double> difference;
   Run run{*this, moving, change, difference};

@@ -122,7 +122,7 @@ TEST(Couples, HoldTheNormals) {
       const OwnedPolygonMesh bent = waved(input, 0.2);
       FairOptions options;
       options.pad_size = size;
-      options.relative_residual = 1e-11;
+      options.solve.relative_residual = 1e-11;
       options.normals.assign(bent.coordinates.size(), NAN);
       const ControlMesh control = make_control_mesh(bent.view(), {});
       const std::size_t vertex = input.coordinates.size() == 18 ? 1 : 9;

@@ -288,7 +288,7 @@ TEST(Pads, HoldTheSurface) {
       const OwnedPolygonMesh bent = waved(input, 0.3);
       FairOptions options;
       options.pad_size = size;
-      options.relative_residual = 1e-11;
+      options.solve.relative_residual = 1e-11;
       Monitor monitor;
       Report report;
       Stopwatch watch(report, monitor);

@@ -30,9 +30,6 @@ constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
 constexpr std::size_t largest_filling = 100'000'000;  // as the message has it
 
-// The cosine up to which a ring is so flat that the triangles behind its own need not be asked.
-constexpr double even = 0.9;
-
 class Refinement {
  public:
   Refinement(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation)
@@ -281,11 +278,8 @@ class Refinement {
     double total = 0;
     for (std::size_t i = 0; i < ring_.size(); ++i) {
       const Vec3 normal = unit_or_zero(areas_[i]);
-      const double upright = normal.isZero() ? -1 : normal.dot(sum);
-      total += sharpness(upright);
-      const Half far = mesh_.next_halfedge_handle(ring_[i]);
-      if (upright < even || mesh_.is_boundary(mesh_.opposite_halfedge_handle(far)))
-        total += sharpness(turn(far, normal));
+      total += sharpness(normal.isZero() ? -1 : normal.dot(sum)) +
+               sharpness(turn(mesh_.next_halfedge_handle(ring_[i]), normal));
     }
     return total;
   }
