@@ -22,7 +22,7 @@ constexpr double failed = 0.15, held = 0.02;
 // After so many accepted steps mu grows by `insistence` with each of them where predictions have
 // failed twice, until it may fall: the steps would not end otherwise.
 constexpr int patience = 5;
-constexpr float insistence = 3;
+constexpr float insistence = 3;  // times, each step
 
 Eigen::Matrix3d tensor(const float* m, const Linearization& surface, std::size_t point) {
   const Vec3 u = Eigen::Map<const Eigen::Vector3f>(surface.axis.data() + 3 * point).cast<double>();

@@ -15,7 +15,7 @@ namespace {
 // Places of all folds so far are filled at most so many times, with the folds' neighbours: one ring
 // more each time.
 constexpr int most_rounds = 3;
-constexpr int rings = 2;
+constexpr int rings = 2;  // the first time
 
 double point_energy(const Linearization& about, std::size_t i) {
   const float* m = &about.shape[4 * i];

@@ -15,7 +15,7 @@ constexpr int first_probe = 6, probe_interval = 10;
 constexpr double iterations_wanted = 14;
 // Of one probe, and of all.
 constexpr double most_rise = 8;
-constexpr int most_degree = 96;
+constexpr int most_degree = 96;  // steps before, and after, coarser levels
 // What a level's first solve may raise of the degree that the level below ended with.
 constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which takes the hardest part away.
@@ -31,7 +31,7 @@ constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
 // The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
 // what a factor costs, and above most_degree_of_hard a factor is cheaper whatever it costs.
 constexpr int least_degree_of_hard = 8;
-constexpr std::size_t most_degree_of_hard = 60;
+constexpr std::size_t most_degree_of_hard = 60;  // that of 52,000 unknowns
 int degree_of_hard(std::size_t unknowns, bool is_cheap) {
   const std::size_t for_its_size = is_cheap ? unknowns / 5000 : unknowns / 1000;
   return int(std::min<std::size_t>(least_degree_of_hard + for_its_size, most_degree_of_hard));

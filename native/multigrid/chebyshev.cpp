@@ -21,12 +21,12 @@ struct StepJob {
   std::size_t components;  // 1 or 3
 };
 
-constexpr std::size_t spread_points = 64;
+constexpr std::size_t spread_points = 64;  // at a time: they stay in the nearest cache
 
 // Lanczos comes from below, and the smoother amplifies what lies above the eigenvalue that it is
 // given: hence the margin.
 constexpr int lanczos_steps = 10;
-constexpr double lanczos_margin = 1.1;
+constexpr double lanczos_margin = 1.1;  // times what they have found
 // What is left of a Lanczos vector, to its eigenvalue, below which the rest is rounding.
 constexpr double lanczos_end = 1e-5;
 

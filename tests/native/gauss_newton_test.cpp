@@ -151,7 +151,7 @@ struct Levels {
   Monitor monitor;
   Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers);
   std::vector<GridLevel> grids;
-  GaussNewtonOptions options{.step_tolerance = 1e-6, .load_tolerance = 1e-4};
+  GaussNewtonOptions options{.step_tolerance = 1e-6, .load_tolerance = 1e-4, .solve = {}};
   std::unique_ptr<GaussNewtonSystem> system;
 
   Levels() {
