@@ -9,10 +9,11 @@
 namespace fairing {
 namespace {
 
-// Of the tolerance, however much the part across the normal takes.
+// Of the tolerance, however much the part across the normal takes; and a vertex that is so near an
+// end at the start stands on it, in half intervals.
 constexpr double least_reach = 0.1;
-// A vertex so near an end at the start stands on it: in half intervals.
-constexpr double near_end = 0.9;
+// Of one vertex, from end to end, in a step: there is no other limit.
+constexpr int most_turns = 4;
 
 }  // namespace
 
@@ -20,6 +21,7 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
                                   const std::vector<double>& sides) {
   along_.resize(weights_.size());
   reach_.assign(size(), 0.0);
+  turns_.assign(size(), 0);
   sides_ = sides;
   sides_.resize(size(), 0.0);
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -29,7 +31,7 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
     const double whole = tolerance_[v] * tolerance_[v];
     reach_[v] = std::sqrt(std::max(whole - offset.squaredNorm() + along_[v] * along_[v],
                                    least_reach * least_reach * whole));
-    if (sides.empty() && std::abs(along_[v]) > near_end * reach_[v])
+    if (sides.empty() && std::abs(along_[v]) > (1 - least_reach) * reach_[v])
       sides_[v] = along_[v] > 0 ? 1 : -1;
     choose_weight(v);
   }
@@ -61,10 +63,11 @@ bool HoldAlongNormals::turn(const double* h) {
   bool any = false;
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
-    const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0;
+    const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0 && turns_[v] < most_turns;
     const bool arrives = sides_[v] == 0 && excess(v, h[v]) > 0;
     if (!leaves && !arrives) continue;
     sides_[v] = leaves ? 0 : along_[v] + h[v] > 0 ? 1 : -1;
+    ++turns_[v];
     choose_weight(v);
     any = true;
   }

@@ -46,6 +46,7 @@ class HoldAlongNormals : public ControlHold {
   std::vector<double> along_;  // p - c along the normals, one a control vertex
   std::vector<double> reach_;  // half the interval, one an input vertex
   std::vector<double> sides_;
+  std::vector<int> turns_;
 };
 
 }  // namespace fairing

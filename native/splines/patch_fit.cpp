@@ -192,7 +192,8 @@ FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) 
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0;; ++round) {
     const double far = move_to_feet(patch, moved);
-    if (round >= least_refits && (far <= data.tolerance / 2 || far > improving * before)) break;
+    const bool improves = far <= improving * before;  // not where it is no number
+    if (round >= least_refits && (far <= data.tolerance / 2 || !improves)) break;
     before = far;
     fit_once(moved, patch, &way);
   }
