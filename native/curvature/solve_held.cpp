@@ -38,9 +38,8 @@ double GaussNewtonSystem::share_left(int level, const Functional& functional) co
 }
 
 void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) {
-  if (!hold.any()) return;
-  hold_ = &hold;
-  shared_.weights = hold.weights();
+  hold_ = hold.any() ? &hold : nullptr;
+  shared_.weights = hold_ ? hold.weights() : VertexWeights{};
 }
 
 void GaussNewtonSystem::let_go(Unknowns unknowns) {
