@@ -75,8 +75,10 @@ void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelRepor
   steps_.run_damped(&pads, from, {}, report);
   report.folds_before = of_points.folds_before;
   report.folds = unfolding_.find().count();
-  const bool is_as_near = report.steps.back().length > 0 &&
-                          is_near(report, damped_decrement) >= is_near(of_points, damped_decrement);
+  // Without any step where nothing is bent to begin with, or no step can be.
+  const bool ends = report.steps.empty() ? report.converged : report.steps.back().length > 0;
+  const bool is_as_near =
+      ends && is_near(report, damped_decrement) >= is_near(of_points, damped_decrement);
   if (report.energy <= anothers_least * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
