@@ -27,6 +27,7 @@
 #include "fairing/control_positions.h"
 #include "fairing/options.h"
 #include "grid/linear.h"
+#include "hold/hold_in_space.h"
 #include "mesh/validate/check.h"
 #include "thin_plate/solver.h"
 
@@ -95,8 +96,8 @@ class Race {
     mesh_ = make_control_mesh(input.view(), options_.features, {});
     const Frame frame = working_frame(mesh_, mesh_.positions);
     for (Vec3& p : mesh_.positions) p = frame.to_working(p);
-    curves_ = refine_feature_edges(mesh_, 1 << levels, options_.chart.exponent);
-    stencils_ = make_stencils(mesh_, options_.chart, workers_);
+    curves_ = refine_feature_edges(mesh_, 1 << levels, centripetal);
+    stencils_ = make_stencils(mesh_, ChartMaker(mesh_), workers_);
     unknowns_.vertex.assign(std::size_t(mesh_.vertex_count()), 0);
     for (const auto feature : mesh_.feature_edge) unknowns_.edge.push_back(!feature);
     grid_ = std::make_unique<GridLevel>(mesh_, levels);
@@ -108,9 +109,13 @@ class Race {
   int multigrid(Array<double>& x) {
     ThinPlateOptions options;
     options.levels = options_.levels;
-    ThinPlateSolver system(mesh_, curves_, stencils_, unknowns_, {}, options, workers_, monitor_);
+    ThinPlateSolver system(mesh_, ChartMaker(mesh_), stencils_, unknowns_, {}, options, workers_,
+                           monitor_);
     std::vector<LevelReport> reports;
-    system.solve_nested(mesh_.positions, x, reports, {}, [](int, Array<double>&) {});
+    HoldInSpace hold(mesh_, mesh_.positions, unknowns_);
+    system.solve_nested(
+        {mesh_.positions, curves_}, hold, x, reports, [](const double*) {},
+        [](int, Array<double>&) {});
     return reports.back().iterations;
   }
 
