@@ -13,18 +13,12 @@
 namespace fairing {
 namespace {
 
-// What a plain step on the finest level leaves: each solve of what it finds, and corrections of the
-// loads of the force that the step began with; the next step begins with other loads anyway (measured:
-// of 0.1, 0.2, 0.3 and 0.5, bob, a hull and spheres take the least time with 0.2). Damped steps leave
-// more: with 0.2 Suzanne's level 3 proves hard, and is factored. Below the finest level solves leave
-// less, since where a coarse level ends decides where points lie along the surface, and loads more.
-// Where control vertices may move, all leave `inexact`: ends hang on forces.
-constexpr double left_by_plain = 0.2, left_by_damped = 0.3;
-double left_on_finest(const Functional& functional) {
-  const bool damped = functional.with_axes;  // to compare tensors in space
-  return damped ? left_by_damped : left_by_plain;
-}
-
+// What a step on the finest level leaves: each solve of what it finds, and corrections of the loads of
+// the force that the step began with; the next step begins with other loads anyway (measured: of 0.1,
+// 0.2, 0.3 and 0.5, bob, a hull and spheres take the least time with 0.2). Below it solves leave less,
+// since where a coarse level ends decides where points lie along the surface, and loads more. Where
+// control vertices may move, all leave `inexact`: ends hang on forces.
+constexpr double left_on_finest = 0.2, force_left_below = 0.3;
 // Loads that do not settle with their ends make steps that burst.
 constexpr int most_load_corrections = 6;
 
@@ -40,7 +34,7 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
 }  // namespace
 
 double GaussNewtonSystem::share_left(int level, const Functional& functional) const {
-  return functional.pads && !hold_ && level == finest() ? left_on_finest(functional) : inexact;
+  return functional.pads && !hold_ && level == finest() ? left_on_finest : inexact;
 }
 
 void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) {
@@ -177,8 +171,8 @@ struct GaussNewtonSystem::HeldSolve {
     const double tolerance =
         level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
     const double gain = hold()                     ? inexact
-                        : level == system.finest() ? left_on_finest(about.functional)
-                                                   : left_by_damped;
+                        : level == system.finest() ? left_on_finest
+                                                   : force_left_below;
     return left <= gain * first_force || left <= tolerance * size;
   }
 
