@@ -4,7 +4,6 @@
 // lines run along it, and solve for it.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "multigrid/level_operator.h"

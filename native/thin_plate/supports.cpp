@@ -50,10 +50,10 @@ void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& f
   if (couples_) start_couples(level, state.moments);
 }
 
-// Loads are densities and hardly change from level to level where hats have points enough; what does is
-// the hats' samples. The coarsest level has so few that M f, what loads do, changes less than the whole of each. Finer
-// ones change by a quarter of what the level before has changed, which tells the next; but for loads
-// that go with weights.
+// Loads are densities and hardly change from level to level where hats have points enough; what does
+// is the hats' samples. The coarsest level has so few that M f, what loads do, changes less than the
+// whole of each. Finer ones change by a quarter of what the level before has changed, which tells the
+// next; but for loads that go with weights.
 void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& forces_below) {
   const int base = levels_.base();
   loads.resize(std::size_t(levels_.shared().mesh.vertex_count()));
