@@ -41,13 +41,17 @@ std::vector<double> facing_of_stars(const GridLevel& grid, const Array<double>& 
 void RoughSteps::run(Pads* pads, const StepStart& start, CurvatureLevelReport& report) {
   run_on_points(start, report);
   if (it_.level < it_.system.finest()) return;
-  if (pads) go_onto(*pads, start, report);
-  polish(report);
+  if (pads && report.folds_before > 0)
+    leave_all(*pads);
+  else if (pads)
+    go_onto(*pads, start, report);
+  report.converged = report.left <= steps_.accurate_end().movement;
+  // Vertices within tolerances are fixed first.
+  if (!report.converged && !it_.system.is_bound()) polish(report);
 }
 
 void RoughSteps::polish(CurvatureLevelReport& report) {
-  report.converged = report.left <= steps_.accurate_end().movement;
-  if (report.converged || !is_near(report, damped_decrement)) return;
+  if (!is_near(report, damped_decrement)) return;
   LinearizedSurface before = it_.current;
   CurvatureLevelReport polished = report;
   steps_.polish(longest_climb, report.energy, polished);
@@ -82,9 +86,13 @@ void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelRepor
   if (report.energy <= anothers_least * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
-  for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);
+  leave_all(pads);
   it_.current = std::move(on_points);
   report = of_points;
+}
+
+void RoughSteps::leave_all(Pads& pads) {
+  for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);
 }
 
 void RoughSteps::leave_turned(Pads& pads) {

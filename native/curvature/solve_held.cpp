@@ -42,10 +42,13 @@ void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) {
   shared_.weights = hold_ ? hold.weights() : VertexWeights{};
 }
 
-void GaussNewtonSystem::let_go(Unknowns unknowns) {
+void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
   hold_ = nullptr;
   shared_.weights.clear();
   shared_.unknowns = std::move(unknowns);
+  linearize(level, surface);
+  linearize_below(level, surface);
+  hierarchy_.change_unknowns(std::size_t(level - base_));
 }
 
 void GaussNewtonSystem::take_weights(int level) {

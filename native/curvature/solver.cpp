@@ -138,12 +138,11 @@ StepEnd GaussNewtonSolver::end() {
 }
 
 void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
-  system_.let_go(hold_.without_held());
+  const bool any_moved = hold_.active();
+  if (any_moved) hold_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
-  if (!hold_.active()) return;
-  hold_.enforce(surface().data());
-  iterate_.linearize();
-  steps_.polish(short_patience, iterate_.current.energy, report);
+  system_.let_go(hold_.without_held(), iterate_.level, iterate_.current);
+  if (any_moved) steps_.polish(short_patience, iterate_.current.energy, report);
 }
 
 double GaussNewtonSolver::tension_of(const Array<double>& x) {

@@ -94,8 +94,9 @@ class GaussNewtonSystem {
   // What holds the control vertices that move, along the normals, while total curvature is
   // minimized. It must stay where it is until let_go().
   void hold_by(HoldAlongNormals& hold);
-  // From here on nothing holds control vertices: those that are none of `unknowns` stay.
-  void let_go(Unknowns unknowns);
+  // From here on nothing holds control vertices: those that are none of `unknowns` stay. The systems
+  // of `level` and below are linearized about `surface`, with factors of those unknowns.
+  void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
   // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
   bool is_bound() const { return hold_ && hold_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }

@@ -89,8 +89,8 @@ std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeig
 
 // What holds control vertices at their points, into the rows of r: of a fixed one the force that its
 // row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On
-// pads it becomes forces[v], which the loads are to take; r has none of a fixed vertex then. `pads`
-// may be null: r has the springs' forces.
+// pads it becomes forces[v], which the loads are to take. r has none of a fixed vertex, be it fixed
+// since the pads were made. `pads` may be null: r has the springs' forces.
 template <int N, class Away>
 void take_point_forces(const Unknowns& unknowns, const VertexWeights& weights, const Pads* pads,
                        const LoadsOf<N>& loads, Away&& away, LoadsOf<N>& forces, double* r) {
@@ -104,8 +104,8 @@ void take_point_forces(const Unknowns& unknowns, const VertexWeights& weights, c
       Force pull = weights[v] * away(v);
       if (on_pad) forces[v] = pull -= pads->total(v) * loads[v];
       row += pull;
-    } else if (on_pad) {
-      forces[v] = -row;
+    } else {
+      if (on_pad) forces[v] = -row;
       row.setZero();
     }
   }

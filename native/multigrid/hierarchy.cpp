@@ -62,6 +62,11 @@ void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
     refactor_lines(top);
 }
 
+void Hierarchy::change_unknowns(std::size_t top) {
+  for (CycleLevel& level : cycle_.levels) level.lines.reset();
+  refresh(top, true);
+}
+
 void Hierarchy::refactor_lines(std::size_t top) {
   for (std::size_t l = 0; l <= top; ++l)
     if (cycle_.levels[l].lines) cycle_.levels[l].lines->refactor();

@@ -64,6 +64,8 @@ class Hierarchy {
   // below with it where they are `fresh`: a factor of that level itself goes on as a preconditioner
   // as long as it serves.
   void refresh_lazily(std::size_t top, bool fresh);
+  // Call after the operators have taken other unknowns: lines that others are on are sought anew.
+  void change_unknowns(std::size_t top);
   // How often a level has been factored.
   int factors() const { return factors_; }
 
