@@ -9,8 +9,8 @@
 namespace fairing {
 namespace {
 
-// Energies below this share of the largest so far do not count as such: a tolerance as large as the
-// mesh leaves none.
+// Energies below this share of the first do not count as such: a tolerance as large as the mesh leaves
+// none.
 constexpr double least_energy = 1e-3;
 
 }  // namespace
@@ -53,7 +53,7 @@ ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
 }
 
 void ControlHold::take_gap(double gap, double energy, double farthest) {
-  start_energy_ = std::max(start_energy_, energy);
+  if (start_energy_ == 0) start_energy_ = energy;
   const bool pulled = farthest > rounding && energy > 0;
   gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
 }

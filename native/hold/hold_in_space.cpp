@@ -27,13 +27,16 @@ HoldInSpace::HoldInSpace(const ControlMesh& mesh, std::span<const Vec3> targets,
 
 void HoldInSpace::renew(const double* x) {
   if (forces_.empty()) return;
+  if (led_away()) weight_outside_ = 1 / weight_by_stiffness;
+  first_gap_ = 0;
   aims_.assign(targets_.begin(), targets_.end());
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
     const Vec3 move = move_of(x, v), p = point(x, v) + move;
     const Vec3 force = forces_[v] + base_[v] * (targets_[v] - p + move) + of_surface_[v] * move;
+    const double least = std::max(weight_by_stiffness, leaves_ball(x, v) ? weight_outside_ : 0.0);
     weights_[v] = base_[v] + std::max(weight_by_multiplier * forces_[v].norm() / tolerance_[v],
-                                      weight_by_stiffness * of_surface_[v]);
+                                      least * of_surface_[v]);
     aims_[v] = weights_[v] > 0 ? Vec3(p + force / weights_[v]) : p;
   }
 }
@@ -54,6 +57,7 @@ bool HoldInSpace::settled(double energy, double wanted, const double* x) {
     farthest = std::max(farthest, (targets_[v] - p).norm() / tolerance_[v]);
   }
   take_gap(gap, energy, farthest);
+  if (first_gap_ == 0) first_gap_ = gap_;
   return gap_ <= wanted;
 }
 
@@ -66,6 +70,10 @@ std::vector<double> HoldInSpace::correction(const double* x, Loads& forces) cons
     if (!forces.empty()) forces[v] += pull;
   }
   return out;
+}
+
+bool HoldInSpace::leaves_ball(const double* x, std::size_t v) const {
+  return (point(x, v) - targets_[v]).norm() > tolerance_[v];
 }
 
 Vec3 HoldInSpace::move_of(const double* x, std::size_t v) const {

@@ -34,8 +34,8 @@ class HoldInSpace : public ControlHold {
   void renew(const double* x);
   // Whether the duality gap is `wanted`, with the vertices where the springs have them.
   bool settled(double energy, double wanted, const double* x);
-  // Whether they are those of the beginning still.
-  bool is_new() const { return aims_.empty(); }
+  // Whether they are those of the beginning still, or have led away.
+  bool need_renewal() const { return aims_.empty() || led_away(); }
   // How the aims are to move, 3 numbers a control vertex; `forces` grow by what the springs then pull
   // more.
   std::vector<double> correction(const double* x, Loads& forces) const;
@@ -48,10 +48,18 @@ class HoldInSpace : public ControlHold {
 
  private:
   Vec3 move_of(const double* x, std::size_t v) const;  // x' - x
+  // Whether the gap has become more than the whole energy: where many vertices go together the surface
+  // is far softer than each one's stiffness, and what would take one back to its ball throws them all.
+  bool led_away() const { return gap_ > 1 && first_gap_ < 1; }
+  bool leaves_ball(const double* x, std::size_t v) const;
   Vec3 in_ball(const Vec3& p, std::size_t v) const;
 
   std::vector<Vec3> aims_;    // empty: the targets
   std::vector<Vec3> forces_;  // P; empty: not known yet
+  double first_gap_ = 0;      // with these springs; 0: not known yet
+  // Of springs of vertices outside their balls, in stiffnesses of the surface, at the least; other
+  // than zero once springs have led away.
+  double weight_outside_ = 0;
 };
 
 }  // namespace fairing

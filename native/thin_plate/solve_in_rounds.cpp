@@ -226,8 +226,9 @@ struct ThinPlateSolver::Rounds {
 
   // Returns how loads change.
   Loads correct() {
-    if (constraint && constraint->is_new()) {
+    if (constraint && constraint->need_renewal()) {
       renew_springs();
+      steps.forget();
       return {};
     }
     if (constraint) {
