@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thin plate with the defaults on meshes by how uneven they are, at the first level with over
 20,000 triangles: on how many a level above the coarsest was factored, on how many the smoother took
-blocks, and the time a triangle.
+lines, and the time a triangle.
 
 Meshes of thin triangles that the tests make, and the collection that may lie beside the project.
 Processor seconds of one thread, the least of three runs.

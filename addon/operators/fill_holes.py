@@ -32,7 +32,7 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
     )
     energy: EnumProperty(
         name="Fairness",
-        description="The quantity to minimize: Curvature gives half a sphere back",
+        description="What makes the filling fair: Curvature gives half a sphere back",
         items=ENERGIES,
         default="TOTAL_CURVATURE",
     )

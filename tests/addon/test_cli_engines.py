@@ -3,12 +3,12 @@
 
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 from cli_files import write_obj, write_ply
 from cli_runs import CORE, PROCESS, ROOT, entries, run
@@ -153,8 +153,8 @@ def test_an_interruption_ends_all_processes(capfd):
     assert code == command.INTERRUPTED and time.monotonic() - begun < 60
     assert {record["status"] for record in records} == {"cancelled"}
     assert "interrupted" in capfd.readouterr().err
-    left = subprocess.run(["pgrep", "-f", sleeper], capture_output=True, text=True).stdout.split()
-    assert not left
+    processes = psutil.process_iter(["cmdline"])
+    assert not [p.pid for p in processes if sleeper in (p.info["cmdline"] or ())]
 
 
 def test_shares_cover_all_inputs_once():
