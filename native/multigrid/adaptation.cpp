@@ -61,7 +61,7 @@ bool Hierarchy::factors_cheaply(std::size_t index) const {
 }
 
 bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
-  if (so_far.iterations % probe_interval == first_probe) raise_degree(so_far, limits);
+  if (so_far.iterations % probe_interval == first_probe) raise_degree(index, so_far, limits);
   return !is_too_hard(index, limits);
 }
 
@@ -87,7 +87,8 @@ void Hierarchy::promote_to_coarsest(std::size_t index) {
 
 // What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows,
 // so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
-void Hierarchy::raise_degree(const PcgResult& result, const PcgLimits& limits) {
+void Hierarchy::raise_degree(std::size_t index, const PcgResult& result,
+                             const PcgLimits& limits) {
   // The first iterations are the easy ones; the latest tell more.
   const int window = std::min(result.iterations, probe_interval);
   const double gained =
@@ -95,7 +96,7 @@ void Hierarchy::raise_degree(const PcgResult& result, const PcgLimits& limits) {
   const double missing =
       std::log(std::max(result.residual, result.energy_error) / limits.tolerance);
   const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
-  if (ahead <= iterations_wanted) return;
+  if (ahead <= iterations_wanted || corrects_eigenvalue(index)) return;
   const int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
   cycle_.degree = std::min(degree, limits.may_end_early ? most_degree_over_factor : most_degree);
 }

@@ -102,7 +102,8 @@ class Hierarchy {
   bool may_factor(std::size_t index, const PcgLimits& limits) const;
   bool fits_factor(std::size_t index, const PcgLimits& limits) const;  // in memory too
   bool factors_cheaply(std::size_t index) const;
-  void raise_degree(const PcgResult& result, const PcgLimits& limits);
+  void raise_degree(std::size_t index, const PcgResult& result, const PcgLimits& limits);
+  bool corrects_eigenvalue(std::size_t index);
 
   Workers& workers_;
   HierarchyOptions options_;
