@@ -45,8 +45,9 @@ void GaussNewtonSystem::let_go(Unknowns unknowns) {
   for (const auto& op : operators_) op->set_weights({});
 }
 
-void GaussNewtonSystem::take_weights(int level) {
+void GaussNewtonSystem::take_weights(int level, bool spectrum) {
   for (int l = base_; l <= level; ++l) op(l).set_weights(hold_->weights());
+  hierarchy_->refresh(std::size_t(level - base_), spectrum);
 }
 
 // The coarsest level's K knows control vertices alone.
@@ -187,8 +188,7 @@ struct GaussNewtonSystem::HeldSolve {
   bool turn() {
     if (!hold()->turn(h.data())) return false;
     ++report.constraint_rounds;
-    system.take_weights(level);
-    system.hierarchy_->refresh(std::size_t(level - system.base_), false);
+    system.take_weights(level, false);
     go_to_ends();
     return true;
   }

@@ -121,12 +121,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   h.assign(points, 0.0);
   if (hold_) {
     look_along(about, held);
-    take_weights(level);
-  }
-  if (hold_)
-    hierarchy_->refresh(index, fresh);
-  else
+    take_weights(level, fresh);
+  } else {
     hierarchy_->refresh_lazily(index, fresh);
+  }
   LevelSolve solved;
   Array<double> with_loads;
   const bool is_held = functional.pads || hold_;

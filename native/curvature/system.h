@@ -120,7 +120,8 @@ class GaussNewtonSystem {
  private:
   PcgLimits limits(const Functional& functional) const;
   void look_along(const LinearizedSurface& about, const Multipliers<1>& held);
-  void take_weights(int level);
+  // The springs' present weights, on all levels up to `level`. `spectrum`: as for the hierarchy.
+  void take_weights(int level, bool spectrum);
   struct HeldSolve;
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
                         Multipliers<1>& held, Array<double>& force, StepReport& report);
