@@ -163,7 +163,7 @@ AssembledSystem CurvatureLevel::assemble() const {
   for (Eigen::Index i = 0; i < unknowns; ++i) {
     const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
     double extra = diagonal(i) > 0 ? 0.0 : 1.0;
-    if (p < shared_.weights.size()) extra += weight(p);
+    if (p < weights_.size()) extra += weight(p);
     if (!damping_.empty()) extra += double(damping_[p]);
     if (extra > 0) system.matrix.coeffRef(i, i) += extra;
   }

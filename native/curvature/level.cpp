@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature/level.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "multigrid/ring_lines.h"
 #include "parallel/reductions.h"
@@ -64,7 +66,7 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
 
 template <class T>
 void CurvatureLevel::add_to_product(const T* x, T* y) const {
-  for (std::size_t v = 0; v < shared_.weights.size(); ++v) y[v] += T(weight(v)) * x[v];
+  for (std::size_t v = 0; v < weights_.size(); ++v) y[v] += T(weight(v)) * x[v];
   add_damping(x, y);
 }
 
@@ -105,7 +107,11 @@ void CurvatureLevel::write_lines(LineBand& band, Workers& workers) {
                      band);
 }
 
-void CurvatureLevel::set_damping(const Array<float>& mu) {
+void CurvatureLevel::set_damping(const Array<float>& mu, double share) {
+  if (std::exchange(share_, share) != share) {
+    square_.is_old = true;
+    update_diagonal();
+  }
   damping_.clear();
   inverse_diagonal_.resize(grid_.size());
   if (!mu.empty()) {
@@ -115,21 +121,17 @@ void CurvatureLevel::set_damping(const Array<float>& mu) {
   for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) invert_diagonal(i);
 }
 
-void CurvatureLevel::update_weights() {
-  for (std::size_t v = 0; v < shared_.weights.size(); ++v) invert_diagonal(v);
+void CurvatureLevel::set_weights(const VertexWeights& weights) {
+  const std::size_t changed = std::max(weights_.size(), weights.size());
+  weights_ = weights;
+  for (std::size_t v = 0; v < std::min(changed, diagonal_.size()); ++v) invert_diagonal(v);
 }
 
 void CurvatureLevel::invert_diagonal(std::size_t i) {
   float d = diagonal_[i];
-  if (i < shared_.weights.size()) d += float(weight(i));
+  if (i < weights_.size()) d += float(weight(i));
   if (!damping_.empty()) d += damping_[i];
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
-}
-
-void CurvatureLevel::take_share(double share) {
-  share_ = share;
-  square_.is_old = true;
-  update_diagonal();
 }
 
 // For the variation that of J^T diag(L + share W) J, which is as good a scale as its own.
@@ -147,7 +149,6 @@ void CurvatureLevel::update_diagonal() {
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
                   varies() ? weight.data() : nullptr, diagonal_.data());
   if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
-  set_damping({});
 }
 
 }  // namespace fairing

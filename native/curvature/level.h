@@ -30,8 +30,7 @@ struct CurvatureShared {
   const ControlMesh& mesh;
   Unknowns unknowns;
   Workers& workers;
-  VertexWeights weights{};  // of springs at control vertices along the normals; empty: none
-  double tension = 0;       // tension times area is added to the energy
+  double tension = 0;  // tension times area is added to the energy
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
   std::pair<Array<double>, Array<double>> double_moments{};
@@ -80,16 +79,15 @@ class CurvatureLevel final : public LevelOperator {
 
   int linearizations() const { return linearizations_; }
 
-  // K has so much of W beside L from here on: minimum variation only.
-  void take_share(double share);
-
   // M as it would be after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
 
-  // mu_i K_ii is added to the diagonal from here on; empty: nothing.
-  void set_damping(const Array<float>& mu);
-  // Call after shared.weights has changed.
-  void update_weights();
+  // From here on mu_i K_ii is added to the diagonal; empty: nothing. Minimum variation: K has
+  // `share` of W beside L.
+  void set_damping(const Array<float>& mu, double share = 0);
+  // Of springs at control vertices along the normals; empty: none.
+  void set_weights(const VertexWeights& weights);
+  const VertexWeights& weights() const { return weights_; }
 
   // Of K without weights and damping; zero where a point is no unknown.
   const Array<float>& diagonal() const { return diagonal_; }
@@ -120,9 +118,7 @@ class CurvatureLevel final : public LevelOperator {
   void add_to_product(const T* x, T* y) const;
   template <class T>
   void add_damping(const T* x, T* y) const;
-  double weight(std::size_t v) const {
-    return shared_.unknowns.vertex[v] ? shared_.weights[v] : 0.0;
-  }
+  double weight(std::size_t v) const { return shared_.unknowns.vertex[v] ? weights_[v] : 0.0; }
   void invert_diagonal(std::size_t i);
   bool is_tense() const { return area_ && shared_.tension > 0; }
   bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
@@ -130,6 +126,7 @@ class CurvatureLevel final : public LevelOperator {
   CurvatureShared& shared_;
   const GridLevel& grid_;
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
+  VertexWeights weights_;
   double share_ = 0;  // minimum variation: of W beside L
   double bending_ = 0, tension_ = 0;
   int linearizations_ = 0;

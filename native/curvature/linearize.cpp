@@ -241,6 +241,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     tension_ = 0;
   }
   update_diagonal();
+  set_damping({});
   return fairness();
 }
 

@@ -37,23 +37,20 @@ double GaussNewtonSystem::share_left(int level, const Functional& functional) co
   return functional.pads && !hold_ && level == finest() ? left_on_finest : inexact;
 }
 
-void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) {
-  hold_ = hold.any() ? &hold : nullptr;
-  shared_.weights = hold_ ? hold.weights() : VertexWeights{};
-}
+void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) { hold_ = hold.any() ? &hold : nullptr; }
 
 void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
   hold_ = nullptr;
-  shared_.weights.clear();
   shared_.unknowns = std::move(unknowns);
+  for (const auto& op : operators_) op->set_weights({});
   linearize(level, surface);
   linearize_below(level, surface);
-  hierarchy_.change_unknowns(std::size_t(level - base_));
+  hierarchy_->change_unknowns(std::size_t(level - base_));
 }
 
-void GaussNewtonSystem::take_weights(int level) {
-  shared_.weights = hold_->weights();
-  for (int l = base_; l <= level; ++l) op(l).update_weights();
+void GaussNewtonSystem::take_weights(int level, bool spectrum) {
+  for (int l = base_; l <= level; ++l) op(l).set_weights(hold_->weights());
+  hierarchy_->refresh(std::size_t(level - base_), spectrum);
 }
 
 // The coarsest level's K knows control vertices alone.
@@ -74,13 +71,19 @@ struct GaussNewtonSystem::HeldSolve {
   Array<double>& force;  // the loads' part included
   StepReport& report;
 
+  const std::unique_ptr<const Hats> hats =
+      about.functional.pads
+          ? std::make_unique<Hats>(*about.functional.pads, system.grid(level),
+                                   areas_of(about.linearization.shape, system.workers()))
+          : nullptr;
   NormalLoads forces{};  // left at the vertices on pads
   Multipliers<1> correction{};
   double first_force = 0, first_gap = 0;
   Array<double> r = Array<double>(h.size()), product = Array<double>(h.size(), 0.0);  // of h
 
-  Pads* pads() const { return about.functional.pads; }     // or null
+  const Hats* pads() const { return hats.get(); }          // or null
   HoldAlongNormals* hold() const { return system.hold_; }  // or null
+  const VertexWeights& weights() const { return system.op(level).weights(); }
   bool bounds() const { return hold() && hold()->active(); }
   std::size_t vertices() const { return std::size_t(system.mesh().vertex_count()); }
 
@@ -93,10 +96,7 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   void start() {
-    if (pads()) {
-      pads()->set_level(system.grid(level), areas_of(about.linearization.shape, system.workers()));
-      if (held.loads.empty()) held.loads = fitting_loads();
-    }
+    if (pads() && held.loads.empty()) held.loads = fitting_loads();
     forces.assign(held.loads.size(), NormalLoads::value_type::Zero());
     go_to_ends();
   }
@@ -122,7 +122,7 @@ struct GaussNewtonSystem::HeldSolve {
     for_each_index(system.workers(), h.size(),
                    [&](std::size_t i) { out[i] = force[i] - product[i]; });
     take_point_forces<1>(
-        shared.unknowns, shared.weights, pads(), held.loads,
+        shared.unknowns, weights(), pads(), held.loads,
         [&](std::size_t v) { return NormalLoads::value_type(hold()->way(v) - x[v]); }, forces, out);
   }
 
@@ -147,7 +147,7 @@ struct GaussNewtonSystem::HeldSolve {
   LevelSolve solve() {
     PcgLimits goal = system.limits(about.functional);
     if (pads() || bounds()) goal.tolerance = system.share_left(level, about.functional);
-    const LevelSolve solved = system.hierarchy_.solve(
+    const LevelSolve solved = system.hierarchy_->solve(
         std::size_t(level - system.base_), goal,
         {[this](const double* x, double* out) { multiply(x), take_residual(x, out); }, h.data(),
          r.data()},
@@ -163,8 +163,7 @@ struct GaussNewtonSystem::HeldSolve {
     if (!pads()) return true;
     NormalLoads product;
     const std::vector<double> compliance_ratio =
-        hold() ? compliance_ratios(system.shared_.unknowns, system.shared_.weights,
-                                   system.stiffness_, *pads())
+        hold() ? compliance_ratios(system.shared_.unknowns, weights(), system.stiffness_, *pads())
                : std::vector<double>{};
     pads()->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
     pads()->multiply_mass<1>(held.loads, product);
@@ -192,8 +191,7 @@ struct GaussNewtonSystem::HeldSolve {
   bool turn() {
     if (!hold()->turn(h.data())) return false;
     ++report.constraint_rounds;
-    system.take_weights(level);
-    system.hierarchy_.refresh(std::size_t(level - system.base_), false);
+    system.take_weights(level, false);
     go_to_ends();
     return true;
   }
@@ -210,10 +208,9 @@ struct GaussNewtonSystem::HeldSolve {
     if (pads()) pads()->add_loads(held.loads, of_loads.data());
     if (hold()) {
       held.bounds = hold()->sides();
-      const VertexWeights& weights = system.shared_.weights;
-      for (std::size_t v = 0; v < weights.size(); ++v) {
+      for (std::size_t v = 0; v < weights().size(); ++v) {
         if (!system.shared_.unknowns.vertex[v] || (pads() && pads()->under(v))) continue;
-        const double spring = weights[v] * (hold()->way(v) - h[v]);
+        const double spring = weights()[v] * (hold()->way(v) - h[v]);
         of_loads[v] += spring;
         force[v] += spring;
       }

@@ -148,8 +148,8 @@ class GaussNewtonMethod final : public StepMethod {
     const bool fresh =
         (damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current);
-    if (varies()) damp_long_waves();
-    it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{});
+    it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{},
+                           varies() ? share_for_long_waves() : 0);
     step.variation = varies();
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
@@ -214,11 +214,9 @@ class GaussNewtonMethod final : public StepMethod {
 
   // Variation hardly sees long waves; total curvature's matrix does. It joins as far as the last step
   // was from the end.
-  void damp_long_waves() {
+  double share_for_long_waves() {
     const double last = remainder_.last_decrement() > 0 ? remainder_.last_decrement() : 1;
-    const double square = bending_of(it_.current, it_.workers()).square;
-    for (int l = it_.system.base(); l <= it_.level; ++l)
-      it_.system.op(l).take_share(share_of_curvature * last * scale() / square);
+    return share_of_curvature * last * scale() / bending_of(it_.current, it_.workers()).square;
   }
 
   // Loads go along: those of a plain step would lag behind the surface, and the next step make up

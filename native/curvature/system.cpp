@@ -54,20 +54,20 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
       shared_{mesh, unknowns, workers},
-      hierarchy_(workers, hierarchy_options(unknowns, options)),
       symmetrizer_(std::move(mirrors), shared_.unknowns, workers) {
   shared_.tension = options.tension;
   for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
+  std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
     if (l > base)
       transfers_.push_back(std::make_unique<QuadraticTransfer<1>>(
           grid(l - 1), grid(l), stencils, shared_.unknowns, levels[std::size_t(l)].to_coarser,
           workers, shared_.float_slots));
-    hierarchy_.add(*operators_.back(), l > base ? transfers_.back().get() : nullptr,
-                   count_unknowns(grid(l), unknowns));
+    all.push_back({*operators_.back(), l > base ? transfers_.back().get() : nullptr,
+                   count_unknowns(grid(l), unknowns)});
   }
-  hierarchy_.complete();
+  hierarchy_ = std::make_unique<Hierarchy>(workers, hierarchy_options(unknowns, options), all);
 }
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;
@@ -91,15 +91,14 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
   }
 }
 
-void GaussNewtonSystem::set_damping(int level, const Array<float>& mu) {
-  op(level).set_damping(mu);
-  if (mu.empty()) return;
-  Array<float> fine = mu, coarse;
-  for (int l = level - 1; l >= base_; --l) {
-    coarse.resize(grid(l).size());
-    inject<1>(grid(l), grid(l + 1), workers(), fine.data(), coarse.data());
-    op(l).set_damping(coarse);
-    fine.swap(coarse);
+void GaussNewtonSystem::set_damping(int level, const Array<float>& mu, double share) {
+  Array<float> here = mu, below;
+  for (int l = level; l >= base_; --l) {
+    op(l).set_damping(here, share);
+    if (mu.empty() || l == base_) continue;
+    below.resize(grid(l - 1).size());
+    inject<1>(grid(l - 1), grid(l), workers(), here.data(), below.data());
+    here.swap(below);
   }
 }
 
@@ -122,12 +121,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   h.assign(points, 0.0);
   if (hold_) {
     look_along(about, held);
-    take_weights(level);
+    take_weights(level, fresh);
+  } else {
+    hierarchy_->refresh_lazily(index, fresh);
   }
-  if (hold_)
-    hierarchy_.refresh(index, fresh);
-  else
-    hierarchy_.refresh_lazily(index, fresh);
   LevelSolve solved;
   Array<double> with_loads;
   const bool is_held = functional.pads || hold_;
@@ -140,8 +137,8 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
       op(level).apply(x, r);
       for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
     };
-    solved = hierarchy_.solve(index, limits(functional), {residual, h.data(), left.data()},
-                              [](const PcgResult&) {});
+    solved = hierarchy_->solve(index, limits(functional), {residual, h.data(), left.data()},
+                               [](const PcgResult&) {});
     report.iterations = solved.iterations;
   }
   report.residual = solved.residual;
@@ -157,7 +154,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
 StepWork GaussNewtonSystem::work(int level) const {
   StepWork out = work_;
   out.linearizations = operators_[std::size_t(level - base_)]->linearizations();
-  out.factors = hierarchy_.factors();
+  out.factors = hierarchy_->factors();
   return out;
 }
 

@@ -89,7 +89,8 @@ class GaussNewtonSystem {
   void linearize_below(int level, const LinearizedSurface& about);
 
   // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
-  void set_damping(int level, const Array<float>& mu);
+  // `share`: as for CurvatureLevel.
+  void set_damping(int level, const Array<float>& mu, double share);
 
   // What holds the control vertices that move, along the normals, while total curvature is
   // minimized. It must stay where it is until let_go().
@@ -120,7 +121,8 @@ class GaussNewtonSystem {
  private:
   PcgLimits limits(const Functional& functional) const;
   void look_along(const LinearizedSurface& about, const Multipliers<1>& held);
-  void take_weights(int level);
+  // The springs' present weights, on all levels up to `level`. `spectrum`: as for the hierarchy.
+  void take_weights(int level, bool spectrum);
   struct HeldSolve;
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
                         Multipliers<1>& held, Array<double>& force, StepReport& report);
@@ -133,7 +135,7 @@ class GaussNewtonSystem {
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
   std::vector<std::unique_ptr<LevelTransfer>> transfers_;
-  Hierarchy hierarchy_;
+  std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;
   HoldAlongNormals* hold_ = nullptr;

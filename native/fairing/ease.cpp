@@ -137,7 +137,7 @@ class Easing {
       rows[i] = Index(inner_.vertices.size());
       inner_rows_.push_back(Eigen::Index(i));
       inner_.vertices.push_back(Index(v));
-      shares.push_back(systems_.plate().pads()->total(v));
+      shares.push_back(systems_.plate().hats()->total(v));
     }
     inner_.root = roots(std::move(shares));
     inner_.g = part_of(gauge_->matrix(), rows, rows, inner_.root, inner_.root);

@@ -35,7 +35,7 @@ std::int64_t matrix_bytes(const Counts& c, int levels) {
   // of triangles and of quads, by levels from the first
   constexpr double row[2][4] = {{80, 125, 90, 66}, {108, 146, 112, 82}},
                    transfer[2][4] = {{80, 88, 97, 60}, {100, 115, 108, 63}};
-  const double differing = c.thin ? 1.3 : 1;  // rows of thin faces have fewer numbers in common
+  const double differing = c.thin ? 1.15 : 1;  // rows of thin faces have fewer numbers in common
   std::int64_t bytes = 0;
   for (int l = 1; l <= std::min(levels, 4); ++l) {
     if (!has_rows(1 << l, std::size_t(c.points(l)))) continue;

@@ -80,10 +80,10 @@ Unknowns ControlHold::without_held() const {
 
 // A spring that much softer than the surface leaves its load to itself.
 std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
-                                      std::span<const double> stiffness, const Pads& pads) {
+                                      std::span<const double> stiffness, const Hats& hats) {
   std::vector<double> out;
   for (std::size_t v = 0; v < stiffness.size(); ++v)
-    out.push_back(unknowns.vertex[v] && pads.under(v)
+    out.push_back(unknowns.vertex[v] && hats.under(v)
                       ? std::min(weights[v] / rounding, stiffness[v]) / weights[v]
                       : 0.0);
   return out;

@@ -85,24 +85,24 @@ class ControlHold {
 // How much each spring gives way before its load, s / w, with `stiffness` s of the surface. Empty
 // where that is empty.
 std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
-                                      std::span<const double> stiffness, const Pads& pads);
+                                      std::span<const double> stiffness, const Hats& hats);
 
 // What holds control vertices at their points, into the rows of r: of a fixed one the force that its
 // row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On
 // pads it becomes forces[v], which the loads are to take. r has none of a fixed vertex, be it fixed
-// since the pads were made. `pads` may be null: r has the springs' forces.
+// since the pads were made. `hats` may be null: r has the springs' forces.
 template <int N, class Away>
-void take_point_forces(const Unknowns& unknowns, const VertexWeights& weights, const Pads* pads,
+void take_point_forces(const Unknowns& unknowns, const VertexWeights& weights, const Hats* hats,
                        const LoadsOf<N>& loads, Away&& away, LoadsOf<N>& forces, double* r) {
   using Force = Eigen::Matrix<double, N, 1>;
-  const std::size_t count = pads ? forces.size() : weights.size();
+  const std::size_t count = hats ? forces.size() : weights.size();
   for (std::size_t v = 0; v < count; ++v) {
     Eigen::Map<Force> row(r + N * v);
-    const bool on_pad = pads && pads->under(v);
+    const bool on_pad = hats && hats->under(v);
     if (unknowns.vertex[v]) {
       if (weights.empty()) continue;
       Force pull = weights[v] * away(v);
-      if (on_pad) forces[v] = pull -= pads->total(v) * loads[v];
+      if (on_pad) forces[v] = pull -= hats->total(v) * loads[v];
       row += pull;
     } else {
       if (on_pad) forces[v] = -row;

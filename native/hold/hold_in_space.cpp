@@ -92,21 +92,21 @@ Vec3 HoldInSpace::in_ball(const Vec3& p, std::size_t v) const {
   return length > tolerance_[v] ? Vec3(targets_[v] + (tolerance_[v] / length) * away) : p;
 }
 
-std::vector<double> HoldInSpace::comparable(const Pads* pads) const {
+std::vector<double> HoldInSpace::comparable(const Hats* hats) const {
   std::vector<double> out;
   if (!active()) return out;
   double inverse = 0, count = 0;
-  const auto under = [&](std::size_t v) { return pads && pads->under(v); };
+  const auto under = [&](std::size_t v) { return hats && hats->under(v); };
   for (std::size_t v = 0; v < size(); ++v)
     if (under(v)) {
-      inverse += 1 / pads->total(v);
+      inverse += 1 / hats->total(v);
       ++count;
     }
   const double mean = count > 0 ? inverse / count : 1;
   for (std::size_t v = 0; v < size(); ++v) {
     const double both = weights_[v] + of_surface_[v],
                  force = bound(v) && both > 0 ? weights_[v] * of_surface_[v] / both : 0.0;
-    out.insert(out.end(), 3, force * force * (under(v) ? 1 / pads->total(v) : mean));
+    out.insert(out.end(), 3, force * force * (under(v) ? 1 / hats->total(v) : mean));
   }
   return out;
 }

@@ -43,8 +43,8 @@ class HoldInSpace : public ControlHold {
 
   // Of each number of a correction: what makes it comparable with a change of its load, the square of
   // its force over the hat's total; a vertex without a pad has the mean of the others. Empty where
-  // there is nothing to find. `pads` may be null.
-  std::vector<double> comparable(const Pads* pads) const;
+  // there is nothing to find. `hats` may be null.
+  std::vector<double> comparable(const Hats* hats) const;
 
  private:
   Vec3 move_of(const double* x, std::size_t v) const;  // x' - x

@@ -6,7 +6,7 @@ namespace fairing {
 template <int N>
 Multipliers<N> MultiplierSpace<N>::product(const Vector& a) const {
   Vector out;
-  if (pads) pads->multiply_mass<N>(a.loads, out.loads);
+  if (hats) hats->multiply_mass<N>(a.loads, out.loads);
   for (std::size_t v = 0; v < a.bounds.size(); ++v) out.bounds.push_back(weights[v] * a.bounds[v]);
   for (std::size_t c = 0; c < a.moments.size(); ++c)
     out.moments.push_back(mass[c].cwiseProduct(a.moments[c]));

@@ -34,13 +34,13 @@ struct Multipliers {
 };
 
 // The norm of M for loads; changes of what bounds are compared by `weights`, one each, which make
-// them comparable with changes of loads, and so are moments by `mass`. The pads must outlive it and
-// keep their level; null where there are no loads.
+// them comparable with changes of loads, and so are moments by `mass`. The hats must outlive it; null
+// where there are no loads.
 template <int N>
 struct MultiplierSpace {
   using Vector = Multipliers<N>;
 
-  const Pads* pads;
+  const Hats* hats;
   std::vector<double> weights;
   Moments mass{};
 
@@ -55,8 +55,8 @@ template <int N>
 using LoadSteps = Anderson<MultiplierSpace<N>>;
 
 template <int N>
-LoadSteps<N> load_steps(const Pads* pads, std::vector<double> weights = {}, Moments mass = {}) {
-  return {{pads, std::move(weights), std::move(mass)}, 6};
+LoadSteps<N> load_steps(const Hats* hats, std::vector<double> weights = {}, Moments mass = {}) {
+  return {{hats, std::move(weights), std::move(mass)}, 6};
 }
 
 }  // namespace fairing

@@ -35,18 +35,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
     rows_.any_vertex = true;
     ++count_;
   }
-  row_begin_.assign(vertices + 1, 0);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    Index neighbours = 0;
-    if (under(v))
-      for (const Spoke& spoke : mesh.ring(Index(v)))
-        neighbours += 1 + (spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad());
-    row_begin_[v + 1] = row_begin_[v] + neighbours;
-  }
-  column_.resize(std::size_t(row_begin_.back()));
-  value_.resize(column_.size());
-  diagonal_.resize(vertices);
-  total_.resize(vertices);
+  began_under_ = under_;
 }
 
 double Pads::reach(std::size_t v) const {
@@ -63,22 +52,20 @@ double Pads::reach(std::size_t v) const {
 
 void Pads::leave(std::size_t v) {
   if (!under(v)) return;
-  grid_ = nullptr;
   under_[v] = 0;
-  std::fill(value_.begin() + row_begin_[v], value_.begin() + row_begin_[v + 1], 0.0);
   rows_.vertex[v] = unknowns_.vertex[v];
   rows_.any_vertex = --count_ > 0 || unknowns_.any_vertex;
 }
 
-double Pads::inverse_along(const Face& face, std::size_t side, bool from_second) const {
-  const Side& at = mesh_->sides[std::size_t(face.first_side) + side];
-  return inverse_[std::size_t(at.edge)][at.reversed != from_second ? 1 : 0];
+double Hats::inverse_along(const Face& face, std::size_t side, bool from_second) const {
+  const Side& at = mesh_.sides[std::size_t(face.first_side) + side];
+  return pads_.inverse_[std::size_t(at.edge)][at.reversed != from_second ? 1 : 0];
 }
 
-Pads::RowHat Pads::row_hat(const Face& face, std::size_t corner, int j) const {
+Hats::RowHat Hats::row_hat(const Face& face, std::size_t corner, int j) const {
   if (!under(std::size_t(face.vertex[corner]))) return {0, 0, 0};
   const auto size = std::size_t(face.size);
-  const double step = 1.0 / grid_->n(), up = j * step, ahead = inverse_along(face, corner, false),
+  const double step = 1.0 / grid_.n(), up = j * step, ahead = inverse_along(face, corner, false),
                back = inverse_along(face, (corner + size - 1) % size, true);
   if (face.quad()) {
     const bool along = corner % 2 == 0;  // the side ahead runs along the rows
@@ -94,42 +81,41 @@ Pads::RowHat Pads::row_hat(const Face& face, std::size_t corner, int j) const {
   }
 }
 
-double Pads::vertex_weight(std::size_t v, const double* weight) const {
+double Hats::vertex_weight(std::size_t v, const double* weight) const {
   if (weight) return weight[v];
   double share = 0;
-  for (const Spoke& spoke : mesh_->ring(Index(v)))
+  for (const Spoke& spoke : mesh_.ring(Index(v)))
     if (spoke.face >= 0)
-      share += area_[std::size_t(spoke.face)] / mesh_->faces[std::size_t(spoke.face)].size;
-  return share / (double(grid_->n()) * grid_->n());
+      share += pads_.area_[std::size_t(spoke.face)] / mesh_.faces[std::size_t(spoke.face)].size;
+  return share / (double(grid_.n()) * grid_.n());
 }
 
-double Pads::metric_weight_of_edge_point(std::size_t e) const {
+double Hats::metric_weight_of_edge_point(std::size_t e) const {
   double share = 0;
-  for (const Index s : mesh_->edges[e].side)
-    if (s >= 0)
-      share += metric_weight_of_face_point(std::size_t(mesh_->sides[std::size_t(s)].face));
+  for (const Index s : mesh_.edges[e].side)
+    if (s >= 0) share += metric_weight_of_face_point(std::size_t(mesh_.sides[std::size_t(s)].face));
   return share / 2;
 }
 
-double Pads::metric_weight_of_face_point(std::size_t f) const {
-  return (mesh_->faces[f].quad() ? 1 : 2) * area_[f] / (double(grid_->n()) * grid_->n());
+double Hats::metric_weight_of_face_point(std::size_t f) const {
+  return (mesh_.faces[f].quad() ? 1 : 2) * pads_.area_[f] / (double(grid_.n()) * grid_.n());
 }
 
-void Pads::Element::add(double weight, const double* hats, int count) {
+void Hats::Element::add(double weight, const double* hats, int count) {
   for (int a = 0; a < count; ++a) {
     total[a] += weight * hats[a];
     for (int b = 0; b < count; ++b) mass[a][b] += weight * hats[a] * hats[b];
   }
 }
 
-std::vector<Pads::Element> Pads::elements_of_faces(const double* weight) const {
-  const int n = grid_->n();
-  std::vector<Element> elements(mesh_->faces.size());
-  workers_->for_parts(elements.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+std::vector<Hats::Element> Hats::elements_of_faces(const double* weight) const {
+  const int n = grid_.n();
+  std::vector<Element> elements(mesh_.faces.size());
+  workers_.for_parts(elements.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const Face& face = mesh_->faces[f];
+      const Face& face = mesh_.faces[f];
       const double of_metric = metric_weight_of_face_point(f);
-      const double* own = weight ? weight + grid_->face_base(Index(f)) : nullptr;
+      const double* own = weight ? weight + grid_.face_base(Index(f)) : nullptr;
       for (int j = 1; j < n; ++j) {
         stop_in_large_face(j);
         RowHat row[4];
@@ -146,14 +132,14 @@ std::vector<Pads::Element> Pads::elements_of_faces(const double* weight) const {
   return elements;
 }
 
-std::vector<Pads::Element> Pads::elements_of_edges(const double* weight) const {
-  const int n = grid_->n();
-  std::vector<Element> elements(mesh_->edges.size());
-  workers_->for_parts(
+std::vector<Hats::Element> Hats::elements_of_edges(const double* weight) const {
+  const int n = grid_.n();
+  std::vector<Element> elements(mesh_.edges.size());
+  workers_.for_parts(
       elements.size(), element_grain(n) * std::size_t(n), [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
           const double of_metric = metric_weight_of_edge_point(e);
-          const double* own = weight ? weight + grid_->edge_base(Index(e)) : nullptr;
+          const double* own = weight ? weight + grid_.edge_base(Index(e)) : nullptr;
           for (int k = 1; k < n; ++k) {
             const double t = double(k) / n, hats[2] = {hat(e, 0, t), hat(e, 1, 1 - t)};
             elements[e].add(own ? *own++ : of_metric, hats, 2);
@@ -163,31 +149,36 @@ std::vector<Pads::Element> Pads::elements_of_edges(const double* weight) const {
   return elements;
 }
 
-void Pads::set_level(const GridLevel& grid) {
-  if (grid_ == &grid && weight_.empty()) return;
-  grid_ = &grid;
-  weight_.clear();
-  fill_matrix();
-}
-
-void Pads::set_level(const GridLevel& grid, Array<double> weights) {
-  grid_ = &grid;
-  weight_ = std::move(weights);
-  fill_matrix();
-}
-
-void Pads::fill_matrix() {
+Hats::Hats(const Pads& pads, const GridLevel& grid, Array<double> omega)
+    : pads_(pads),
+      grid_(grid),
+      mesh_(*pads.mesh_),
+      workers_(*pads.workers_),
+      weight_(std::move(omega)) {
+  const auto vertices = std::size_t(mesh_.vertex_count());
+  row_begin_.assign(vertices + 1, 0);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    Index neighbours = 0;
+    if (under(v))
+      for (const Spoke& spoke : mesh_.ring(Index(v)))
+        neighbours += 1 + (spoke.face >= 0 && mesh_.faces[std::size_t(spoke.face)].quad());
+    row_begin_[v + 1] = row_begin_[v] + neighbours;
+  }
+  column_.resize(std::size_t(row_begin_.back()));
+  value_.resize(column_.size());
+  diagonal_.resize(vertices);
+  total_.resize(vertices);
   const std::vector<Element> faces = elements_of_faces(weights()),
                              edges = elements_of_edges(weights());
-  workers_->for_parts(under_.size(), 256, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(total_.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       diagonal_[v] = total_[v] = 0;
       if (!under(v)) continue;
       diagonal_[v] = total_[v] = vertex_weight(v, weights());
       auto at = std::size_t(row_begin_[v]);
-      for (const Spoke& spoke : mesh_->ring(Index(v))) {
+      for (const Spoke& spoke : mesh_.ring(Index(v))) {
         // The neighbour along the spoke shares the edge, and the faces on both of its sides.
-        const Edge& edge = mesh_->edges[std::size_t(spoke.edge)];
+        const Edge& edge = mesh_.edges[std::size_t(spoke.edge)];
         const Element& along = edges[std::size_t(spoke.edge)];
         const int own = spoke.outward ? 0 : 1;
         double shared = along.mass[0][1];
@@ -195,14 +186,14 @@ void Pads::fill_matrix() {
         total_[v] += along.total[own];
         for (const Index s : edge.side) {
           if (s < 0) continue;
-          const Side& side = mesh_->sides[std::size_t(s)];
-          const int next = (side.local + 1) % mesh_->faces[std::size_t(side.face)].size;
+          const Side& side = mesh_.sides[std::size_t(s)];
+          const int next = (side.local + 1) % mesh_.faces[std::size_t(side.face)].size;
           shared += faces[std::size_t(side.face)].mass[int(side.local)][next];
         }
         column_[at] = edge.vertex[1 - own];
         value_[at++] = shared;
         if (spoke.face < 0) continue;
-        const Face& face = mesh_->faces[std::size_t(spoke.face)];
+        const Face& face = mesh_.faces[std::size_t(spoke.face)];
         const Element& inside = faces[std::size_t(spoke.face)];
         const auto c = std::size_t(spoke.corner);
         diagonal_[v] += inside.mass[c][c];
@@ -216,70 +207,68 @@ void Pads::fill_matrix() {
 }
 
 template <int N>
-void Pads::add_any(const LoadsOf<N>& loads, double* r) const {
-  const GridLevel& grid = *grid_;
-  const int n = grid.n();
+void Hats::add_any(const LoadsOf<N>& loads, double* r) const {
+  const int n = grid_.n();
   const double* const weight = weights();
   const auto add = [](double* to, double factor, const Eigen::Matrix<double, N, 1>& load) {
     for (int a = 0; a < N; ++a) to[a] += factor * load[a];
   };
-  for_each_index(*workers_, under_.size(), [&](std::size_t v) {
+  for_each_index(workers_, total_.size(), [&](std::size_t v) {
     if (under(v)) add(r + N * v, vertex_weight(v, weight), loads[v]);
   });
-  workers_->for_parts(n > 1 ? mesh_->edges.size() : 0, element_grain(n) * std::size_t(n),
-                      [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t e = begin; e < end; ++e) {
-                          const auto a = std::size_t(mesh_->edges[e].vertex[0]),
-                                     b = std::size_t(mesh_->edges[e].vertex[1]);
-                          if (!under(a) && !under(b)) continue;
-                          const auto first = std::size_t(grid.edge_base(Index(e)));
-                          const double of_metric = metric_weight_of_edge_point(e);
-                          for (int k = 1; k < n; ++k) {
-                            const double t = double(k) / n;
-                            const std::size_t p = first + std::size_t(k) - 1;
-                            add(r + N * p, weight ? weight[p] : of_metric,
-                                hat(e, 0, t) * loads[a] + hat(e, 1, 1 - t) * loads[b]);
-                          }
-                        }
-                      });
-  workers_->for_parts(
-      mesh_->faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-          const Face& face = mesh_->faces[f];
-          auto first = std::size_t(grid.face_base(Index(f)));
-          for (int j = 1; j < n; ++j) {
-            stop_in_large_face(j);
-            const int inside = std::max(0, (face.quad() ? n : n - j) - 1);
-            for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
-              RowHat row = row_hat(face, c, j);
-              if (row.factor == 0) continue;
-              const auto& load = loads[std::size_t(face.vertex[c])];
-              double* const to = r + N * first;
-              if (weight) {
-                for (int i = 0; i < inside; ++i)
-                  add(to + N * i, weight[first + std::size_t(i)] * row(i + 1), load);
-              } else {
-                row.factor *= metric_weight_of_face_point(f);
-                for (int i = 0; i < inside; ++i) add(to + N * i, row(i + 1), load);
-              }
-            }
-            first += std::size_t(inside);
+  workers_.for_parts(n > 1 ? mesh_.edges.size() : 0, element_grain(n) * std::size_t(n),
+                     [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t e = begin; e < end; ++e) {
+                         const auto a = std::size_t(mesh_.edges[e].vertex[0]),
+                                    b = std::size_t(mesh_.edges[e].vertex[1]);
+                         if (!under(a) && !under(b)) continue;
+                         const auto first = std::size_t(grid_.edge_base(Index(e)));
+                         const double of_metric = metric_weight_of_edge_point(e);
+                         for (int k = 1; k < n; ++k) {
+                           const double t = double(k) / n;
+                           const std::size_t p = first + std::size_t(k) - 1;
+                           add(r + N * p, weight ? weight[p] : of_metric,
+                               hat(e, 0, t) * loads[a] + hat(e, 1, 1 - t) * loads[b]);
+                         }
+                       }
+                     });
+  workers_.for_parts(mesh_.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Face& face = mesh_.faces[f];
+      auto first = std::size_t(grid_.face_base(Index(f)));
+      for (int j = 1; j < n; ++j) {
+        stop_in_large_face(j);
+        const int inside = std::max(0, (face.quad() ? n : n - j) - 1);
+        for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
+          RowHat row = row_hat(face, c, j);
+          if (row.factor == 0) continue;
+          const auto& load = loads[std::size_t(face.vertex[c])];
+          double* const to = r + N * first;
+          if (weight) {
+            for (int i = 0; i < inside; ++i)
+              add(to + N * i, weight[first + std::size_t(i)] * row(i + 1), load);
+          } else {
+            row.factor *= metric_weight_of_face_point(f);
+            for (int i = 0; i < inside; ++i) add(to + N * i, row(i + 1), load);
           }
         }
-      });
+        first += std::size_t(inside);
+      }
+    }
+  });
 }
 
-void Pads::add_loads(const Loads& loads, double* r) const { add_any<3>(loads, r); }
-void Pads::add_loads(const NormalLoads& loads, double* r) const { add_any<1>(loads, r); }
+void Hats::add_loads(const Loads& loads, double* r) const { add_any<3>(loads, r); }
+void Hats::add_loads(const NormalLoads& loads, double* r) const { add_any<1>(loads, r); }
 
-NormalLoads Pads::gather(const Array<double>& r) const {
+NormalLoads Hats::gather(const Array<double>& r) const {
   const std::vector<Element> faces = elements_of_faces(r.data()),
                              edges = elements_of_edges(r.data());
-  NormalLoads out(under_.size(), Eigen::Matrix<double, 1, 1>::Zero());
-  for_each_index(*workers_, under_.size(), [&](std::size_t v) {
+  NormalLoads out(total_.size(), Eigen::Matrix<double, 1, 1>::Zero());
+  for_each_index(workers_, total_.size(), [&](std::size_t v) {
     if (!under(v)) return;
     double sum = r[v];
-    for (const Spoke& spoke : mesh_->ring(Index(v))) {
+    for (const Spoke& spoke : mesh_.ring(Index(v))) {
       sum += edges[std::size_t(spoke.edge)].total[spoke.outward ? 0 : 1];
       if (spoke.face >= 0) sum += faces[std::size_t(spoke.face)].total[int(spoke.corner)];
     }
@@ -289,9 +278,9 @@ NormalLoads Pads::gather(const Array<double>& r) const {
 }
 
 template <int N>
-void Pads::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
+void Hats::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
   forces.resize(loads.size());
-  workers_->for_parts(loads.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  workers_.for_parts(loads.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       forces[v] = diagonal_[v] * loads[v];
       for (auto k = std::size_t(row_begin_[v]); k < std::size_t(row_begin_[v + 1]); ++k)
@@ -302,7 +291,7 @@ void Pads::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
 
 // Chebyshev's semi-iteration on the diagonally scaled matrix.
 template <int N>
-void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
+void Hats::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
                           const std::vector<double>& compliance_ratio) const {
   constexpr double middle = 0.5 * (largest_eigenvalue + least_eigenvalue),
                    half = 0.5 * (largest_eigenvalue - least_eigenvalue), shape = middle / half;
@@ -324,10 +313,10 @@ void Pads::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
   }
 }
 
-template void Pads::multiply_mass(const Loads&, Loads&) const;
-template void Pads::multiply_mass(const NormalLoads&, NormalLoads&) const;
-template void Pads::divide_by_mass(const Loads&, Loads&, const std::vector<double>&) const;
-template void Pads::divide_by_mass(const NormalLoads&, NormalLoads&,
+template void Hats::multiply_mass(const Loads&, Loads&) const;
+template void Hats::multiply_mass(const NormalLoads&, NormalLoads&) const;
+template void Hats::divide_by_mass(const Loads&, Loads&, const std::vector<double>&) const;
+template void Hats::divide_by_mass(const NormalLoads&, NormalLoads&,
                                    const std::vector<double>&) const;
 
 }  // namespace fairing

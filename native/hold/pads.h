@@ -40,6 +40,7 @@ inline bool may_have_pad(const ControlMesh& mesh, Index v) {
   return mesh.vertex_fit(v) && mesh.vertex_part(v) == RegionPart::inside;
 }
 
+// Which control vertices stand on pads, and how far these reach.
 class Pads {
  public:
   // `size` in (0, 1] is what all reaches are multiplied by. A pad is under every control vertex
@@ -52,21 +53,42 @@ class Pads {
   bool any() const { return count_ > 0; }
   bool under(std::size_t v) const { return under_[v] != 0; }
   // The same before any pad was left.
-  bool began_under(std::size_t v) const { return row_begin_[v + 1] > row_begin_[v]; }
+  bool began_under(std::size_t v) const { return began_under_[v] != 0; }
   // Of each control vertex: whether it stands on a pad.
   const std::vector<std::uint8_t>& places() const { return under_; }
   // How far a pad reaches along the edges around, at the most; 0 without a pad.
   double reach(std::size_t v) const;
-  // From here on the vertex is held by a point force. Call set_level() before what follows.
+  // From here on the vertex is held by a point force. Hats are to be made anew.
   void leave(std::size_t v);
   // The unknowns and the control vertices on pads: the rows of K that (*) speaks of.
   const Unknowns& rows() const { return rows_; }
 
-  // Hats are sampled on a level's points. Omega are the points' shares of the control metric's
-  // area, 4^-level of them. Call before what follows when the level changes.
-  void set_level(const GridLevel& grid);
-  // The same with other weights Omega, one a point.
-  void set_level(const GridLevel& grid, Array<double> weights);
+ private:
+  friend class Hats;
+
+  double inverse_reach(const Spoke& spoke) const {
+    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
+  }
+
+  const ControlMesh* mesh_;
+  Workers* workers_;
+  std::vector<double> area_;  // of each control face, in the control metric
+  std::vector<std::uint8_t> under_, began_under_;
+  std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
+  std::size_t count_ = 0;
+  Unknowns unknowns_, rows_;
+};
+
+// The pads' hats, sampled on a level's points.
+class Hats {
+ public:
+  // `omega`: one number a point; empty: the points' shares of the control metric's area, 4^-level of
+  // them. Pads and grid must outlive the hats, and the pads stay what they are.
+  Hats(const Pads& pads, const GridLevel& grid, Array<double> omega = {});
+
+  const GridLevel& grid() const { return grid_; }
+  const Unknowns& rows() const { return pads_.rows(); }
+  bool under(std::size_t v) const { return pads_.under(v); }
 
   // r <- r + Omega sum_c f_c phi_c on all points of the level, control vertices included.
   void add_loads(const Loads& loads, double* r) const;
@@ -102,11 +124,9 @@ class Pads {
   RowHat row_hat(const Face& face, std::size_t corner, int j) const;
   // Of the pad under end `h` of an edge, a share `t` of the edge away from it.
   double hat(std::size_t e, std::size_t h, double t) const {
-    return under(std::size_t(mesh_->edges[e].vertex[h])) ? std::max(0.0, 1 - t * inverse_[e][h])
-                                                         : 0.0;
-  }
-  double inverse_reach(const Spoke& spoke) const {
-    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
+    return under(std::size_t(mesh_.edges[e].vertex[h]))
+               ? std::max(0.0, 1 - t * pads_.inverse_[e][h])
+               : 0.0;
   }
   // 1 / s_ca along the side from `corner` to the next, seen from its first or its second corner.
   double inverse_along(const Face& face, std::size_t side, bool from_second) const;
@@ -119,19 +139,14 @@ class Pads {
   std::vector<Element> elements_of_edges(const double* weight) const;
   const double* weights() const { return weight_.empty() ? nullptr : weight_.data(); }
 
-  void fill_matrix();
   template <int N>
   void add_any(const LoadsOf<N>& loads, double* r) const;
 
-  const ControlMesh* mesh_;
-  Workers* workers_;
-  const GridLevel* grid_ = nullptr;
-  std::vector<double> area_;  // of each control face, in the control metric
-  std::vector<std::uint8_t> under_;
-  std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
-  std::size_t count_ = 0;
-  Unknowns unknowns_, rows_;
-  Array<double> weight_;  // of the level's points; empty: those of the metric
+  const Pads& pads_;
+  const GridLevel& grid_;
+  const ControlMesh& mesh_;
+  Workers& workers_;
+  const Array<double> weight_;  // of the level's points; empty: those of the metric
 
   // M on the control mesh: rows of the vertices on pads, the diagonal apart.
   std::vector<Index> row_begin_, column_;

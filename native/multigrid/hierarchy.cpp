@@ -22,21 +22,17 @@ constexpr double settled_margin = 1.03;
 
 }  // namespace
 
-Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options)
+Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
+                     const std::vector<HierarchyLevel>& levels)
     : workers_(workers), options_(options), cycle_(workers) {
   cycle_.degree = options.smoother_degree > 0 ? options.smoother_degree : options.usual_degree;
-}
-
-void Hierarchy::add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns) {
-  CycleLevel level;
-  level.op = &op;
-  level.transfer = to_coarser;
-  level.state.resize(op.size());
-  cycle_.levels.push_back(std::move(level));
-  unknowns_.push_back(unknowns);
-}
-
-void Hierarchy::complete() {
+  for (const HierarchyLevel& level : levels) {
+    CycleLevel& own = cycle_.levels.emplace_back();
+    own.op = &level.op;
+    own.transfer = level.to_coarser;
+    own.state.resize(level.op.size());
+    unknowns_.push_back(level.unknowns);
+  }
   std::size_t end = 0;  // of the cycle
   while (end + 1 < unknowns_.size() && unknowns_[end + 1] <= tiny_level) ++end;
   coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[end].op, workers_, unknowns_[end],

@@ -28,6 +28,12 @@ struct HierarchyOptions {
   std::size_t settled = 4;
 };
 
+struct HierarchyLevel {
+  LevelOperator& op;
+  LevelTransfer* to_coarser;  // null on the coarsest
+  std::size_t unknowns;
+};
+
 // How a solve went.
 struct LevelSolve {
   int iterations = 0;
@@ -42,12 +48,9 @@ struct LevelSolve {
 
 class Hierarchy {
  public:
-  Hierarchy(Workers& workers, const HierarchyOptions& options);
-
-  // Coarsest first; `to_coarser` is null for the first. All must outlive the hierarchy.
-  void add(LevelOperator& op, LevelTransfer* to_coarser, std::size_t unknowns);
-  // After the last add().
-  void complete();
+  // Levels: coarsest first. Their operators and transfers must outlive the hierarchy.
+  Hierarchy(Workers& workers, const HierarchyOptions& options,
+            const std::vector<HierarchyLevel>& levels);
 
   const Array<float>& inverse_diagonal(std::size_t index) const {
     return cycle_.levels[index].op->inverse_diagonal();

@@ -45,6 +45,27 @@ namespace {
 // smooth vectors; the least trace is just above rounding.
 constexpr double usual_trace = 1e-12, least_trace = 1e-15;
 
+// x <- (L D L^T)^-1 x, on C right-hand sides side by side: every number of the factor is read once.
+template <int C, class Ldlt>
+void substitute(const Ldlt& ldlt, double* x) {
+  const SparseMatrix& l = ldlt.matrixL().nestedExpression();  // without its diagonal of ones
+  const int *const begin = l.outerIndexPtr(), *const row = l.innerIndexPtr();
+  const double* const number = l.valuePtr();
+  double sum[C];
+  for (int c = 0; c < l.cols(); ++c) {
+    std::copy_n(x + C * c, C, sum);
+    for (int k = begin[c]; k < begin[c + 1]; ++k)
+      for (int a = 0; a < C; ++a) x[C * row[k] + a] -= sum[a] * number[k];
+  }
+  for (int c = int(l.cols()) - 1; c >= 0; --c) {
+    const double inverse = 1 / ldlt.vectorD()(c);
+    for (int a = 0; a < C; ++a) sum[a] = inverse * x[C * c + a];
+    for (int k = begin[c]; k < begin[c + 1]; ++k)
+      for (int a = 0; a < C; ++a) sum[a] -= number[k] * x[C * row[k] + a];
+    std::copy_n(sum, C, x + C * c);
+  }
+}
+
 void strengthen_diagonal(AssembledSystem& system, double trace) {
   const Eigen::VectorXd diagonal = system.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
@@ -104,17 +125,17 @@ void CoarseSolver::solve(const double* b, double* x) const {
   const auto& points = factor_->points;
   if (points.empty()) return;
   const std::size_t components = op_.components();
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(factor_->ldlt->rows(), Eigen::Index(components));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t a = 0; a < components; ++a)
-      right(Eigen::Index(i), Eigen::Index(a)) = b[components * std::size_t(points[i]) + a];
-  workers_.for_parts(components, 1, [&](std::size_t begin, std::size_t end) {
-    for (auto a = Eigen::Index(begin); a < Eigen::Index(end); ++a)
-      right.col(a) = factor_->ldlt->solve(right.col(a)).eval();
-  });
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t a = 0; a < components; ++a)
-      x[components * std::size_t(points[i]) + a] = right(Eigen::Index(i), Eigen::Index(a));
+  const int* const place = factor_->ldlt->permutationP().indices().data();
+  std::vector<double> y(components * std::size_t(factor_->ldlt->rows()), 0.0);
+  const auto visit = [&](auto&& copy) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t a = 0; a < components; ++a)
+        copy(components * std::size_t(points[i]) + a, components * std::size_t(place[i]) + a);
+  };
+  visit([&](std::size_t of_level, std::size_t of_factor) { y[of_factor] = b[of_level]; });
+  components == 3 ? substitute<3>(*factor_->ldlt, y.data())
+                  : substitute<1>(*factor_->ldlt, y.data());
+  visit([&](std::size_t of_level, std::size_t of_factor) { x[of_level] = y[of_factor]; });
 }
 
 double CoarseSolver::norm_of_terms(const double* x) const {

@@ -111,8 +111,8 @@ void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
     if (level == levels.top() && on_prediction) on_prediction(x.data());
     Array<double> residual(size), polyhedron(size);
     const double reference =
-        levels.scales(level, data, polyhedron.data(), residual.data()).residual;
-    levels.residual(level, data.targets, x.data(), residual.data());
+        levels.scales(level, data, {}, polyhedron.data(), residual.data()).residual;
+    levels.residual(level, data.targets, {}, x.data(), residual.data());
     Sweeps gauss_seidel(levels.grid(level), shared, residual);
     LevelReport report;
     report.level = level;

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -68,14 +69,14 @@ struct RowChunk {
   }
 };
 
-// Calls visit(row of the chunk, column, number) for all but zeros, which fill up rows.
+// Calls visit(row of the chunk, which of its columns, number) for all but zeros, which fill up rows.
 template <class Visit>
 void visit_chunk(const RowChunk& chunk, const Visit& visit) {
   std::uint32_t k = 0;
   for (std::size_t r = 0; r < chunk.row.size(); ++r)
     for (std::uint32_t number = chunk.row[r].number; k < chunk.row[r].end; ++k, ++number)
       if (chunk.number[number] != 0)
-        visit(r, std::size_t(chunk.column[chunk.local_column[k]]), chunk.number[number]);
+        visit(r, std::size_t(chunk.local_column[k]), chunk.number[number]);
 }
 
 // product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x
@@ -168,14 +169,14 @@ class RowBuilder {
   Numbers* repeated_ = nullptr;
 };
 
-// Numbers column by column: first[c] … first[c + 1] of (row, number), rows ascending.
+// Numbers column by column: first[c] … first[c + 1] of the entries, rows ascending.
 struct MatrixColumns {
+  struct Entry {
+    Index row;
+    float number;
+  };
   std::vector<std::size_t> first;
-  std::vector<std::pair<Index, float>> entry;
-
-  std::size_t bytes() const {
-    return first.capacity() * sizeof(first[0]) + entry.capacity() * sizeof(entry[0]);
-  }
+  std::unique_ptr<Entry[]> entry;
 };
 
 class AssembledMatrix {
@@ -214,7 +215,8 @@ class AssembledMatrix {
   // The number of a row in its own column; 0 where the row is zero.
   float diagonal(std::size_t row) const;
 
-  MatrixColumns by_columns() const;
+  // Throws where the run has been cancelled.
+  MatrixColumns by_columns(Workers& workers) const;
 
   // Calls visit(row, column, number) for all numbers, in parallel: those of a row on one thread.
   template <class Visit>
@@ -222,7 +224,7 @@ class AssembledMatrix {
     workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
         visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
-          visit(Index(c * chunk_rows + row), Index(column), number);
+          visit(Index(c * chunk_rows + row), Index(chunk_[c].column[column]), number);
         });
     });
   }

@@ -23,7 +23,7 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
 std::vector<Index> nearest_of(const ControlMesh& mesh, const std::vector<Index>& set);
 
 // Calls on_loads(s, loads) for each set, in turn: `loads`, one number a control vertex, are asked for
-// where all vertices of set s have moved by one. `curves`: the solver's, whose points do not move. Pads must be those of a surface that has been solved for.
+// where all vertices of set s have moved by one. `curves`: the solver's, whose points do not move.
 // `on_part`, where given, is told before each solve which part of all of them it is.
 using OnPart = std::function<void(double begin, double end)>;
 using OnLoads = std::function<void(std::size_t set, const std::vector<double>& loads)>;

@@ -9,8 +9,8 @@
 namespace fairing {
 
 double Foresight::spring(std::size_t v) const {
-  const ThinPlateShared& shared = levels_.shared();
-  return shared.unknowns.vertex[v] && !shared.weights.empty() ? shared.weights[v] : 0.0;
+  const VertexWeights& weights = levels_.weights(level_);
+  return levels_.shared().unknowns.vertex[v] && !weights.empty() ? weights[v] : 0.0;
 }
 
 Foresight::Seen Foresight::look(const double* r, bool direct, const Loads& forces) {
@@ -29,14 +29,14 @@ void Foresight::begin(const double* r, bool direct, const Loads& forces) {
   if (!is_judged_) before_ = look(r, direct, forces);
 }
 
-void Foresight::end(const double* x, const double* r, bool direct, const Pads* pads,
+void Foresight::end(const double* x, const double* r, bool direct, const Hats* hats,
                     Loads& forces) {
   Seen after = look(r, direct, forces);
   if (!is_judged_ && !direct) judge(after);
   if (!is_believed_) after.rest.assign(after.rest.size(), Vec3::Zero());
   vertices_.assign(x, x + 3 * after.rest.size());
   for (std::size_t v = 0; v < after.rest.size(); ++v) {
-    if (pads && pads->under(v)) forces[v] -= after.rest[v];
+    if (hats && hats->under(v)) forces[v] -= after.rest[v];
     if (spring(v) > 0) Eigen::Map<Vec3>(vertices_.data() + 3 * v) += after.rest[v] / spring(v);
   }
 }

@@ -19,7 +19,7 @@ class Foresight {
   // Around a solve to x, of residual r: the forces left at vertices on pads, which become what they
   // would be after a whole solve. `direct`: the solve is whole.
   void begin(const double* r, bool direct, const Loads& forces);
-  void end(const double* x, const double* r, bool direct, const Pads* pads, Loads& forces);
+  void end(const double* x, const double* r, bool direct, const Hats* hats, Loads& forces);
 
   // Where a whole solve would have the control vertices, 3 numbers each.
   const double* vertices() const { return vertices_.data(); }

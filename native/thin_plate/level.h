@@ -18,19 +18,16 @@ struct ThinPlateShared {
   ThinPlateRows<double> double_rows;
   ThinPlateRows<float> float_rows;
   Unknowns unknowns;
-  VertexWeights weights;
   Workers& workers;
   ElementSlots<double> double_slots;
   ElementSlots<float> float_slots;
 
-  ThinPlateShared(const ControlMesh& control, const Stencils& s, Unknowns u, VertexWeights w,
-                  Workers& crew)
+  ThinPlateShared(const ControlMesh& control, const Stencils& s, Unknowns u, Workers& crew)
       : mesh(control),
         stencils(s),
         double_rows(control, s),
         float_rows(control, s),
         unknowns(std::move(u)),
-        weights(std::move(w)),
         workers(crew) {}
 };
 
@@ -38,9 +35,11 @@ struct ThinPlateShared {
 // matrix where one suits the level. In the control metric, or in that of a surface.
 class ThinPlateLevel final : public LevelOperator {
  public:
-  ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid) : shared_(shared), grid_(grid) {
-    matrix_ = PlateMatrix::make(grid, shared.stencils, shared.unknowns, shared.workers);
-    update();
+  ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid, const VertexWeights& weights)
+      : shared_(shared),
+        grid_(grid),
+        matrix_(PlateMatrix::make(grid, shared.stencils, shared.unknowns, shared.workers)) {
+    set_weights(weights);
   }
 
   // From here on in the metric of the surface x, 3 numbers a point.
@@ -57,19 +56,11 @@ class ThinPlateLevel final : public LevelOperator {
     surface_->add_pull(goal, shared_.workers, r);
   }
 
-  // Call after the weights have changed.
-  void update() {
-    if (matrix_) {
-      matrix_->set_weights(shared_.weights);
-      inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
-      return;
-    }
-    inverse_diagonal_ =
-        surface_ ? surface_->diagonal(shared_.weights, shared_.workers)
-                 : thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
-                                       shared_.workers, shared_.double_slots);
-    for (float& d : inverse_diagonal_) d = 1 / d;
+  void set_weights(const VertexWeights& weights) {
+    weights_ = weights;
+    update();
   }
+  const VertexWeights& weights() const { return weights_; }
 
   // E(x), as thin_plate_energy().
   double bending(const double* x) {
@@ -80,9 +71,8 @@ class ThinPlateLevel final : public LevelOperator {
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 3; }
   void apply(const double* x, double* y) override {
-    if (surface_)
-      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
-    apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, shared_.weights, shared_.workers,
+    if (surface_) return surface_->apply(shared_.unknowns.vertex, weights_, shared_.workers, x, y);
+    apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, weights_, shared_.workers,
                      shared_.double_slots, x, y);
   }
   // K x without weights, where these control vertices count as unknowns.
@@ -97,9 +87,8 @@ class ThinPlateLevel final : public LevelOperator {
           x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
             std::copy_n(product, 3 * count, y + 3 * first);
           });
-    if (surface_)
-      return surface_->apply(shared_.unknowns.vertex, shared_.weights, shared_.workers, x, y);
-    apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, shared_.weights, shared_.workers,
+    if (surface_) return surface_->apply(shared_.unknowns.vertex, weights_, shared_.workers, x, y);
+    apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, weights_, shared_.workers,
                      shared_.float_slots, x, y);
   }
   void relax(const SmoothingStep& step, Workers& workers) override {
@@ -123,8 +112,8 @@ class ThinPlateLevel final : public LevelOperator {
   }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
-    return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, shared_.weights,
-                               shared_.workers, surface_.get());
+    return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, weights_, shared_.workers,
+                               surface_.get());
   }
   void write_lines(LineBand& band, Workers& workers) override {
     if (matrix_)
@@ -135,8 +124,23 @@ class ThinPlateLevel final : public LevelOperator {
   }
 
  private:
+  // The diagonal, of K and weights as they are now.
+  void update() {
+    if (matrix_) {
+      matrix_->set_weights(weights_);
+      inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
+      return;
+    }
+    inverse_diagonal_ = surface_
+                            ? surface_->diagonal(weights_, shared_.workers)
+                            : thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns,
+                                                  weights_, shared_.workers, shared_.double_slots);
+    for (float& d : inverse_diagonal_) d = 1 / d;
+  }
+
   ThinPlateShared& shared_;
   const GridLevel& grid_;
+  VertexWeights weights_;
   std::unique_ptr<SurfaceDifferences> surface_;  // null: the control metric
   std::unique_ptr<PlateMatrix> matrix_;          // null: the passes serve
   Array<float> inverse_diagonal_;

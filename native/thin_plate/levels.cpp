@@ -43,18 +43,17 @@ Unknowns with_pads(const ControlMesh& mesh, const Unknowns& unknowns, double pad
 }  // namespace
 
 ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stencils,
-                                 Unknowns unknowns, VertexWeights weights,
+                                 Unknowns unknowns, const VertexWeights& weights,
                                  const ThinPlateOptions& options, Workers& workers,
                                  const Monitor& monitor)
-    : shared_(mesh, stencils, std::move(unknowns), std::move(weights), workers),
+    : shared_(mesh, stencils, std::move(unknowns), workers),
       base_(shared_.unknowns.any_vertex ? 0 : std::min(1, options.levels)),
-      carried_(with_pads(mesh, shared_.unknowns, options.pad_size)),
-      hierarchy_(workers,
-                 hierarchy_options(shared_.unknowns, options, base_, stencils.membrane.any())) {
+      carried_(with_pads(mesh, shared_.unknowns, options.pad_size)) {
   for (int l = 0; l <= options.levels; ++l) grids_.push_back(std::make_unique<GridLevel>(mesh, l));
+  std::vector<HierarchyLevel> all;
   for (int l = base_; l <= top(); ++l) {
     monitor.check_cancelled();
-    operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l)));
+    operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l), weights));
     if (l > base_) {
       transfer_matrices_.push_back(
           AssembledTransfer::make(grid(l - 1), grid(l), stencils, carried_, workers));
@@ -66,16 +65,16 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
       transfers_.push_back(transfer_of(shared_.unknowns));
       vertex_transfers_.push_back(transfer_of(carried_));
     }
-    hierarchy_.add(*operators_.back(), l > base_ ? transfers_.back().get() : nullptr,
-                   unknowns_of(l));
+    all.push_back(
+        {*operators_.back(), l > base_ ? transfers_.back().get() : nullptr, unknowns_of(l)});
   }
-  hierarchy_.complete();
+  hierarchy_ = std::make_unique<Hierarchy>(
+      workers, hierarchy_options(shared_.unknowns, options, base_, stencils.membrane.any()), all);
 }
 
 void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {
-  shared_.weights = weights;
-  for (int l = base_; l <= level; ++l) operators_[index(l)]->update();
-  hierarchy_.refresh(index(level), false);
+  for (int l = base_; l <= level; ++l) operators_[index(l)]->set_weights(weights);
+  hierarchy_->refresh(index(level), false);
 }
 
 void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) const {
@@ -95,22 +94,22 @@ void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) con
   refine_outside_linearly(lat, data.targets, x);
 }
 
-void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const double* x,
-                               double* r) {
+void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const Array<double>& goal,
+                               const double* x, double* r) {
   op(level).apply(x, r);
   for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
-  const VertexWeights& w = shared_.weights;
+  const VertexWeights& w = weights(level);
   for (std::size_t v = 0; v < w.size(); ++v)
     if (shared_.unknowns.vertex[v])
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
-  add_pull(level, r);
+  add_pull(level, goal, r);
 }
 
 void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span<Vec3> sums) {
-  float* fine = hierarchy_.room(index(level));
+  float* fine = hierarchy_->room(index(level));
   for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { fine[i] = float(r[i]); });
   for (int l = level; l > base_; --l) {
-    float* const coarse = hierarchy_.room(index(l - 1));
+    float* const coarse = hierarchy_->room(index(l - 1));
     vertex_transfers_[index(l) - 1]->restrict_to(fine, coarse);
     fine = coarse;
   }
@@ -127,17 +126,17 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
 
 void ThinPlateLevels::measure(int level, const double* x, double exponent) {
   operators_[index(level)]->measure(x, exponent);
-  hierarchy_.refresh(index(level), true);
+  hierarchy_->refresh(index(level), true);
 }
 
-void ThinPlateLevels::set_goal(int level, const PlateData& data) {
-  if (!is_measured(level)) return;
-  Array<double> below;
-  for (int l = base_; l <= level; ++l) {
-    if (l > base_) std::swap(below, goal_);
-    goal_.resize(3 * grid(l).size());
-    start(l, data, below, goal_);
+Array<double> ThinPlateLevels::goal(int level, const PlateData& data) {
+  Array<double> below, out;
+  for (int l = base_; l <= level && is_measured(level); ++l) {
+    std::swap(below, out);
+    out.resize(3 * grid(l).size());
+    start(l, data, below, out);
   }
+  return out;
 }
 
 double ThinPlateLevels::bending(int level, const double* x) {
@@ -159,12 +158,12 @@ void ThinPlateLevels::start(int level, const PlateData& data, const Array<double
   put_fixed(level, data, x.data());
 }
 
-ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data, double* x,
-                                                double* r) {
+ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data,
+                                                const Array<double>& goal, double* x, double* r) {
   const std::size_t size = 3 * grid(level).size();
   refine_linearly(grid(level), data.targets, workers(), x);
   put_fixed(level, data, x);
-  residual(level, data.targets, x, r);
+  residual(level, data.targets, goal, x, r);
   const Array<float>& inverse = op(level).inverse_diagonal();
   const double terms = std::sqrt(sum(workers(), size, [&](std::size_t i) {
     const double t = x[i] / double(inverse[i / 3]);

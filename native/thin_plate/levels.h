@@ -28,7 +28,7 @@ class ThinPlateLevels {
  public:
   // All references but to `options` must outlive the levels.
   ThinPlateLevels(const ControlMesh& mesh, const Stencils& stencils, Unknowns unknowns,
-                  VertexWeights weights, const ThinPlateOptions& options, Workers& workers,
+                  const VertexWeights& weights, const ThinPlateOptions& options, Workers& workers,
                   const Monitor& monitor);
   ThinPlateLevels(const ThinPlateLevels&) = delete;  // its parts refer to each other
 
@@ -47,18 +47,20 @@ class ThinPlateLevels {
   ThinPlateShared& shared() { return shared_; }
   const ThinPlateShared& shared() const { return shared_; }
   Workers& workers() { return shared_.workers; }
-  Hierarchy& hierarchy() { return hierarchy_; }
+  Hierarchy& hierarchy() { return *hierarchy_; }
   std::size_t unknowns_of(int level) const { return count_unknowns(grid(level), shared_.unknowns); }
 
   // New weights of control vertices, on all levels up to `level`.
   void set_weights(const VertexWeights& weights, int level);
+  const VertexWeights& weights(int level) const { return operators_[index(level)]->weights(); }
 
   // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.
-  void residual(int level, std::span<const Vec3> targets, const double* x, double* r);
+  void residual(int level, std::span<const Vec3> targets, const Array<double>& goal,
+                const double* x, double* r);
   // Solves from x, of which system.r is the residual, to the limits given (Hierarchy::solve).
   LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
                    const std::function<void(const PcgResult&)>& each) {
-    return hierarchy_.solve(index(level), limits, system, each);
+    return hierarchy_->solve(index(level), limits, system, each);
   }
 
   // sums <- H^T r of a level for every control vertex off all curves and inside the region, with H
@@ -71,11 +73,11 @@ class ThinPlateLevels {
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
   void measure(int level, const double* x, double exponent);
   // Where a level that is so measured is drawn to (thin_plate/surface_differences.h): the control
-  // polyhedron, prolongated and never solved. Call before the level's residuals with other data.
-  void set_goal(int level, const PlateData& data);
+  // polyhedron, prolongated and never solved. Empty where it is not.
+  Array<double> goal(int level, const PlateData& data);
   // r += P goal, where the level is so measured.
-  void add_pull(int level, double* r) const {
-    if (is_measured(level)) operators_[index(level)]->add_pull(goal_.data(), r);
+  void add_pull(int level, const Array<double>& goal, double* r) const {
+    if (is_measured(level)) operators_[index(level)]->add_pull(goal.data(), r);
   }
 
   // The plate's own energy, and with tension's: what is minimized, but for the pull.
@@ -94,7 +96,7 @@ class ThinPlateLevels {
   struct Scales {
     double residual, noise;
   };
-  Scales scales(int level, const PlateData& data, double* x, double* r);
+  Scales scales(int level, const PlateData& data, const Array<double>& goal, double* x, double* r);
 
  private:
   std::size_t index(int level) const { return std::size_t(level - base_); }  // in the hierarchy
@@ -107,8 +109,7 @@ class ThinPlateLevels {
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
   Unknowns carried_;  // by transfers to control vertices: these too
   std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
-  Array<double> goal_;
-  Hierarchy hierarchy_;
+  std::unique_ptr<Hierarchy> hierarchy_;
 };
 
 }  // namespace fairing

@@ -55,11 +55,11 @@ struct ThinPlateSolver::Rounds {
   const PcgLimits& limits;
   HoldInSpace* constraint;  // or null
 
-  Pads* const pads = run.solver.supports_.pads();                // null: point forces
+  const std::shared_ptr<const Hats> hats = run.solver.supports_.hats(level);  // null: point forces
   Couples* const couples = run.solver.supports_.couples(level);  // null: no normal is fixed here
-  LoadSteps<3> steps =
-      load_steps<3>(pads, constraint ? constraint->comparable(pads) : std::vector<double>{},
-                    couples ? couples->mass() : Moments{});
+  LoadSteps<3> steps = load_steps<3>(
+      hats.get(), constraint ? constraint->comparable(hats.get()) : std::vector<double>{},
+      couples ? couples->mass() : Moments{});
   Loads forces = Loads(run.state.loads.size(), Vec3::Zero());  // left at control vertices on pads
   Loads own_forces{};  // the same by the vertices' own rows, before anything is foreseen
   Foresight foresight{run.levels(), level, run.solver.supports_.stiffness()};
@@ -70,7 +70,8 @@ struct ThinPlateSolver::Rounds {
   double gain = 0;  // of all solves, as a logarithm of residuals
 
   ThinPlateLevels& levels() { return run.levels(); }
-  const ThinPlateShared& shared() { return levels().shared(); }
+  const Unknowns& unknowns() { return levels().shared().unknowns; }
+  const VertexWeights& weights() { return levels().weights(level); }
   const ThinPlateOptions& options() const { return run.solver.options_; }
   LevelReport& report() { return solved.report; }
   double* x() { return run.x.data(); }
@@ -82,15 +83,15 @@ struct ThinPlateSolver::Rounds {
 
   // r <- Omega phi f + P goal - (K + P) x on the unknowns; the forces left at the control vertices apart.
   void residual(const double* x, double* r) {
-    if (!pads) {
-      levels().residual(level, targets(), x, r);
+    if (!hats) {
+      levels().residual(level, targets(), run.goal, x, r);
     } else {
-      levels().apply_with(level, pads->rows(), x, r);
+      levels().apply_with(level, hats->rows(), x, r);
       for_each_index(levels().workers(), run.size(level), [&](std::size_t i) { r[i] = -r[i]; });
-      levels().add_pull(level, r);
-      pads->add_loads(run.state.loads, r);
+      levels().add_pull(level, run.goal, r);
+      hats->add_loads(run.state.loads, r);
       take_point_forces<3>(
-          shared().unknowns, shared().weights, pads, run.state.loads,
+          unknowns(), weights(), hats.get(), run.state.loads,
           [&](std::size_t v) { return Vec3(targets()[v] - Eigen::Map<const Vec3>(x + 3 * v)); },
           forces, r);
     }
@@ -104,12 +105,12 @@ struct ThinPlateSolver::Rounds {
   // changes, theirs is added. Other corrections, and forces from outside, reach into the rows of
   // fixed vertices.
   void renew_residual(const Loads& change) {
-    if (!pads || constraint || couples || !run.forces.empty()) return take_residual();
+    if (!hats || constraint || couples || !run.forces.empty()) return take_residual();
     Loads shift(forces.size(), Vec3::Zero());
-    pads->add_loads(change, run.r.data());
+    hats->add_loads(change, run.r.data());
     take_point_forces<3>(
-        shared().unknowns, shared().weights, pads, change,
-        [](std::size_t) { return Vec3(Vec3::Zero()); }, shift, run.r.data());
+        unknowns(), weights(), hats.get(), change, [](std::size_t) { return Vec3(Vec3::Zero()); },
+        shift, run.r.data());
     for (std::size_t v = 0; v < forces.size(); ++v) forces[v] = own_forces[v] + shift[v];
   }
 
@@ -137,9 +138,9 @@ struct ThinPlateSolver::Rounds {
       take_scale(limits.residual_scale > 0 ? begun / limits.residual_scale : 0.0);
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
-    if (pads && !solve.direct && !levels().op(level).single_precision_suffices()) take_residual();
+    if (hats && !solve.direct && !levels().op(level).single_precision_suffices()) take_residual();
     own_forces = forces;
-    foresight.end(x(), run.r.data(), solve.direct, pads, forces);
+    foresight.end(x(), run.r.data(), solve.direct, hats.get(), forces);
   }
 
   // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
@@ -161,10 +162,10 @@ struct ThinPlateSolver::Rounds {
   Sizes correct_loads() {
     const Loads& loads = run.state.loads;
     Loads product;
-    const std::vector<double> compliance_ratio = compliance_ratios(
-        shared().unknowns, shared().weights, run.solver.supports_.stiffness(), *pads);
-    pads->divide_by_mass<3>(forces, correction.loads, compliance_ratio);
-    pads->multiply_mass<3>(loads, product);
+    const std::vector<double> compliance_ratio =
+        compliance_ratios(unknowns(), weights(), run.solver.supports_.stiffness(), *hats);
+    hats->divide_by_mass<3>(forces, correction.loads, compliance_ratio);
+    hats->multiply_mass<3>(loads, product);
     return {dot<3>(correction.loads, forces), dot<3>(loads, product)};
   }
 
@@ -188,8 +189,8 @@ struct ThinPlateSolver::Rounds {
   // Whether little enough is left at the points, and of the angles to fixed normals; `correction`
   // has what would take it off.
   bool loads_settled() {
-    if (!pads && !couples) return true;
-    const Sizes of_loads = pads ? correct_loads() : Sizes{},
+    if (!hats && !couples) return true;
+    const Sizes of_loads = hats ? correct_loads() : Sizes{},
                 of_couples = couples ? correct_couples() : Sizes{};
     const double size = std::sqrt(std::max(0.0, of_loads.loads + of_couples.loads));
     force.take(std::sqrt(std::max(0.0, of_loads.left + of_couples.left)));
@@ -233,10 +234,10 @@ struct ThinPlateSolver::Rounds {
     }
     if (constraint) {
       correction.bounds = constraint->correction(foresight.vertices(), forces);
-      if (pads) correct_loads();
+      if (hats) correct_loads();
       ++report().constraint_rounds;
     }
-    report().pad_corrections += pads || couples;
+    report().pad_corrections += hats || couples;
     Multipliers<3> step = steps.change(correction);
     for (std::size_t v = 0; v < step.loads.size(); ++v) run.state.loads[v] += step.loads[v];
     for (std::size_t c = 0; c < step.moments.size(); ++c) run.state.moments[c] += step.moments[c];
@@ -283,7 +284,6 @@ struct ThinPlateSolver::Rounds {
 ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve_in_rounds(int level,
                                                                    const PcgLimits& limits,
                                                                    HoldInSpace* constraint) {
-  solver.supports_.set_level(level);
   return Rounds{*this, level, limits, constraint}.solve_all();
 }
 

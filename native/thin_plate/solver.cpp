@@ -20,19 +20,21 @@ constexpr double share_of_coarser = 0.25;
 }  // namespace
 
 ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const ChartMaker& charts,
-                                 const Stencils& stencils, Unknowns unknowns, VertexWeights weights,
-                                 const ThinPlateOptions& options, Workers& workers,
-                                 Monitor& monitor)
+                                 const Stencils& stencils, Unknowns unknowns,
+                                 const VertexWeights& weights, const ThinPlateOptions& options,
+                                 Workers& workers, Monitor& monitor)
     : options_(options),
       monitor_(monitor),
-      levels_(mesh, stencils, std::move(unknowns), std::move(weights), options, workers, monitor),
+      levels_(mesh, stencils, std::move(unknowns), weights, options, workers, monitor),
       supports_(charts, options, levels_) {}
 
-void ThinPlateSolver::Run::keep_below(int level) {
+void ThinPlateSolver::Run::begin(int level) {
   x.resize(size(top()));
   below.resize(level > base() ? size(level - 1) : 0);
   for_each_index(levels().workers(), below.size(), [&](std::size_t i) { below[i] = x[i]; });
   r.resize(size(top()));
+  take_metric(level);
+  goal = levels().goal(level, data);
 }
 
 void ThinPlateSolver::Run::take_metric(int level) {
@@ -49,7 +51,7 @@ void ThinPlateSolver::Run::start(int level, bool foretells) {
 
 // `room` for a surface: the control polyhedron.
 PcgLimits ThinPlateSolver::Run::limits(int level, double tolerance, double energy, double* room) {
-  const ThinPlateLevels::Scales scale = levels().scales(level, data, room, r.data());
+  const ThinPlateLevels::Scales scale = levels().scales(level, data, goal, room, r.data());
   PcgLimits limits;
   limits.tolerance = tolerance;
   limits.residual_scale = scale.residual;
@@ -72,7 +74,7 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   if (solver.supports_.pads() || constraint || solver.supports_.couples(level))
     return solve_in_rounds(level, limits, constraint);
   const auto residual = [&](const double* y, double* out) {
-    levels().residual(level, data.targets, y, out);
+    levels().residual(level, data.targets, goal, y, out);
   };
   residual(x.data(), r.data());
   LevelReport report = report_of(level);
@@ -98,7 +100,7 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
                                          std::vector<LevelReport>& reports,
                                          const OnPrediction& on_prediction,
                                          const OnLevel& on_level) {
-  if (levels_.shared().weights != hold.weights())
+  if (levels_.weights(levels_.top()) != hold.weights())
     levels_.set_weights(hold.weights(), levels_.top());
   HoldInSpace* const constraint = hold.active() ? &hold : nullptr;
   if (constraint) constraint->set_stiffness(supports_.stiffness());
@@ -115,9 +117,7 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hol
       constraint->renew(x.data());
       levels_.set_weights(constraint->weights(), l);
     }
-    run.keep_below(l);
-    run.take_metric(l);
-    levels_.set_goal(l, data);
+    run.begin(l);
     PcgLimits limits = run.limits(l, tolerance(l), energy_below, x.data());
     const Loads loads = state.loads, forces_below = run.forces_below;
     run.start(l, !constraint);
@@ -155,13 +155,13 @@ void ThinPlateSolver::solve_moved(std::span<const Vec3> before, const PlateData&
   // What coordinates in single precision leave anyway, the finest level takes in its stride.
   if (farthest > single_rounding && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
-  levels_.set_goal(levels_.top(), data);
   levels_.put_fixed(levels_.top(), data, x.data());
   if (on_prediction) on_prediction(x.data());
   PcgLimits limits = state.limits;
   limits.tolerance = tolerance;
   Run run{*this, data, state, x};
   run.r.resize(x.size());
+  run.goal = levels_.goal(levels_.top(), data);
   reports.push_back(run.solve(levels_.top(), limits, nullptr).report);
 }
 
@@ -201,8 +201,7 @@ void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateDa
   Array<double> difference;
   Run run{*this, moving, change, difference};
   for (int l = run.base(); l <= run.top(); ++l) {
-    run.keep_below(l);
-    levels_.set_goal(l, moving);
+    run.begin(l);
     run.start(l, true);
     if (l < run.top()) reports.push_back(run.solve(l, rough, nullptr).report);
   }
@@ -219,7 +218,7 @@ LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance
   run.rough_force = rough_force;
   run.forces = forces;
   run.r.resize(x.size());
-  levels_.set_goal(top, data);
+  run.goal = levels_.goal(top, data);
   PcgLimits limits;
   {
     Array<double> polyhedron(x.size());

@@ -22,11 +22,13 @@ class ThinPlateSolver {
   // `charts` are those of the stencils. All references but to charts and options must outlive the
   // solver.
   ThinPlateSolver(const ControlMesh& mesh, const ChartMaker& charts, const Stencils& stencils,
-                  Unknowns unknowns, VertexWeights weights, const ThinPlateOptions& options,
+                  Unknowns unknowns, const VertexWeights& weights, const ThinPlateOptions& options,
                   Workers& workers, Monitor& monitor);
 
   ThinPlateLevels& levels() { return levels_; }
-  const Pads* pads() { return supports_.pads(); }           // null without
+  const Pads* pads() const { return supports_.pads(); }  // null without
+  // Of the finest level; null without pads.
+  std::shared_ptr<const Hats> hats() { return supports_.hats(levels_.top()); }
   const Couples* couples() { return supports_.couples(); }  // null where no normal is fixed
 
   // Of a surface that nothing holds yet.

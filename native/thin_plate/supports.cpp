@@ -24,7 +24,7 @@ PlateSupports::PlateSupports(const ChartMaker& charts, const ThinPlateOptions& o
   const Unknowns& unknowns = shared.unknowns;
   if (options.pad_size > 0)
     pads_ = std::make_unique<Pads>(shared.mesh, charts, unknowns, options.pad_size, shared.workers,
-                                   shared.weights);
+                                   levels.weights(levels.base()));
   if (pads_ && !pads_->any()) pads_.reset();
   if (!options.normals.empty() && levels.top() > 0)
     couples_ = std::make_unique<Couples>(shared.mesh, charts, options.normals, shared.workers);
@@ -40,9 +40,16 @@ PlateState PlateSupports::unheld() const {
   return out;
 }
 
-void PlateSupports::set_level(int level) {
-  if (pads_) pads_->set_level(levels_.grid(level));
-  if (Couples* const here = couples(level)) here->set_level(levels_.grid(level));
+std::shared_ptr<const Hats> PlateSupports::hats(int level) {
+  const GridLevel& grid = levels_.grid(level);
+  if (pads_ && !(hats_ && &hats_->grid() == &grid)) hats_ = std::make_shared<Hats>(*pads_, grid);
+  return hats_;
+}
+
+Couples* PlateSupports::couples(int level) {
+  if (!couples_ || level < std::min(Couples::first_level, levels_.top())) return nullptr;
+  couples_->set_level(levels_.grid(level));
+  return couples_.get();
 }
 
 void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& forces_below) {
@@ -62,23 +69,22 @@ void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& 
     std::fill(loads.begin(), loads.end(), Vec3::Zero());
     return;
   }
-  pads_->set_level(levels_.grid(level - 1));
   if (level == base + 1) {
     Loads effect;
-    pads_->multiply_mass<3>(loads, effect);
-    pads_->set_level(levels_.grid(level));
-    pads_->divide_by_mass<3>(effect, loads);
+    hats(level - 1)->multiply_mass<3>(loads, effect);
+    hats(level)->divide_by_mass<3>(effect, loads);
     return;
   }
-  for (std::size_t v = 0; v < loads.size(); ++v) loads[v] *= pads_->total(v);
+  const auto below = hats(level - 1);
+  for (std::size_t v = 0; v < loads.size(); ++v) loads[v] *= below->total(v);
   if (level > Couples::first_level && foretells) {
     const Loads before = std::exchange(forces_below, loads);
     for (std::size_t v = 0; v < before.size(); ++v)
       loads[v] += change_left_by_level * (loads[v] - before[v]);
   }
-  pads_->set_level(levels_.grid(level));
+  const auto here = hats(level);
   for (std::size_t v = 0; v < loads.size(); ++v)
-    if (pads_->under(v)) loads[v] /= pads_->total(v);
+    if (here->under(v)) loads[v] /= here->total(v);
 }
 
 bool PlateSupports::leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x) {
@@ -92,19 +98,18 @@ bool PlateSupports::leave_thrown_pads(int level, std::span<const Vec3> targets, 
     leave(v);
     visit_ring(levels_.grid(0), v, [&](Index u, std::size_t) { leave(u); });
   }
+  if (any) hats_.reset();
   return any;
 }
 
 // Couples stay what they are as a whole.
 void PlateSupports::start_couples(int level, Moments& moments) {
-  Couples *const here = couples(level), *const below =
-                                            level > levels_.base() ? couples(level - 1) : nullptr;
-  if (!below) std::fill(moments.begin(), moments.end(), Vec2::Zero());
-  if (!here) return;
-  if (below) below->set_level(levels_.grid(level - 1));
-  const std::vector<double> before = here->totals();
-  here->set_level(levels_.grid(level));
-  if (below) here->carry(before, moments);
+  if (level > levels_.base() && couples(level - 1)) {
+    const std::vector<double> before = couples_->totals();
+    couples(level)->carry(before, moments);
+  } else {
+    std::fill(moments.begin(), moments.end(), Vec2::Zero());
+  }
 }
 
 // Couples far apart are tried out in one solve, and others along each axis. How well that goes says

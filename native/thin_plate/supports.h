@@ -16,20 +16,17 @@ class PlateSupports {
   // `charts` are those of the stencils. `levels` must outlive the supports.
   PlateSupports(const ChartMaker& charts, const ThinPlateOptions& options, ThinPlateLevels& levels);
 
-  Pads* pads() { return pads_.get(); }           // null: control vertices are held by point forces
+  const Pads* pads() const { return pads_.get(); }  // null: point forces hold control vertices
+  // Of the pads as they stand, on a level's points; null: there are none.
+  std::shared_ptr<const Hats> hats(int level);
   Couples* couples() { return couples_.get(); }  // null: no normal is fixed
-  // Null where hats have no points on this level.
-  Couples* couples(int level) {
-    return couples_ && level >= std::min(Couples::first_level, levels_.top()) ? couples_.get()
-                                                                              : nullptr;
-  }
+  // On a level's points, until they are wanted on another's; null where hats have no points there.
+  Couples* couples(int level);
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   const std::vector<double>& stiffness() const { return stiffness_; }
 
   // Of a surface that no load and no couple holds yet.
   PlateState unheld() const;
-  // The pads and couples of a level.
-  void set_level(int level);
   // state <- for the start of a level, from that of the one below. `forces_below` are those of the
   // hats there, from the level before on; `foretells`: whether they say how loads change.
   void start(int level, bool foretells, PlateState& state, Loads& forces_below);
@@ -44,6 +41,7 @@ class PlateSupports {
 
   ThinPlateLevels& levels_;
   std::unique_ptr<Pads> pads_;
+  std::shared_ptr<const Hats> hats_;  // of the latest level; null: not known
   std::unique_ptr<Couples> couples_;
   std::vector<double> stiffness_;
 };

@@ -205,12 +205,12 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
     };
   };
   if (!transfer->prolongation_.build(workers, fine_writer)) return nullptr;
-  const MatrixColumns columns = transfer->prolongation_.by_columns();
+  const MatrixColumns columns = transfer->prolongation_.by_columns(workers);
   const auto coarse_writer = [&] {
     return [&columns](Index p, RowBuilder& row) {
       for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1];
            ++k)
-        row.add(columns.entry[k].first, double(columns.entry[k].second));
+        row.add(columns.entry[k].row, double(columns.entry[k].number));
     };
   };
   if (!transfer->restriction_.build(workers, coarse_writer)) return nullptr;

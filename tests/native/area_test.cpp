@@ -157,7 +157,7 @@ TEST(Area, JoinsTheSystemOfEitherEnergy) {
         Array<double> x = Lumpy(grid).x;
         Linearization surface;
         const double whole = system.linearize(x.data(), {energy}, &surface);
-        if (energy == CurvatureEnergy::minimum_variation) system.take_share(0.01);
+        if (energy == CurvatureEnergy::minimum_variation) system.set_damping({}, 0.01);
         EXPECT_NEAR(whole - system.bending(), tau * area_of_cells(grid, x), 1e-9 * whole);
         EXPECT_EQ(whole, system.fairness());
 

@@ -158,7 +158,7 @@ TEST(Couples, HoldTheNormals) {
       std::vector<double> forces(3 * grid.size()), held(3 * grid.size(), 0.0);
       apply_thin_plate(grid, shared.double_rows, rows, {}, *problem->workers, shared.double_slots,
                        x.data(), forces.data());
-      if (system.pads()) system.pads()->add_loads(state.loads, held.data());
+      if (system.hats()) system.hats()->add_loads(state.loads, held.data());
       system.couples()->add(state.moments, held.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < held.size(); ++i) {

@@ -67,7 +67,8 @@ struct System {
   // With a share of total curvature, unless `pure`.
   double linearize(const Array<double>& x, Linearization* out = nullptr, bool pure = false) {
     const double value = level.linearize(x.data(), functional, out);
-    if (functional.energy == CurvatureEnergy::minimum_variation && !pure) level.take_share(0.01);
+    if (functional.energy == CurvatureEnergy::minimum_variation && !pure)
+      level.set_damping({}, 0.01);
     return value;
   }
 };

@@ -26,9 +26,9 @@ Unknowns all_but_vertices(const ControlMesh& mesh) {
 }
 
 // Omega sum f phi for these loads, three numbers a point.
-std::vector<double> loaded(const Pads& pads, const GridLevel& grid, const Loads& loads) {
-  std::vector<double> r(3 * grid.size(), 0.0);
-  pads.add_loads(loads, r.data());
+std::vector<double> loaded(const Hats& hats, const Loads& loads) {
+  std::vector<double> r(3 * hats.grid().size(), 0.0);
+  hats.add_loads(loads, r.data());
   return r;
 }
 
@@ -45,9 +45,9 @@ TEST(Pads, WideHatsAddUpToOne) {
     Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
     for (const int level : {0, 1, 3}) {
       const GridLevel grid(mesh, level);
-      pads.set_level(grid);
+      const Hats hats(pads, grid);
       const Loads even(std::size_t(mesh.vertex_count()), Vec3(1, 2, -3));
-      const std::vector<double> r = loaded(pads, grid, even);
+      const std::vector<double> r = loaded(hats, even);
       double area = 0;
       for (std::size_t i = 0; i < grid.size(); ++i) {
         EXPECT_GT(r[3 * i], 0);
@@ -67,17 +67,16 @@ TEST(Pads, HatsFallOffOverTheirWidth) {
   const std::size_t count = std::size_t(mesh.vertex_count());
   const Loads even(count, Vec3::Ones());
   Pads wide(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
-  wide.set_level(grid);
-  const std::vector<double> share = loaded(wide, grid, even);
+  const std::vector<double> share = loaded(Hats(wide, grid), even);
   for (const double size : {0.25, 0.5, 0.75}) {
     Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), size, workers);
-    pads.set_level(grid);
+    const Hats hats(pads, grid);
     Loads one(count, Vec3::Zero());
     one[0] = Vec3::Ones();
-    const std::vector<double> r = loaded(pads, grid, one);
+    const std::vector<double> r = loaded(hats, one);
     double total = 0;
     for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
-    EXPECT_NEAR(total, pads.total(0), 1e-14);
+    EXPECT_NEAR(total, hats.total(0), 1e-14);
     EXPECT_DOUBLE_EQ(r[0], share[0]);
     for (const Spoke& spoke : mesh.ring(0))
       for (int k = 1; k < grid.n(); ++k) {
@@ -94,13 +93,13 @@ TEST(Pads, MassIsThatOfTheHats) {
       Workers workers(2);
       const GridLevel grid(mesh, 2);
       Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), size, workers);
-      pads.set_level(grid);
+      const Hats hats(pads, grid);
       const auto count = std::size_t(mesh.vertex_count());
       std::vector<std::vector<double>> column;
       for (std::size_t v = 0; v < count; ++v) {
         Loads one(count, Vec3::Zero());
         one[v] = Vec3::Ones();
-        column.push_back(loaded(pads, grid, pads.under(v) ? one : Loads(count, Vec3::Zero())));
+        column.push_back(loaded(hats, pads.under(v) ? one : Loads(count, Vec3::Zero())));
       }
       // The points' areas from pads of size 1 on all vertices do not exist on open meshes: take
       // them from where a hat is known, as the closed face's share.
@@ -124,7 +123,7 @@ TEST(Pads, MassIsThatOfTheHats) {
       for (std::size_t c = 0; c < count; ++c) {
         if (!pads.under(c)) continue;
         unit[c] = Vec3(1, 0, 2);
-        pads.multiply_mass<3>(unit, product);
+        hats.multiply_mass<3>(unit, product);
         for (std::size_t d = 0; d < count; ++d) {
           double mass = 0;
           for (std::size_t i = 0; i < grid.size(); ++i)
@@ -132,7 +131,7 @@ TEST(Pads, MassIsThatOfTheHats) {
           EXPECT_NEAR(product[d][0], mass, 1e-14);
           EXPECT_NEAR(product[d][2], 2 * mass, 1e-14);
         }
-        pads.divide_by_mass<3>(product, back);
+        hats.divide_by_mass<3>(product, back);
         for (std::size_t d = 0; d < count; ++d) EXPECT_LT((back[d] - unit[d]).norm(), 1e-2);
         unit[c].setZero();
       }
@@ -144,22 +143,22 @@ TEST(Pads, SpringsTakeLoadsByThemselves) {
   Workers workers(1);
   Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
   const GridLevel grid(mesh, 2);
-  pads.set_level(grid);
+  const Hats hats(pads, grid);
   const auto count = std::size_t(mesh.vertex_count());
   Loads forces(count), loads, product;
   for (std::size_t v = 0; v < count; ++v) forces[v] = Vec3(std::sin(double(v)), 1, double(v % 3));
   std::vector<double> give(count);
   for (std::size_t v = 0; v < count; ++v) give[v] = v % 2 ? 3.0 : 0.5;
-  pads.divide_by_mass<3>(forces, loads, give);
-  pads.multiply_mass<3>(loads, product);
+  hats.divide_by_mass<3>(forces, loads, give);
+  hats.multiply_mass<3>(loads, product);
   for (std::size_t v = 0; v < count; ++v)
-    EXPECT_LT((product[v] + give[v] * pads.total(v) * loads[v] - (1 + give[v]) * forces[v]).norm(),
+    EXPECT_LT((product[v] + give[v] * hats.total(v) * loads[v] - (1 + give[v]) * forces[v]).norm(),
               1e-2 * forces[v].norm());
   // A spring that gives way altogether: the load is the force, whatever the neighbours have.
   std::fill(give.begin(), give.end(), 1e6);
-  pads.divide_by_mass<3>(forces, loads, give);
+  hats.divide_by_mass<3>(forces, loads, give);
   for (std::size_t v = 0; v < count; ++v)
-    EXPECT_LT((pads.total(v) * loads[v] - forces[v]).norm(), 1e-3 * forces[v].norm());
+    EXPECT_LT((hats.total(v) * loads[v] - forces[v]).norm(), 1e-3 * forces[v].norm());
 }
 
 TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
@@ -201,17 +200,16 @@ TEST(Pads, GoAlone) {
   EXPECT_TRUE(pads.began_under(4));
   EXPECT_EQ(pads.rows().vertex[3], 1);
   EXPECT_EQ(pads.rows().vertex[4], 0);
-  whole.set_level(grid);
-  pads.set_level(grid);
-  EXPECT_EQ(pads.total(3), whole.total(3));
-  EXPECT_EQ(pads.total(4), 0);
+  const Hats hats(pads, grid);
+  EXPECT_EQ(hats.total(3), Hats(whole, grid).total(3));
+  EXPECT_EQ(hats.total(4), 0);
   for (const Index v : {3, 4}) {
     Loads one(std::size_t(mesh.vertex_count()), Vec3::Zero());
     one[std::size_t(v)] = Vec3::Ones();
-    const std::vector<double> r = loaded(pads, grid, one);
+    const std::vector<double> r = loaded(hats, one);
     double total = 0;
     for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
-    EXPECT_NEAR(total, pads.total(std::size_t(v)), 1e-14);
+    EXPECT_NEAR(total, hats.total(std::size_t(v)), 1e-14);
   }
   for (std::size_t v = 0; v < pads.places().size(); ++v) pads.leave(v);
   EXPECT_FALSE(pads.any());
@@ -304,12 +302,10 @@ TEST(Pads, HoldTheSurface) {
         for (std::size_t a = 0; a < 3; ++a)
           EXPECT_EQ(x[3 * std::size_t(v) + a],
                     problem->basis.working[std::size_t(v)][Eigen::Index(a)]);
-      Pads pads = *system.pads();
-      pads.set_level(grid);
       std::vector<double> forces(3 * grid.size()), loads(3 * grid.size(), 0.0);
-      apply_thin_plate(grid, shared.double_rows, pads.rows(), {}, *problem->workers,
+      apply_thin_plate(grid, shared.double_rows, system.pads()->rows(), {}, *problem->workers,
                        shared.double_slots, x.data(), forces.data());
-      pads.add_loads(state.loads, loads.data());
+      system.hats()->add_loads(state.loads, loads.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < loads.size(); ++i) {
         largest = std::max(largest, std::abs(loads[i]));

@@ -215,8 +215,8 @@ TEST(Rows, AreTheAssembledSystemBesideJoints) {
 TEST(Rows, RelaxAsApplicationsDo) {
   on_all(3, [](const Setting& s, Workers& workers) {
     const Unknowns unknowns = some_points(s.mesh, 1);
-    ThinPlateShared shared(s.mesh, s.stencils, unknowns, {}, workers);
-    ThinPlateLevel level(shared, s.grid);
+    ThinPlateShared shared(s.mesh, s.stencils, unknowns, workers);
+    ThinPlateLevel level(shared, s.grid, {});
     const auto start = [&](unsigned seed) {
       return with_room(masked(s.grid, unknowns, random_points(s.grid.size(), seed)));
     };
