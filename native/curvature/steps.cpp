@@ -217,8 +217,7 @@ class GaussNewtonMethod final : public StepMethod {
   void damp_long_waves() {
     const double last = remainder_.last_decrement() > 0 ? remainder_.last_decrement() : 1;
     const double square = bending_of(it_.current, it_.workers()).square;
-    for (int l = it_.system.base(); l <= it_.level; ++l)
-      it_.system.op(l).take_share(share_of_curvature * last * scale() / square);
+    it_.op().take_share(share_of_curvature * last * scale() / square);
   }
 
   // Loads go along: those of a plain step would lag behind the surface, and the next step make up
