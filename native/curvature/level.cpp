@@ -8,13 +8,6 @@
 #include "sparse/unknown_points.h"
 
 namespace fairing {
-namespace {
-
-// Of S beside a border, times the pieces of a control edge; C's weights are about one. (With 1 and 4
-// panels take up to a half more iterations.)
-constexpr float border_stiffness = 2;
-
-}  // namespace
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
     : shared_(shared), grid_(grid), rows_(grid), square_{NormalMatrix::suits(rows_)} {}
@@ -71,7 +64,9 @@ void CurvatureLevel::find_between(const Array<double>& area) {
   root_.resize(points);
   for_each_index(shared_.workers, points,
                  [&](std::size_t i) { root_[i] = float(std::sqrt(area[i])); });
-  const float stiffness = border_stiffness * float(grid_.n());
+  // Two edges lead to the border, and C's weights are about one. (With half or twice as much panels
+  // take up to a half more iterations.)
+  const auto stiffness = float(2 * grid_.n());
   beside_border_.resize(points);
   for_each_run(
       grid_, shared_.workers, [&] { return RunGather<double>(grid_, area.data()); },
