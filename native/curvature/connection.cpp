@@ -66,21 +66,20 @@ double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own
 }
 
 // z <- the rows of a run on y, whose neighbours' tensors are at y[s] + 3 i.
-template <class T>
-void apply_run(const RowRun<const float>& run, T damping, const T* const* y, T* z) {
+void apply_run(const RowRun<const float>& run, double damping, const double* const* y, double* z) {
   for (std::size_t i = 0; i < run.count; ++i) {
-    const T* own = y[0] + 3 * i;
-    const T diagonal = T(run.at(0, 0, i)) + damping;
+    const double* own = y[0] + 3 * i;
+    const double diagonal = double(run.at(0, 0, i)) + damping;
     for (int c = 0; c < 3; ++c) z[3 * i + std::size_t(c)] = diagonal * own[c];
   }
   for (int s = 1; s < run.slots; ++s) {
     const float *weight = &run.at(0, s, 0), *cosine = &run.at(1, s, 0), *sine = &run.at(2, s, 0);
-    const T* from = y[s];
+    const double* from = y[s];
     for (std::size_t i = 0; i < run.count; ++i) {
-      const T* o = from + 3 * i;
-      z[3 * i] += T(weight[i]) * o[0];
-      z[3 * i + 1] += T(cosine[i]) * o[1] - T(sine[i]) * o[2];
-      z[3 * i + 2] += T(sine[i]) * o[1] + T(cosine[i]) * o[2];
+      const double* o = from + 3 * i;
+      z[3 * i] += double(weight[i]) * o[0];
+      z[3 * i + 1] += double(cosine[i]) * o[1] - double(sine[i]) * o[2];
+      z[3 * i + 2] += double(sine[i]) * o[1] + double(cosine[i]) * o[2];
     }
   }
 }
@@ -123,16 +122,25 @@ double Connection::set(const Surface& surface, const double* tensor, Workers& wo
   return energy.total();
 }
 
-template <class T>
-void Connection::apply(double damping, Workers& workers, const T* y, T* z) const {
+void Connection::apply(double damping, Workers& workers, const double* y, double* z) const {
   for_each_run(
-      rows_.grid(), workers, [&] { return RunGather<T, 3>(rows_.grid(), y); },
-      [&](const Run& run, RunGather<T, 3>& gather) {
-        apply_run(rows_.of(run), T(damping), gather(run), z + 3 * run.first);
+      rows_.grid(), workers, [&] { return RunGather<double, 3>(rows_.grid(), y); },
+      [&](const Run& run, RunGather<double, 3>& gather) {
+        apply_run(rows_.of(run), damping, gather(run), z + 3 * run.first);
       });
 }
 
-template void Connection::apply<float>(double, Workers&, const float*, float*) const;
-template void Connection::apply<double>(double, Workers&, const double*, double*) const;
+void Connection::apply_to_scalar(Workers& workers, const float* y, float* z) const {
+  for_each_run(
+      rows_.grid(), workers, [&] { return RunGather<float>(rows_.grid(), y); },
+      [&](const Run& run, RunGather<float>& gather) {
+        const RowRun<const float> own = rows_.of(run);
+        const float* const* x = gather(run);
+        float* to = z + run.first;
+        for (std::size_t i = 0; i < run.count; ++i) to[i] = own.at(0, 0, i) * x[0][i];
+        for (int s = 1; s < own.slots; ++s)
+          for (std::size_t i = 0; i < run.count; ++i) to[i] += own.at(0, s, i) * x[s][i];
+      });
+}
 
 }  // namespace fairing

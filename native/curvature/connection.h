@@ -30,8 +30,10 @@ class Connection {
   double set(const Surface& surface, const double* tensor, Workers& workers, double* force);
 
   // z <- (L + damping) y
-  template <class T>
-  void apply(double damping, Workers& workers, const T* y, T* z) const;
+  void apply(double damping, Workers& workers, const double* y, double* z) const;
+
+  // z <- the rows of the first component, which no turn of a chart changes, on y, 1 number a point.
+  void apply_to_scalar(Workers& workers, const float* y, float* z) const;
 
   // Slot 0: the sum of weights; the others: minus the weight, and that times cosine and sine of
   // twice the angle between the charts.

@@ -25,38 +25,35 @@ void CurvatureLevel::apply_rows(const float* x, float* y) {
 }
 
 void CurvatureLevel::apply(const float* x, float* y) {
-  if (!square_.suits) return apply_any(x, y, shared_.float_slots);
-  square().apply(x, shared_.workers, y);
-  add_to_product(x, y);
+  if (square_.suits)
+    square().apply(x, shared_.workers, y);
+  else
+    apply_rows(x, y);
+  if (!varies()) add_to_product(x, y);
 }
 
 // As it is now.
 NormalMatrix& CurvatureLevel::square() const {
   auto& matrix = square_.matrix;
   if (!square_.is_old) return *matrix;
-  const auto middle = varies() ? NormalMatrix::Middle::connection : NormalMatrix::Middle::none;
-  // Some vertices were held, or let go; or it is of the other energy.
-  if (square_.vertices != shared_.unknowns.vertex || (matrix && matrix->middle() != middle))
-    matrix.reset();
-  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns, middle);
+  // Some vertices were held, or let go.
+  if (square_.vertices != shared_.unknowns.vertex) matrix.reset();
+  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
   square_.vertices = shared_.unknowns.vertex;
-  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr,
-                 {connection_.get(), float(share_)});
+  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
   square_.is_old = false;
   return *matrix;
 }
 
-template <class T>
-void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
+void CurvatureLevel::apply(const double* x, double* y) {
   if (varies()) {
-    auto& [moment, turned] = shared_.moments<T>();
-    if (moment.size() < 3 * grid_.size()) {
-      moment.resize(3 * grid_.size());
-      turned.resize(3 * grid_.size());
-    }
+    Array<double>&moment = shared_.moment, &turned = shared_.turned;
+    moment.resize(3 * grid_.size());
+    turned.resize(3 * grid_.size());
     take_moments(rows_, shared_.workers, x, moment.data());
     connection_->apply(share_, shared_.workers, moment.data(), turned.data());
-    apply_transposed(rows_, shared_.unknowns, shared_.workers, slots, turned.data(), y);
+    apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, turned.data(),
+                     y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
   } else {
     apply_rows(x, y);
@@ -64,14 +61,45 @@ void CurvatureLevel::apply_any(const T* x, T* y, ElementSlots<T, 1>& slots) {
   add_to_product(x, y);
 }
 
+void CurvatureLevel::find_between(const Array<double>& area) {
+  const std::size_t points = grid_.size();
+  root_.resize(points);
+  for_each_index(shared_.workers, points,
+                 [&](std::size_t i) { root_[i] = float(std::sqrt(area[i])); });
+  // Two edges lead to the border, and C's weights are about one. (With half or twice as much panels
+  // take up to a half more iterations.)
+  const auto stiffness = float(2 * grid_.n());
+  beside_border_.resize(points);
+  for_each_run(
+      grid_, shared_.workers, [&] { return RunGather<double>(grid_, area.data()); },
+      [&](const Run& run, RunGather<double>& gather) {
+        const int slots = rows_.of(run).slots;
+        const double* const* at = gather(run);
+        for (std::size_t i = 0; i < run.count; ++i) {
+          bool is_beside = false;
+          for (int s = 1; s < slots; ++s) is_beside |= !(at[s][i] > 0);
+          beside_border_[run.first + i] = is_beside ? stiffness : 0.0f;
+        }
+      });
+}
+
+void CurvatureLevel::apply_between(const float* x, float* y) {
+  Array<float> scaled(grid_.size());
+  for_each_index(shared_.workers, grid_.size(),
+                 [&](std::size_t i) { scaled[i] = root_[i] * x[i]; });
+  connection_->apply_to_scalar(shared_.workers, scaled.data(), y);
+  for_each_run(grid_, shared_.workers, [&](const Run& run) {
+    const bool is_unknown = shared_.unknowns.has(run);
+    for (std::size_t i = run.first; i < run.first + run.count; ++i)
+      y[i] = is_unknown ? root_[i] * y[i] + beside_border_[i] * x[i] : 0.0f;
+  });
+}
+
 template <class T>
 void CurvatureLevel::add_to_product(const T* x, T* y) const {
   for (std::size_t v = 0; v < weights_.size(); ++v) y[v] += T(weight(v)) * x[v];
   add_damping(x, y);
 }
-
-template void CurvatureLevel::apply_any(const double*, double*, ElementSlots<double, 1>&);
-template void CurvatureLevel::apply_any(const float*, float*, ElementSlots<float, 1>&);
 
 void CurvatureLevel::apply_on(const Unknowns& rows, const double* x, double* y) {
   apply_square(rows_, rows, shared_.workers, shared_.double_slots, x, y);
@@ -100,18 +128,12 @@ void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<f
   });
 }
 
-// Total curvature only.
 void CurvatureLevel::write_lines(LineBand& band, Workers& workers) {
-  if (!varies())
-    write_ring_lines(grid_, shared_.unknowns, inverse_diagonal_, workers, JacobianRows{rows_},
-                     band);
+  write_ring_lines(grid_, shared_.unknowns, inverse_diagonal_, workers, JacobianRows{rows_}, band);
 }
 
 void CurvatureLevel::set_damping(const Array<float>& mu, double share) {
-  if (std::exchange(share_, share) != share) {
-    square_.is_old = true;
-    update_diagonal();
-  }
+  if (std::exchange(share_, share) != share) update_diagonal();
   damping_.clear();
   inverse_diagonal_.resize(grid_.size());
   if (!mu.empty()) {
@@ -128,9 +150,9 @@ void CurvatureLevel::set_weights(const VertexWeights& weights) {
 }
 
 void CurvatureLevel::invert_diagonal(std::size_t i) {
-  float d = diagonal_[i];
-  if (i < weights_.size()) d += float(weight(i));
-  if (!damping_.empty()) d += damping_[i];
+  float d = varies() ? cycle_diagonal_[i] : diagonal_[i];
+  if (!varies() && i < weights_.size()) d += float(weight(i));
+  if (!varies() && !damping_.empty()) d += damping_[i];
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
 }
 
@@ -149,6 +171,11 @@ void CurvatureLevel::update_diagonal() {
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
                   varies() ? weight.data() : nullptr, diagonal_.data());
   if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
+  if (varies()) {
+    cycle_diagonal_.resize(points);
+    square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, nullptr,
+                    cycle_diagonal_.data());
+  }
 }
 
 }  // namespace fairing

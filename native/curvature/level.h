@@ -11,8 +11,6 @@
 #pragma once
 
 #include <memory>
-#include <type_traits>
-#include <utility>
 
 #include "curvature/area.h"
 #include "curvature/connection.h"
@@ -33,16 +31,7 @@ struct CurvatureShared {
   double tension = 0;  // tension times area is added to the energy
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
-  std::pair<Array<double>, Array<double>> double_moments{};
-  std::pair<Array<float>, Array<float>> float_moments{};
-
-  template <class T>
-  auto& moments() {
-    if constexpr (std::is_same_v<T, float>)
-      return float_moments;
-    else
-      return double_moments;
-  }
+  Array<double> moment{}, turned{};  // of minimum variation
 };
 
 // What a surface is linearized for.
@@ -79,6 +68,14 @@ class CurvatureLevel final : public LevelOperator {
 
   int linearizations() const { return linearizations_; }
 
+  // Where K varies, in single precision apply() and inverse_diagonal() are those of J^T W J, and this
+  // is the S that stands between two cycles with them (LinearSystem::between): y <- S x. The cotangent
+  // Laplacian C is of second order, and J^T W J C^-1 J^T W J of sixth, along thin faces as well. Beside
+  // a border, where J^T W J has surfaces without a moment and K has not, S has a spring of some n: what
+  // a moment there takes falls with the length of its waves, of which a control edge is the longest.
+  void apply_between(const float* x, float* y);
+  bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
+
   // M as it would be after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
 
@@ -94,12 +91,14 @@ class CurvatureLevel final : public LevelOperator {
 
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 1; }
-  void apply(const double* x, double* y) override { apply_any(x, y, shared_.double_slots); }
+  void apply(const double* x, double* y) override;
   void apply(const float* x, float* y) override;
   // y <- K x on `rows` without the weights, for an x that is zero off the unknowns. Total curvature
   // only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
-  bool single_precision_suffices() const override { return grid_.n() <= most_of_single; }
+  bool single_precision_suffices() const override {
+    return grid_.n() <= most_of_single && !varies();
+  }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
   void write_lines(LineBand& band, Workers& workers) override;
@@ -107,8 +106,7 @@ class CurvatureLevel final : public LevelOperator {
  private:
   struct Tensors;
   double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
-  template <class T>
-  void apply_any(const T* x, T* y, ElementSlots<T, 1>& slots);
+  void find_between(const Array<double>& area);
   void update_diagonal();
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
@@ -121,7 +119,6 @@ class CurvatureLevel final : public LevelOperator {
   double weight(std::size_t v) const { return shared_.unknowns.vertex[v] ? weights_[v] : 0.0; }
   void invert_diagonal(std::size_t i);
   bool is_tense() const { return area_ && shared_.tension > 0; }
-  bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
 
   CurvatureShared& shared_;
   const GridLevel& grid_;
@@ -139,7 +136,10 @@ class CurvatureLevel final : public LevelOperator {
     std::vector<std::uint8_t> vertices{};  // that were unknowns then
   };
   mutable Square square_;
-  std::unique_ptr<Connection> connection_;  // minimum variation only
+  std::unique_ptr<Connection> connection_;  // minimum variation only, and what follows as well
+  Array<float> root_;                       // of points' areas
+  Array<float> beside_border_;              // what S has there beside C, on its diagonal
+  Array<float> cycle_diagonal_;             // of J^T W J
   std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;
 };

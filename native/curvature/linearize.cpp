@@ -232,6 +232,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   if (varies()) {
     const double variation = connect(x, tensors, to.normal.data(), to.force.data());
     if (std::isfinite(bending_)) bending_ = variation;
+    find_between(tensors.area);
   }
   if (shared_.tension > 0) {
     if (!area_) area_ = std::make_unique<AreaTerm>(grid_);

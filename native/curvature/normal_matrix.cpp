@@ -10,13 +10,12 @@
 namespace fairing {
 namespace {
 
-// Room that is reserved a row: inside a quad, the ring's rings. Rows with the connection have about
-// twice as many numbers, 49.
+// Room that is reserved a row: inside a quad, the ring's rings.
 constexpr std::size_t regular_columns = 25;
 constexpr std::uint16_t none = 0xffff;
 constexpr std::size_t grain = vector_grain / regular_columns;  // rows worth a thread
 // Partial sums of a row's products, none of which waits for another. Regular rows have 19 or 25
-// numbers, and with the connection 37 or 49.
+// numbers.
 constexpr std::size_t sums = 6;
 
 // Whether no rings are so large that their squares are not linear.
@@ -59,8 +58,8 @@ bool NormalMatrix::suits(const RingJacobian& rows) {
   return rows.grid().n() <= most_pieces_of_matrix && is_linear(rows);
 }
 
-NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns, Middle middle)
-    : grid_(rows.grid()), middle_(middle) {
+NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
+    : grid_(rows.grid()) {
   const float* origin = rows.data();
   visit_rows(rows, [&](Index, const RowRun<const float>& run, std::size_t i,
                        const std::vector<Index>& points) {
@@ -71,32 +70,10 @@ NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns, M
   });
   jacobian_.begin.push_back(std::uint32_t(jacobian_.member.size()));
   jacobian_.number.resize(3 * jacobian_.member.size());
-  if (middle == Middle::connection) find_turned();
   const std::vector<Index> unknown = number_unknowns(grid_, unknowns);
   find_ring_slots(unknown);
   find_columns(unknown);
   number_.resize(column_.size());
-}
-
-void NormalMatrix::find_turned() {
-  const MomentRows& own = jacobian_;
-  std::size_t places = 0;
-  for (const Index q : own.member) places += own.size(std::size_t(q));
-  place_.reserve(places);
-  turned_.member.reserve(regular_columns * ring_.size());
-  NamedPoints points(ring_.size(), turned_.member);
-  for (std::size_t p = 0; p < ring_.size(); ++p) {
-    stop_if_cancelled(p);
-    turned_.begin.push_back(std::uint32_t(points.begin_row()));
-    place_begin_.push_back(place_.size());
-    for (std::uint32_t k = own.begin[p]; k < own.begin[p + 1]; ++k) {
-      const auto q = std::size_t(own.member[k]);
-      for (std::uint32_t m = own.begin[q]; m < own.begin[q + 1]; ++m)
-        place_.push_back(points.place(own.member[m]));
-    }
-  }
-  turned_.begin.push_back(std::uint32_t(turned_.member.size()));
-  turned_.number.resize(3 * turned_.member.size());
 }
 
 void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
@@ -118,11 +95,10 @@ void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
 }
 
 void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
-  const MomentRows& other = turned();
   std::size_t targets = 0;
-  for (const RingSlot& entry : ring_slot_) targets += other.size(entry.ring);
+  for (const RingSlot& entry : ring_slot_) targets += jacobian_.size(entry.ring);
   target_.reserve(targets);
-  column_.reserve((middle_ == Middle::none ? 1 : 2) * regular_columns * unknown.size());
+  column_.reserve(regular_columns * unknown.size());
   NamedPoints points(unknown.size(), column_);
   for (std::size_t p = 0; p < unknown.size(); ++p) {
     stop_if_cancelled(p);
@@ -130,8 +106,8 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
     target_begin_.push_back(target_.size());
     for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
       const std::uint32_t r = ring_slot_[k].ring;
-      for (std::uint32_t m = other.begin[r]; m < other.begin[r + 1]; ++m) {
-        const Index q = other.member[m];
+      for (std::uint32_t m = jacobian_.begin[r]; m < jacobian_.begin[r + 1]; ++m) {
+        const Index q = jacobian_.member[m];
         target_.push_back(unknown[std::size_t(q)] < 0 ? none : points.place(q));
       }
     }
@@ -140,8 +116,7 @@ void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
   target_begin_.push_back(target_.size());
 }
 
-void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension,
-                          const SharedConnection& between) {
+void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension) {
   const float* origin = rows.data();
   const std::size_t points = grid_.size();
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
@@ -154,8 +129,6 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
           to[3 * s + c] = origin[ring.first + (c * slots + s) * ring.stride];
     }
   });
-  if (middle_ == Middle::connection) update_turned(between, workers);
-  const MomentRows& turned_rows = turned();
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       float* row = number_.data() + column_begin_[p];
@@ -164,8 +137,8 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
       for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
         const RingSlot entry = ring_slot_[k];
         const float* own = jacobian_.number.data() + 3 * (jacobian_.begin[entry.ring] + entry.slot);
-        const float* other = turned_rows.number.data() + 3 * turned_rows.begin[entry.ring];
-        const float* last = turned_rows.number.data() + 3 * turned_rows.begin[entry.ring + 1];
+        const float* other = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring];
+        const float* last = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring + 1];
         for (; other < last; other += 3)
           if (const LocalColumn to = *target++; to != none)
             row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
@@ -175,37 +148,7 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
   if (tension) add_tension(*tension, workers);
 }
 
-// The connection has the rings of the Jacobian, and its rows lie as that one's do (Connection).
-void NormalMatrix::update_turned(const SharedConnection& between, Workers& workers) {
-  const float* origin = between.connection->rows().data();
-  workers.for_parts(ring_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      float* row = turned_.number.data() + 3 * turned_.begin[p];
-      std::fill_n(row, 3 * turned_.size(p), 0.0f);
-      const Ring& ring = ring_[p];
-      const std::size_t slots = jacobian_.size(p);
-      const LocalColumn* place = place_.data() + place_begin_[p];
-      for (std::size_t s = 0; s < slots; ++s) {
-        const auto at = [&](std::size_t c) {
-          return origin[ring.first + (c * slots + s) * ring.stride];
-        };
-        const float weight = s == 0 ? at(0) + between.share : at(0),
-                    cosine = s == 0 ? weight : at(1), sine = s == 0 ? 0.0f : at(2);
-        const auto q = std::size_t(jacobian_.member[jacobian_.begin[p] + s]);
-        const float* other = jacobian_.number.data() + 3 * jacobian_.begin[q];
-        const float* last = jacobian_.number.data() + 3 * jacobian_.begin[q + 1];
-        for (; other < last; other += 3) {
-          float* to = row + 3 * *place++;
-          to[0] += weight * other[0];
-          to[1] += cosine * other[1] - sine * other[2];
-          to[2] += sine * other[1] + cosine * other[2];
-        }
-      }
-    }
-  });
-}
-
-// A point's row of the Laplacian is over its own ring, whose members are among those of turned().
+// A point's row of the Laplacian is over its own ring.
 void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
   for_each_run(grid_, workers, [&](const Run& run) {
     const RowRun<const float> own = weights.of(run);
@@ -214,13 +157,11 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
       const LocalColumn* target = target_.data() + target_begin_[p];
       std::size_t k = ring_slot_begin_[p];
       const std::size_t last = ring_slot_begin_[p + 1];
-      for (; k < last && ring_slot_[k].ring != p; ++k) target += turned().size(ring_slot_[k].ring);
+      for (; k < last && ring_slot_[k].ring != p; ++k) target += jacobian_.size(ring_slot_[k].ring);
       if (k == last) continue;  // no unknown
       float* row = number_.data() + column_begin_[p];
-      const LocalColumn* place =
-          middle_ == Middle::none ? nullptr : place_.data() + place_begin_[p];
       for (int s = 1; s < own.slots; ++s) {
-        const LocalColumn to = target[place ? place[s] : s];
+        const LocalColumn to = target[s];
         row[target[0]] += own.at(0, s, i);
         if (to != none) row[to] -= own.at(0, s, i);
       }

@@ -13,8 +13,8 @@ namespace {
 
 // Of the residual's norm. More accuracy gains no outer step, or at most one.
 constexpr double inner_accuracy = 1e-2;
-// Iterations of a solve for minimum variation. Its K is of sixth order, which V-cycles lessen slowly:
-// what they leave goes to the next step, which does not count as having arrived (left_to_move.h).
+// Iterations of a solve for minimum variation. What they leave goes to the next step, which does not
+// count as having arrived (left_to_move.h).
 constexpr int most_of_variation = 24;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
@@ -86,7 +86,7 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
     Array<double>& coarse = buffer[l % 2];
     coarse.resize(3 * grid(l).size());
     inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
-    op(l).linearize(coarse.data(), {about.functional.energy});
+    op(l).linearize(coarse.data(), {});  // of total curvature, which cycles are of
     fine = &coarse;
   }
 }
@@ -94,8 +94,9 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
 void GaussNewtonSystem::set_damping(int level, const Array<float>& mu, double share) {
   Array<float> here = mu, below;
   for (int l = level; l >= base_; --l) {
-    op(l).set_damping(here, share);
-    if (mu.empty() || l == base_) continue;
+    op(l).set_damping(here, l == level ? share : 0);
+    if (op(level).varies()) here.clear();
+    if (here.empty() || l == base_) continue;
     below.resize(grid(l - 1).size());
     inject<1>(grid(l - 1), grid(l), workers(), here.data(), below.data());
     here.swap(below);
@@ -137,8 +138,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
       op(level).apply(x, r);
       for_each_index(workers(), points, [&](std::size_t i) { r[i] = force[i] - r[i]; });
     };
-    solved = hierarchy_->solve(index, limits(functional), {residual, h.data(), left.data()},
-                               [](const PcgResult&) {});
+    LinearSystem k{residual, h.data(), left.data()};
+    if (op(level).varies())
+      k.between = [&](const float* y, float* z) { op(level).apply_between(y, z); };
+    solved = hierarchy_->solve(index, limits(functional), k, [](const PcgResult&) {});
     report.iterations = solved.iterations;
   }
   report.residual = solved.residual;

@@ -16,9 +16,8 @@ namespace {
 
 // Thin: of triangles alone more than a fifth, otherwise more than a fortieth of the faces are longer
 // than 16 times their area by length, as quads of 1 to 16 are.
-// Even: at most a tenth are longer than that of an equilateral triangle 1.7 times, or of a square twice.
 void judge_shapes(const ControlMesh& mesh, Counts& c) {
-  std::size_t thin = 0, uneven = 0;
+  std::size_t thin = 0;
   for (const Face& face : mesh.faces) {
     const auto corner = [&](std::size_t i) { return mesh.positions[std::size_t(face.vertex[i])]; };
     const std::size_t size = face.quad() ? 4 : 3;
@@ -28,10 +27,8 @@ void judge_shapes(const ControlMesh& mesh, Counts& c) {
     for (std::size_t i = 2; i < size; ++i)
       twice_area += (corner(i - 1) - corner(0)).cross(corner(i) - corner(0)).norm();
     thin += longest > 8 * twice_area;
-    uneven += longest > (face.quad() ? 1 : 2) * twice_area;
   }
   c.thin = (c.quads > c.triangles ? 40 : 5) * thin > mesh.faces.size();
-  c.even = 10 * uneven <= mesh.faces.size();
 }
 
 // Faces with the vertices that they have, numbered in order. Their places are nobody's concern.

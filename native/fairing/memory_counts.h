@@ -26,7 +26,6 @@ struct Counts {
   // Faces of each part that edges of unknowns connect: a factor is one of each.
   std::vector<std::int64_t> parts{};
   bool thin = false;  // many thin faces: rows have few numbers in common
-  bool even = false;  // hardly any face that is not about as long as wide
 
   std::int64_t faces() const { return triangles + quads; }
   std::int64_t welded_triangles() const { return triangles - copied_triangles; }

@@ -73,52 +73,25 @@ std::int64_t plate_factor_bytes(const Counts& c, int level) {
   return std::int64_t(open * numbers * double(matrix_entry));
 }
 
-// Numbers a column of the factor of minimum variation, whose rows reach farther than a plate's.
-// Measured on 1,700 to 29,000 unknowns: 137 to 295 of triangles, 230 to 340 of quads, about 15 %
-// less where faces have few points.
-double columns_of_variation(const Counts& c, std::int64_t unknowns) {
-  const double doublings = std::log2(double(std::max<std::int64_t>(unknowns, 2)));
-  return std::max(30.0, double(mixed(c, 39 * doublings - 283, 52 * doublings - 425)));
-}
-
-// What the level takes that steps to minimum variation prove hard, beside what they hold there of
-// the finest: its factor, and what assembling it takes beside the last one. Faces of all shapes make
-// a level hard, other than even ones.
-std::int64_t hard_bytes(const Counts& c, int levels, std::int64_t on_finest) {
-  int hard = -1;
-  for (int l = 0; l <= levels && !c.even; ++l)
-    if (c.unknowns(l) <= std::int64_t(direct_limit_of_steps)) hard = l;
-  if (hard < 0) return on_finest;
-  const std::int64_t points = c.used_points(hard);
-  const double factor = double(matrix_entry) * columns_of_variation(c, points);
-  const std::int64_t assembled = mixed(c, 1450, 1930) * points,
-                     beside =
-                         hard < levels ? on_finest + assembled : std::max(on_finest, assembled);
-  return std::int64_t(factor * double(points)) + beside;
-}
-
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
-// rows of the Jacobian, and for minimum variation as many again and moments; on levels with few
-// points an edge the normal matrix, of whichever energy; on the finest level surfaces, steps, and what
-// steps are accelerated with.
+// rows of the Jacobian and the smoother's lines, and for minimum variation as many rows again and
+// moments; on levels with few points an edge the normal matrix; on the finest level surfaces, steps,
+// and what steps are accelerated with.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
                         bool tense) {
   constexpr std::int64_t moment_bytes = 112, surface_bytes = 480;  // bytes a point
   const bool varies = energy == Energy::minimum_variation;
-  const std::int64_t row = mixed(c, 84, 108),
-                     normal_matrix = varies ? mixed(c, 1190, 1680) : mixed(c, 486, 624);
+  const std::int64_t row = mixed(c, 84, 108), normal_matrix = mixed(c, 486, 624);
   std::int64_t normal_matrices = 0, factored = 0;
   for (int l = 0; l <= levels; ++l) {
     if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.used_points(l);
     if (c.unknowns(l) <= std::int64_t(l > 1 ? tiny_level : direct_limit))
       factored = c.used_points(l);
   }
-  const std::int64_t rows = (varies ? 2 * row + moment_bytes : row + line_bytes) +
-                            (tense ? row / 3 : 0),
-                     on_finest = surface_bytes * c.points(levels),
-                     usual = on_finest + 2 * std::int64_t(factor_bytes(std::size_t(factored)));
-  return rows * all_points + normal_matrices +
-         (varies ? std::max(hard_bytes(c, levels, on_finest), usual) : usual);
+  const std::int64_t rows =
+      row + line_bytes + (varies ? row + moment_bytes : 0) + (tense ? row / 3 : 0);
+  return rows * all_points + normal_matrices + surface_bytes * c.points(levels) +
+         2 * std::int64_t(factor_bytes(std::size_t(factored)));
 }
 
 // The peak of a run: while it solves, or at its end, when surface and faces are written. A level

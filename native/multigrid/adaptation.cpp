@@ -46,7 +46,7 @@ bool Hierarchy::knows_factor_below(std::size_t index) const {
 }
 
 bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
-  if (limits.may_end_early) return unknowns_[index] <= options_.cheap_factor;
+  if (limits.may_end_early) return false;
   if (unknowns_[index] <= direct_limit_of_hard) return true;
   if (!knows_factor_below(index)) return false;
   const double growth =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "parallel/reductions.h"
 
@@ -25,7 +26,8 @@ constexpr double settled_margin = 1.03;
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
                      const std::vector<HierarchyLevel>& levels)
     : workers_(workers), options_(options), cycle_(workers) {
-  cycle_.degree = options.smoother_degree > 0 ? options.smoother_degree : options.usual_degree;
+  degree_of_two_ = cycle_.degree =
+      options.smoother_degree > 0 ? options.smoother_degree : options.usual_degree;
   for (const HierarchyLevel& level : levels) {
     CycleLevel& own = cycle_.levels.emplace_back();
     own.op = &level.op;
@@ -111,6 +113,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
 PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                              const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
+  if (system.between) std::swap(cycle_.degree, degree_of_two_);
   for (std::size_t l = cycle_.base; l <= index; ++l) seek_lines(l);
   estimate_eigenvalues(index, system.r);
   PcgResult result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
@@ -118,6 +121,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
                                            each(so_far);
                                            return !adapt || goes_on(index, so_far, limits);
                                          });
+  if (system.between) std::swap(cycle_.degree, degree_of_two_);
   out.iterations += result.iterations;
   out.residuals = result.history;
   return result;

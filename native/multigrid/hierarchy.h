@@ -116,6 +116,7 @@ class Hierarchy {
   std::unique_ptr<CoarseSolver> coarse_;
   bool is_factor_old_ = false;  // of another K than its level's
   int factors_ = 0;
+  int degree_of_two_ = 0;  // the smoother's, where two cycles precondition (LinearSystem::between)
   PcgState pcg_;
 };
 

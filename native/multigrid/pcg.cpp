@@ -128,6 +128,10 @@ class Iteration {
     float* to = level_.state.residual.data();
     for_each_index(workers_, size_, [&](std::size_t i) { to[i] = float(v_.r[i] / z_unit_); });
     cycle_.run(top_);
+    if (system_.between && !cycle_.solves(top_)) {
+      system_.between(level_.state.x.data(), level_.state.residual.data());
+      cycle_.run(top_);
+    }
     return level_.state.x.data();  // only now: the smoother swaps its vectors
   }
 

@@ -27,8 +27,8 @@ struct PcgLimits {
   bool by_error = false;
   // From the start, or to so much of the scales above, whichever comes first; 0: never the latter.
   double enough = 0;
-  // Whether the caller can do with what there is at the end: then levels whose factor is not cheap are
-  // not factored, and the smoother's degree stays low.
+  // Whether the caller can do with what there is at the end: then no level is factored, and the
+  // smoother's degree stays low.
   bool may_end_early = false;
   // Whether the smoother may change on the way: not where how it goes says nothing of later solves.
   bool may_adapt = true;
@@ -57,6 +57,9 @@ struct LinearSystem {
   std::function<void(const double* x, double* r)> residual;
   double* x;  // is improved in place
   double* r;  // b - K x of x as it is, which is overwritten
+  // z <- S y, where K is nearly A S^-1 A, with the A that the cycle's levels apply in single
+  // precision: a cycle, S, and another cycle precondition. Empty: A is K.
+  std::function<void(const float* y, float* z)> between{};
 };
 
 // Work vectors of the conjugate gradients, kept between levels.

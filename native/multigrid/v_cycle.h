@@ -84,6 +84,9 @@ class VCycle {
   std::size_t base = 0;
   int degree = 0;  // of the smoother, before and after
 
+  // Whether a cycle on that level is a direct solve.
+  bool solves(std::size_t top) const { return top == base && coarse->direct(); }
+
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.
   void run(std::size_t top);

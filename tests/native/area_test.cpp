@@ -178,8 +178,9 @@ TEST(Area, JoinsTheSystemOfEitherEnergy) {
         for (std::size_t p = 0; p < in.size(); ++p) {
           const double expected = number[p] < 0 ? 0 : small(number[p]);
           EXPECT_NEAR(out[p], expected, 1e-6 * scale) << p;
+          if (system.varies()) continue;  // narrow: another matrix, which cycles are of
           EXPECT_NEAR(narrow_out[p], expected, 1e-5 * scale) << p;
-          if (number[p] >= 0 && energy == CurvatureEnergy::total_curvature) {
+          if (number[p] >= 0) {
             EXPECT_NEAR(system.diagonal()[p], assembled.matrix.coeff(number[p], number[p]),
                         1e-5 * double(system.diagonal()[p]));
           }

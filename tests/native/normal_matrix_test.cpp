@@ -88,21 +88,6 @@ TEST(NormalMatrix, DoesWhatThePassesDo) {
   });
 }
 
-TEST(NormalMatrix, HasTheConnectionBetween) {
-  on_all([](RandomRows& s) {
-    Connection connection(s.lattice);
-    fill(connection.weights());
-    NormalMatrix square(s.rows, s.unknowns, NormalMatrix::Middle::connection);
-    square.update(s.rows, s.workers, nullptr, {&connection, 0.25f});
-    Array<float> moment(3 * s.lattice.size()), turned(moment.size());
-    s.expect_same(square, [&](const float* x, float* y) {
-      take_moments(s.rows, s.workers, x, moment.data());
-      connection.apply(0.25, s.workers, moment.data(), turned.data());
-      apply_transposed(s.rows, s.unknowns, s.workers, s.exchange, turned.data(), y);
-    });
-  });
-}
-
 TEST(NormalMatrix, IsNotForLargeRingsNorLargeFaces) {
   const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   const GridLevel fine(mesh, 5);
