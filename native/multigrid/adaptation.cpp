@@ -87,8 +87,7 @@ void Hierarchy::promote_to_coarsest(std::size_t index) {
 
 // What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows,
 // so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
-void Hierarchy::raise_degree(std::size_t index, const PcgResult& result,
-                             const PcgLimits& limits) {
+void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, const PcgLimits& limits) {
   // The first iterations are the easy ones; the latest tell more.
   const int window = std::min(result.iterations, probe_interval);
   const double gained =

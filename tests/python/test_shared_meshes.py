@@ -23,7 +23,9 @@ CODES = {
     "COINCIDENT_VERTICES",
 }
 TOROIDAL = [
-    p for p in shared_files("good/cages", *SUFFIXES) if "catmark_toroidal" in p.id or p.id == "absent"
+    p
+    for p in shared_files("good/cages", *SUFFIXES)
+    if "catmark_toroidal" in p.id or p.id == "absent"
 ]
 
 
