@@ -51,6 +51,7 @@ void substitute(const Ldlt& ldlt, double* x) {
   const SparseMatrix& l = ldlt.matrixL().nestedExpression();  // without its diagonal of ones
   const int *const begin = l.outerIndexPtr(), *const row = l.innerIndexPtr();
   const double* const number = l.valuePtr();
+  const auto diagonal = ldlt.vectorD();  // a copy each time
   double sum[C];
   for (int c = 0; c < l.cols(); ++c) {
     std::copy_n(x + C * c, C, sum);
@@ -58,7 +59,7 @@ void substitute(const Ldlt& ldlt, double* x) {
       for (int a = 0; a < C; ++a) x[C * row[k] + a] -= sum[a] * number[k];
   }
   for (int c = int(l.cols()) - 1; c >= 0; --c) {
-    const double inverse = 1 / ldlt.vectorD()(c);
+    const double inverse = 1 / diagonal(c);
     for (int a = 0; a < C; ++a) sum[a] = inverse * x[C * c + a];
     for (int k = begin[c]; k < begin[c + 1]; ++k)
       for (int a = 0; a < C; ++a) sum[a] -= number[k] * x[C * row[k] + a];
