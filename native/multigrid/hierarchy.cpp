@@ -21,6 +21,20 @@ constexpr std::size_t most_refactored = 4 * tiny_level;
 // On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
 constexpr double settled_margin = 1.03;
 
+// Two numbers, the one for the other as long as it lives, where they are to be: a cancelled run throws.
+class Exchanged {
+ public:
+  Exchanged(int& one, int& other, bool are) : one_(one), other_(are ? other : one) {
+    std::swap(one_, other_);
+  }
+  ~Exchanged() { std::swap(one_, other_); }
+  Exchanged(const Exchanged&) = delete;
+  Exchanged& operator=(const Exchanged&) = delete;
+
+ private:
+  int &one_, &other_;
+};
+
 }  // namespace
 
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
@@ -113,7 +127,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
 PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                              const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
-  if (system.between) std::swap(cycle_.degree, degree_of_two_);
+  const Exchanged degrees(cycle_.degree, degree_of_two_, bool(system.between));
   for (std::size_t l = cycle_.base; l <= index; ++l) seek_lines(l);
   estimate_eigenvalues(index, system.r);
   PcgResult result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
@@ -121,7 +135,6 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
                                            each(so_far);
                                            return !adapt || goes_on(index, so_far, limits);
                                          });
-  if (system.between) std::swap(cycle_.degree, degree_of_two_);
   out.iterations += result.iterations;
   out.residuals = result.history;
   return result;
