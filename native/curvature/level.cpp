@@ -51,7 +51,7 @@ void CurvatureLevel::apply(const double* x, double* y) {
     moment.resize(3 * grid_.size());
     turned.resize(3 * grid_.size());
     take_moments(rows_, shared_.workers, x, moment.data());
-    connection_->apply(share_, shared_.workers, moment.data(), turned.data());
+    variation_->connection.apply(share_, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, turned.data(),
                      y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
@@ -63,13 +63,14 @@ void CurvatureLevel::apply(const double* x, double* y) {
 
 void CurvatureLevel::find_between(const Array<double>& area) {
   const std::size_t points = grid_.size();
-  root_.resize(points);
+  Array<float>&root = variation_->root, &beside_border = variation_->beside_border;
+  root.resize(points);
   for_each_index(shared_.workers, points,
-                 [&](std::size_t i) { root_[i] = float(std::sqrt(area[i])); });
+                 [&](std::size_t i) { root[i] = float(std::sqrt(area[i])); });
   // Two edges lead to the border, and C's weights are about one. (With half or twice as much panels
   // take up to a half more iterations.)
   const auto stiffness = float(2 * grid_.n());
-  beside_border_.resize(points);
+  beside_border.resize(points);
   for_each_run(
       grid_, shared_.workers, [&] { return RunGather<double>(grid_, area.data()); },
       [&](const Run& run, RunGather<double>& gather) {
@@ -78,20 +79,21 @@ void CurvatureLevel::find_between(const Array<double>& area) {
         for (std::size_t i = 0; i < run.count; ++i) {
           bool is_beside = false;
           for (int s = 1; s < slots; ++s) is_beside |= !(at[s][i] > 0);
-          beside_border_[run.first + i] = is_beside ? stiffness : 0.0f;
+          beside_border[run.first + i] = is_beside ? stiffness : 0.0f;
         }
       });
 }
 
 void CurvatureLevel::apply_between(const float* x, float* y) {
+  const Variation& of = *variation_;
   Array<float> scaled(grid_.size());
   for_each_index(shared_.workers, grid_.size(),
-                 [&](std::size_t i) { scaled[i] = root_[i] * x[i]; });
-  connection_->apply_to_scalar(shared_.workers, scaled.data(), y);
+                 [&](std::size_t i) { scaled[i] = of.root[i] * x[i]; });
+  of.connection.apply_to_scalar(shared_.workers, scaled.data(), y);
   for_each_run(grid_, shared_.workers, [&](const Run& run) {
     const bool is_unknown = shared_.unknowns.has(run);
     for (std::size_t i = run.first; i < run.first + run.count; ++i)
-      y[i] = is_unknown ? root_[i] * y[i] + beside_border_[i] * x[i] : 0.0f;
+      y[i] = is_unknown ? of.root[i] * y[i] + of.beside_border[i] * x[i] : 0.0f;
   });
 }
 
@@ -150,7 +152,7 @@ void CurvatureLevel::set_weights(const VertexWeights& weights) {
 }
 
 void CurvatureLevel::invert_diagonal(std::size_t i) {
-  float d = varies() ? cycle_diagonal_[i] : diagonal_[i];
+  float d = varies() ? variation_->cycle_diagonal[i] : diagonal_[i];
   if (!varies() && i < weights_.size()) d += float(weight(i));
   if (!varies() && !damping_.empty()) d += damping_[i];
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
@@ -162,7 +164,7 @@ void CurvatureLevel::update_diagonal() {
   Array<float> weight;
   if (varies()) {
     weight.resize(points);
-    visit_rows(connection_->rows(),
+    visit_rows(variation_->connection.rows(),
                [&](Index p, const RowRun<const float>& run, std::size_t i, const auto&) {
                  weight[std::size_t(p)] = run.at(0, 0, i) + float(share_);
                });
@@ -172,9 +174,9 @@ void CurvatureLevel::update_diagonal() {
                   varies() ? weight.data() : nullptr, diagonal_.data());
   if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
   if (varies()) {
-    cycle_diagonal_.resize(points);
+    variation_->cycle_diagonal.resize(points);
     square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, nullptr,
-                    cycle_diagonal_.data());
+                    variation_->cycle_diagonal.data());
   }
 }
 

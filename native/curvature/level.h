@@ -136,11 +136,16 @@ class CurvatureLevel final : public LevelOperator {
     std::vector<std::uint8_t> vertices{};  // that were unknowns then
   };
   mutable Square square_;
-  std::unique_ptr<Connection> connection_;  // minimum variation only, and what follows as well
-  Array<float> root_;                       // of points' areas
-  Array<float> beside_border_;              // what S has there beside C, on its diagonal
-  Array<float> cycle_diagonal_;             // of J^T W J
-  std::unique_ptr<AreaTerm> area_;          // under tension only, once linearized
+  struct Variation {
+    explicit Variation(const GridLevel& grid) : connection(grid) {}
+
+    Connection connection;
+    Array<float> root;            // of points' areas
+    Array<float> beside_border;   // what S has there beside C, on its diagonal
+    Array<float> cycle_diagonal;  // of J^T W J
+  };
+  std::unique_ptr<Variation> variation_;  // of minimum variation, once linearized
+  std::unique_ptr<AreaTerm> area_;        // under tension only, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;
 };
 

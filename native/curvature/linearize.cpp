@@ -139,7 +139,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   const RegionWeight region_weight(grid_);
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
-  if (varies() && !connection_) connection_ = std::make_unique<Connection>(grid_);
+  if (varies() && !variation_) variation_ = std::make_unique<Variation>(grid_);
   Tensors tensors;
   if (varies()) tensors.resize(grid_.size());
   ElementSums energy(mesh);
@@ -181,7 +181,8 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     if (!has_fit(mesh, run)) return clear_points(run.first, run.count);
     PointScratch& point = gather.point;
     const RowRun<float> rows = rows_.of(run);
-    const RowRun<float> cotangents = varies() ? connection_->weights().of(run) : RowRun<float>{};
+    const RowRun<float> cotangents =
+        varies() ? variation_->connection.weights().of(run) : RowRun<float>{};
     const auto weight = [&](std::size_t i) { return weight_at(region_weight, run, i); };
     const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
       const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
@@ -251,8 +252,9 @@ double CurvatureLevel::connect(const double* x, const Tensors& tensors, const do
                                double* force) {
   const std::size_t points = grid_.size();
   Array<double> moment(3 * points);
-  const double energy = connection_->set({x, normal, tensors.axis.data(), tensors.area.data()},
-                                         tensors.shape.data(), shared_.workers, moment.data());
+  const double energy =
+      variation_->connection.set({x, normal, tensors.axis.data(), tensors.area.data()},
+                                 tensors.shape.data(), shared_.workers, moment.data());
   for_each_index(shared_.workers, 3 * points, [&](std::size_t i) { moment[i] = -moment[i]; });
   apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, moment.data(),
                    force);
