@@ -72,11 +72,11 @@ def test_suzanne_is_not_blamed_for_what_her_mesh_does():
 
 @pytest.mark.parametrize("most", [500, 3000, 40_000])
 def test_fine_surfaces_are_looked_at_by_fewer_points(most, monkeypatch):
-    job = computed(add("Mug", *mug(wall=0.1)), energy="TOTAL_CURVATURE", levels=2)
+    job = computed(add("Mug", *mug(wall=0.07)), energy="TOTAL_CURVATURE", levels=2)
     monkeypatch.setattr(faults, "MOST", most)
     found = faults.find_faults(job.result, job.carrier, job.arrays)
     assert job.carrier.triangle_count == 1536 and found.counts["crossing"] > 20
-    plain = computed(add("Thin", *mug(wall=0.1)), energy="THIN_PLATE", levels=3)
+    plain = computed(add("Thin", *mug(wall=0.07)), energy="THIN_PLATE", levels=3)
     assert faults.find_faults(plain.result, plain.carrier, plain.arrays).counts == {}
 
 
