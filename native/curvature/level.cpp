@@ -63,7 +63,11 @@ void CurvatureLevel::apply(const double* x, double* y) {
 
 void CurvatureLevel::find_between(const Array<double>& area) {
   const std::size_t points = grid_.size();
-  Array<float>&root = variation_->root, &beside_border = variation_->beside_border;
+  Array<float>&root = variation_->root, &beside_border = variation_->beside_border,
+  &cycle_diagonal = variation_->cycle_diagonal;
+  cycle_diagonal.resize(points);
+  square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, nullptr,
+                  cycle_diagonal.data());
   root.resize(points);
   for_each_index(shared_.workers, points,
                  [&](std::size_t i) { root[i] = float(std::sqrt(area[i])); });
@@ -173,11 +177,6 @@ void CurvatureLevel::update_diagonal() {
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots,
                   varies() ? weight.data() : nullptr, diagonal_.data());
   if (is_tense()) area_->add_diagonal(shared_.unknowns, diagonal_.data());
-  if (varies()) {
-    variation_->cycle_diagonal.resize(points);
-    square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, nullptr,
-                    variation_->cycle_diagonal.data());
-  }
 }
 
 }  // namespace fairing

@@ -81,7 +81,6 @@ struct GaussNewtonSystem::HeldSolve {
   double first_force = 0, first_gap = 0;
   Array<double> r = Array<double>(h.size()), product = Array<double>(h.size(), 0.0);  // of h
 
-  const Hats* pads() const { return hats.get(); }          // or null
   HoldAlongNormals* hold() const { return system.hold_; }  // or null
   const VertexWeights& weights() const { return system.op(level).weights(); }
   bool bounds() const { return hold() && hold()->active(); }
@@ -89,14 +88,14 @@ struct GaussNewtonSystem::HeldSolve {
 
   // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.
   NormalLoads fitting_loads() const {
-    NormalLoads under = pads()->gather(about.linearization.force), loads;
+    NormalLoads under = hats->gather(about.linearization.force), loads;
     for (auto& f : under) f = -f;
-    pads()->divide_by_mass<1>(under, loads);
+    hats->divide_by_mass<1>(under, loads);
     return loads;
   }
 
   void start() {
-    if (pads() && held.loads.empty()) held.loads = fitting_loads();
+    if (hats && held.loads.empty()) held.loads = fitting_loads();
     forces.assign(held.loads.size(), NormalLoads::value_type::Zero());
     go_to_ends();
   }
@@ -108,12 +107,12 @@ struct GaussNewtonSystem::HeldSolve {
 
   void load() {
     force = about.linearization.force;
-    if (pads()) pads()->add_loads(held.loads, force.data());
+    if (hats) hats->add_loads(held.loads, force.data());
   }
 
   // product <- K x without the weights.
   void multiply(const double* x) {
-    system.op(level).apply_on(pads() ? pads()->rows() : system.shared_.unknowns, x, product.data());
+    system.op(level).apply_on(hats ? hats->rows() : system.shared_.unknowns, x, product.data());
   }
 
   // Of x, whose product is known.
@@ -122,7 +121,7 @@ struct GaussNewtonSystem::HeldSolve {
     for_each_index(system.workers(), h.size(),
                    [&](std::size_t i) { out[i] = force[i] - product[i]; });
     take_point_forces<1>(
-        shared.unknowns, weights(), pads(), held.loads,
+        shared.unknowns, weights(), hats.get(), held.loads,
         [&](std::size_t v) { return NormalLoads::value_type(hold()->way(v) - x[v]); }, forces, out);
   }
 
@@ -130,7 +129,7 @@ struct GaussNewtonSystem::HeldSolve {
   // prolongation: it belongs to their forces. Their own rows alone know only that of points beside
   // them (measured: a cube at level 7 ended 4e-4 off its sphere with one degree of the smoother).
   void foresee() {
-    const Unknowns& carried = pads()->rows();
+    const Unknowns& carried = hats->rows();
     Array<float> fine(h.size() + vector_room), coarse;
     for (std::size_t i = 0; i < h.size(); ++i) fine[i] = float(r[i]);
     for (int l = level; l > 0; --l) {
@@ -141,12 +140,12 @@ struct GaussNewtonSystem::HeldSolve {
       fine.swap(coarse);
     }
     for (std::size_t v = 0; v < forces.size(); ++v)
-      if (pads()->under(v)) forces[v][0] -= double(fine[v]);
+      if (hats->under(v)) forces[v][0] -= double(fine[v]);
   }
 
   LevelSolve solve() {
     PcgLimits goal = system.limits(about.functional);
-    if (pads() || bounds()) goal.tolerance = system.share_left(level, about.functional);
+    if (hats || bounds()) goal.tolerance = system.share_left(level, about.functional);
     const LevelSolve solved = system.hierarchy_->solve(
         std::size_t(level - system.base_), goal,
         {[this](const double* x, double* out) { multiply(x), take_residual(x, out); }, h.data(),
@@ -155,18 +154,18 @@ struct GaussNewtonSystem::HeldSolve {
     report.iterations += solved.iterations;
     if (!system.op(level).single_precision_suffices()) multiply(h.data());
     take_residual(h.data(), r.data());
-    if (pads() && !hold() && !solved.direct) foresee();
+    if (hats && !hold() && !solved.direct) foresee();
     return solved;
   }
 
   bool loads_settled() {
-    if (!pads()) return true;
+    if (!hats) return true;
     NormalLoads product;
     const std::vector<double> compliance_ratio =
-        hold() ? compliance_ratios(system.shared_.unknowns, weights(), system.stiffness_, *pads())
+        hold() ? compliance_ratios(system.shared_.unknowns, weights(), system.stiffness_, *hats)
                : std::vector<double>{};
-    pads()->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
-    pads()->multiply_mass<1>(held.loads, product);
+    hats->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
+    hats->multiply_mass<1>(held.loads, product);
     const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
                  size = std::sqrt(std::max(0.0, dot<1>(held.loads, product)));
     if (first_force == 0) first_force = left;
@@ -197,7 +196,7 @@ struct GaussNewtonSystem::HeldSolve {
   }
 
   void correct(LoadSteps<1>& steps) {
-    if (!pads()) return;
+    if (!hats) return;
     const Multipliers<1> change = steps.change(correction);
     for (std::size_t v = 0; v < held.loads.size(); ++v) held.loads[v] += change.loads[v];
     ++report.pad_corrections;
@@ -205,11 +204,11 @@ struct GaussNewtonSystem::HeldSolve {
 
   LevelSolve end(const LevelSolve& solved) {
     Array<double> of_loads(h.size(), 0.0);
-    if (pads()) pads()->add_loads(held.loads, of_loads.data());
+    if (hats) hats->add_loads(held.loads, of_loads.data());
     if (hold()) {
       held.bounds = hold()->sides();
       for (std::size_t v = 0; v < weights().size(); ++v) {
-        if (!system.shared_.unknowns.vertex[v] || (pads() && pads()->under(v))) continue;
+        if (!system.shared_.unknowns.vertex[v] || (hats && hats->under(v))) continue;
         const double spring = weights()[v] * (hold()->way(v) - h[v]);
         of_loads[v] += spring;
         force[v] += spring;
@@ -222,7 +221,7 @@ struct GaussNewtonSystem::HeldSolve {
 
   LevelSolve run() {
     start();
-    LoadSteps<1> steps = load_steps<1>(pads());
+    LoadSteps<1> steps = load_steps<1>(hats.get());
     int corrections = 0;  // with these ends
     load();
     if (bounds()) multiply(h.data());  // else h is zero
