@@ -2,7 +2,9 @@
 #include "curvature/normal_matrix.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/simd.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 #include "sparse/unknown_points.h"
@@ -10,52 +12,67 @@
 namespace fairing {
 namespace {
 
-// Room that is reserved a row: inside a quad, the ring's rings.
-constexpr std::size_t regular_columns = 25;
-constexpr std::uint16_t none = 0xffff;
-constexpr std::size_t grain = vector_grain / regular_columns;  // rows worth a thread
-// Partial sums of a row's products, none of which waits for another. Regular rows have 19 or 25
-// numbers.
-constexpr std::size_t sums = 6;
+// Columns of a block.
+constexpr std::size_t block_size = 4;
+using Four = Packs<float, block_size * sizeof(float)>;
 
-// Whether no rings are so large that their squares are not linear.
-bool is_linear(const RingJacobian& rows) {
-  const GridLevel& grid = rows.grid();
+// Room that is reserved a row.
+constexpr std::size_t usual_blocks = 8;
+constexpr std::uint16_t none = 0xffff;
+constexpr std::size_t grain = vector_grain / (block_size * usual_blocks);  // rows worth a thread
+
+// Whether no rings are so large that their squares are not linear, nor that 16 bits do not tell the
+// places in a row apart: a vertex' ring of rings has three points a slot, at most each in a block.
+bool are_small(const GridLevel& grid, const RingJacobian& rows) {
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
     const auto slots = std::size_t(rows.of(vertex_run(v)).slots);
     products += slots * slots;
+    if (3 * slots * block_size >= none) return false;
   }
   return worth_products(products, grid.size());
 }
 
-// Points in the order in which a row first names them, row after row.
-class NamedPoints {
+// The columns of one row after another, and their blocks.
+class RowBlocks {
  public:
-  NamedPoints(std::size_t points, Array<Index>& named) : seen_(points, 0), named_(named) {}
+  RowBlocks(std::size_t points, Array<Index>& block)
+      : seen_(points, 0), place_(points), last_first_(Index(points - block_size)), block_(block) {}
 
-  // Where its points begin.
-  std::size_t begin_row() { return first_ = named_.size(); }
-  // A point's place in the row.
-  std::uint16_t place(Index q) {
-    std::size_t& at = seen_[std::size_t(q)];
-    if (at <= first_) {
-      named_.push_back(q);
-      at = named_.size();
-    }
-    return std::uint16_t(at - 1 - first_);
+  void begin_row() {
+    ++row_;
+    column_.clear();
   }
+  void name(Index q) {
+    if (std::exchange(seen_[std::size_t(q)], row_) != row_) column_.push_back(q);
+  }
+  // The row has all its columns: from here on places are known.
+  void finish_row() {
+    std::sort(column_.begin(), column_.end());
+    const std::size_t begin = block_.size();
+    for (const Index q : column_) {
+      if (block_.size() == begin || q >= block_.back() + Index(block_size))
+        block_.push_back(std::min(q, last_first_));
+      place_[std::size_t(q)] =
+          std::uint16_t(block_size * (block_.size() - 1 - begin) + std::size_t(q - block_.back()));
+    }
+  }
+  std::uint16_t place(Index q) const { return place_[std::size_t(q)]; }
 
  private:
-  std::vector<std::size_t> seen_;  // 1 + the place among all
-  Array<Index>& named_;
-  std::size_t first_ = 0;
+  std::vector<std::uint32_t> seen_;   // in which row last
+  std::vector<std::uint16_t> place_;  // there
+  std::vector<Index> column_;
+  Index last_first_;  // of blocks that end with the last point
+  std::uint32_t row_ = 0;
+  Array<Index>& block_;
 };
 
 }  // namespace
 
 bool NormalMatrix::suits(const RingJacobian& rows) {
-  return rows.grid().n() <= most_pieces_of_matrix && is_linear(rows);
+  const GridLevel& grid = rows.grid();
+  return has_rows(grid.n(), grid.size()) && grid.size() >= block_size && are_small(grid, rows);
 }
 
 NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
@@ -72,8 +89,8 @@ NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
   jacobian_.number.resize(3 * jacobian_.member.size());
   const std::vector<Index> unknown = number_unknowns(grid_, unknowns);
   find_ring_slots(unknown);
-  find_columns(unknown);
-  number_.resize(column_.size());
+  find_blocks(unknown);
+  number_.resize(block_size * block_.size());
 }
 
 void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
@@ -94,25 +111,32 @@ void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
   }
 }
 
-void NormalMatrix::find_columns(const std::vector<Index>& unknown) {
+void NormalMatrix::find_blocks(const std::vector<Index>& unknown) {
   std::size_t targets = 0;
   for (const RingSlot& entry : ring_slot_) targets += jacobian_.size(entry.ring);
   target_.reserve(targets);
-  column_.reserve(regular_columns * unknown.size());
-  NamedPoints points(unknown.size(), column_);
+  block_.reserve(usual_blocks * unknown.size());
+  RowBlocks row(unknown.size(), block_);
   for (std::size_t p = 0; p < unknown.size(); ++p) {
     stop_if_cancelled(p);
-    column_begin_.push_back(points.begin_row());
+    block_begin_.push_back(block_.size());
     target_begin_.push_back(target_.size());
-    for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
-      const std::uint32_t r = ring_slot_[k].ring;
-      for (std::uint32_t m = jacobian_.begin[r]; m < jacobian_.begin[r + 1]; ++m) {
-        const Index q = jacobian_.member[m];
-        target_.push_back(unknown[std::size_t(q)] < 0 ? none : points.place(q));
+    const auto visit_members = [&](const auto& visit) {
+      for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
+        const std::uint32_t r = ring_slot_[k].ring;
+        for (std::uint32_t m = jacobian_.begin[r]; m < jacobian_.begin[r + 1]; ++m)
+          visit(jacobian_.member[m], unknown[std::size_t(jacobian_.member[m])] >= 0);
       }
-    }
+    };
+    row.begin_row();
+    visit_members([&](Index q, bool is_unknown) {
+      if (is_unknown) row.name(q);
+    });
+    row.finish_row();
+    visit_members(
+        [&](Index q, bool is_unknown) { target_.push_back(is_unknown ? row.place(q) : none); });
   }
-  column_begin_.push_back(column_.size());
+  block_begin_.push_back(block_.size());
   target_begin_.push_back(target_.size());
 }
 
@@ -131,16 +155,16 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
   });
   workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      float* row = number_.data() + column_begin_[p];
-      std::fill(row, number_.data() + column_begin_[p + 1], 0.0f);
-      const LocalColumn* target = target_.data() + target_begin_[p];
+      float* row = number_.data() + block_size * block_begin_[p];
+      std::fill(row, number_.data() + block_size * block_begin_[p + 1], 0.0f);
+      const Place* target = target_.data() + target_begin_[p];
       for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
         const RingSlot entry = ring_slot_[k];
         const float* own = jacobian_.number.data() + 3 * (jacobian_.begin[entry.ring] + entry.slot);
         const float* other = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring];
         const float* last = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring + 1];
         for (; other < last; other += 3)
-          if (const LocalColumn to = *target++; to != none)
+          if (const Place to = *target++; to != none)
             row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
       }
     }
@@ -154,14 +178,14 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
     const RowRun<const float> own = weights.of(run);
     for (std::size_t i = 0; i < run.count; ++i) {
       const std::size_t p = run.first + i;
-      const LocalColumn* target = target_.data() + target_begin_[p];
+      const Place* target = target_.data() + target_begin_[p];
       std::size_t k = ring_slot_begin_[p];
       const std::size_t last = ring_slot_begin_[p + 1];
       for (; k < last && ring_slot_[k].ring != p; ++k) target += jacobian_.size(ring_slot_[k].ring);
       if (k == last) continue;  // no unknown
-      float* row = number_.data() + column_begin_[p];
+      float* row = number_.data() + block_size * block_begin_[p];
       for (int s = 1; s < own.slots; ++s) {
-        const LocalColumn to = target[s];
+        const Place to = target[s];
         row[target[0]] += own.at(0, s, i);
         if (to != none) row[to] -= own.at(0, s, i);
       }
@@ -169,17 +193,22 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
   });
 }
 
+// Two sums, neither of which waits for the other.
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
   workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      float sum[sums] = {};
-      const float* number = number_.data() + column_begin_[p];
-      const Index* column = column_.data() + column_begin_[p];
-      std::size_t left = column_begin_[p + 1] - column_begin_[p];
-      for (; left >= sums; left -= sums, number += sums, column += sums)
-        for (std::size_t m = 0; m < sums; ++m) sum[m] += number[m] * x[column[m]];
-      for (std::size_t m = 0; m < left; ++m) sum[m] += number[m] * x[column[m]];
-      y[p] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) + (sum[4] + sum[5]);
+      Four::Pack even = {}, odd = {}, of_x, numbers;
+      const auto add = [&](std::size_t block, Four::Pack& sum) {
+        Four::load(x + block_[block], of_x);
+        Four::load(number_.data() + block_size * block, numbers);
+        sum += numbers * of_x;
+      };
+      std::size_t k = block_begin_[p];
+      const std::size_t last = block_begin_[p + 1];
+      for (; k + 1 < last; k += 2) add(k, even), add(k + 1, odd);
+      if (k < last) add(k, even);
+      even += odd;
+      y[p] = (even[0] + even[1]) + (even[2] + even[3]);
     }
   });
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels whose faces
-// have few points: there most points lie on control edges and at control vertices, and passes over
-// runs cost several times what an index a number does.
+// R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels that have rows
+// (sparse/matrix.h).
+//
+// Of a row's columns most lie beside one another, as the points of a run do. So a row is kept in
+// blocks: four numbers, zeros where it has none, and the first of their columns. In eight pieces an
+// edge it has 18 columns in 7 blocks.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +15,10 @@
 
 namespace fairing {
 
-// Pieces of a control edge up to which a level is for it: with more, most points lie inside faces.
-constexpr int most_pieces_of_matrix = 8;
-
 class NormalMatrix {
  public:
-  // Whether a level is better served so: few points a face, and no rings so large that their squares
-  // are not linear.
+  // Whether a level is better served so: it has rows, as many points as a block has columns, and no
+  // rings whose squares are too large.
   static bool suits(const RingJacobian& rows);
 
   // The pattern: the unknowns that share a ring. The grid of `rows` must outlive it. Throws
@@ -28,11 +28,11 @@ class NormalMatrix {
   // The numbers of rows with that pattern; `tension`: the weights of AreaTerm.
   void update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension = nullptr);
 
-  // y <- the matrix times x; zero where a point is no unknown.
+  // y <- the matrix times x; zero where a point is no unknown. All numbers of x have to be finite.
   void apply(const float* x, Workers& workers, float* y) const;
 
  private:
-  using LocalColumn = std::uint16_t;
+  using Place = std::uint16_t;
 
   // In RingJacobian row c's coefficient for slot s is data()[first + (c * slots + s) * stride].
   struct Ring {
@@ -52,20 +52,20 @@ class NormalMatrix {
     std::uint32_t ring, slot;
   };
   void find_ring_slots(const std::vector<Index>& unknown);
-  void find_columns(const std::vector<Index>& unknown);
+  void find_blocks(const std::vector<Index>& unknown);
   void add_tension(const RingJacobian& weights, Workers& workers);
 
   const GridLevel& grid_;
   Array<Ring> ring_;     // one a point
   MomentRows jacobian_;  // R: over the rings, a point itself first
-  // By point, and one more: where its ring slots, columns and targets begin.
-  Array<std::size_t> ring_slot_begin_, column_begin_, target_begin_;
+  // By point, and one more: where its ring slots, blocks and targets begin.
+  Array<std::size_t> ring_slot_begin_, block_begin_, target_begin_;
   Array<RingSlot> ring_slot_;
-  // For each ring slot of a point, for each member of that ring: the column, counted within
+  // For each ring slot of a point, for each member of that ring: the number, counted within
   // the point's row, to which their product is added; `none` where the member is no unknown.
-  Array<LocalColumn> target_;
-  Array<Index> column_;
-  Array<float> number_;
+  Array<Place> target_;
+  Array<Index> block_;   // its first column
+  Array<float> number_;  // four a block
 };
 
 }  // namespace fairing

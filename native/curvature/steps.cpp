@@ -45,6 +45,9 @@ void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
 
 namespace {
 
+// The decrement from which on steps are settling: total curvature's are accelerated, and damped ones may
+// be the last.
+constexpr double settling_decrement = 0.1;
 // The share of the energy that two damped steps have to gain together.
 constexpr double worthwhile_gain = 0.005;
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
@@ -146,7 +149,7 @@ class GaussNewtonMethod final : public StepMethod {
   void find_step(StepReport& step) override {
     if (!varies()) held_ = it_.current.held;
     const bool fresh =
-        (damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement());
+        (damping_ && !varies()) || it_.needs_coarse_levels(is_like_before());
     if (fresh) it_.system.linearize_below(it_.level, it_.current);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{},
                            varies() ? share_for_long_waves() : 0);
@@ -208,6 +211,13 @@ class GaussNewtonMethod final : public StepMethod {
  private:
   bool varies() const {
     return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
+  }
+  // Whether the surface is so much as it was before the last step that what is about that one goes on to
+  // precondition, wherever the step was long, too (measured: else bob and spheres take a twentieth
+  // longer). Where it climbed, the surface may be any.
+  bool is_like_before() const {
+    const double last = remainder_.last_decrement();
+    return last > 0 && (last < settling_decrement || gain_ > 0);
   }
   // What decrements are relative to.
   double scale() const { return it_.current.energy + flat_; }

@@ -21,8 +21,6 @@ constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
-  // With 4, 5 and 6 the runs take the same time.
-  out.usual_degree = 6;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
@@ -188,9 +186,8 @@ double SurfaceIterate::movement(double length) {
   return length * largest(workers(), step.size(), [&](std::size_t i) { return step[i]; });
 }
 
-bool SurfaceIterate::needs_coarse_levels(double last_decrement) {
-  if (std::exchange(is_near_earlier, false)) return false;
-  return !(last_decrement > 0 && last_decrement < settling_decrement);
+bool SurfaceIterate::needs_coarse_levels(bool has_begun) {
+  return !std::exchange(is_near_earlier, false) && !has_begun;
 }
 
 }  // namespace fairing

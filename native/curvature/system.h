@@ -55,10 +55,6 @@ struct LinearizedSurface {
   Multipliers<1> held;  // what holds its control vertices; empty: not known
 };
 
-// Decrement below which the surface changes so little from step to step that coarse levels, their
-// factor and the spectra serve as they are.
-constexpr double settling_decrement = 0.1;
-
 // What solves leave of their error where what they solve for is about to change: loads, and ends.
 constexpr double inexact = 0.1;
 
@@ -171,9 +167,9 @@ struct SurfaceIterate {
   // The farthest that a step of that length takes a point.
   double movement(double length);
 
-  // Before the next step: whether coarse levels have to be linearized anew. `last_decrement` of the
-  // step before; 0: there was none, or it was rejected.
-  bool needs_coarse_levels(double last_decrement);
+  // Before the next step: whether coarse levels have to be linearized anew. `has_begun`: not where
+  // there was no step before, it was rejected, or it led to another surface.
+  bool needs_coarse_levels(bool has_begun);
 };
 
 }  // namespace fairing

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "curvature/normal_matrix.h"
 #include "fairing/memory_counts.h"
 #include "multigrid/hierarchy.h"
 #include "sparse/matrix.h"
@@ -75,7 +74,7 @@ std::int64_t plate_factor_bytes(const Counts& c, int level) {
 
 // What Gauss-Newton steps hold beside the thin plate's systems. Bytes a point: on all levels the
 // rows of the Jacobian and the smoother's lines, and for minimum variation as many rows again and
-// moments; on levels with few points an edge the normal matrix; on the finest level surfaces, steps,
+// moments; on levels that have rows the normal matrix; on the finest level surfaces, steps,
 // and what steps are accelerated with.
 std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, Energy energy,
                         bool tense) {
@@ -84,7 +83,8 @@ std::int64_t step_bytes(const Counts& c, int levels, std::int64_t all_points, En
   const std::int64_t row = mixed(c, 84, 108), normal_matrix = mixed(c, 486, 624);
   std::int64_t normal_matrices = 0, factored = 0;
   for (int l = 0; l <= levels; ++l) {
-    if (1 << l <= most_pieces_of_matrix) normal_matrices += normal_matrix * c.used_points(l);
+    if (has_rows(1 << l, std::size_t(c.used_points(l))))
+      normal_matrices += normal_matrix * c.used_points(l);
     if (c.unknowns(l) <= std::int64_t(l > 1 ? tiny_level : direct_limit))
       factored = c.used_points(l);
   }

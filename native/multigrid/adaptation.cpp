@@ -111,9 +111,8 @@ void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double n
       last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
   const double for_gain = std::min<double>(
       last.smoother_degree * last.iterations * std::log(solve_gain) / std::log(tolerance),
-      options_.usual_degree);
-  const int least =
-      cycle_.degree > options_.usual_degree ? cycle_.degree : options_.usual_degree / 2;
+      usual_degree);
+  const int least = cycle_.degree > usual_degree ? cycle_.degree : usual_degree / 2;
   cycle_.degree =
       std::clamp(int(std::ceil(std::max(for_iterations, for_gain))), least, most_degree);
 }

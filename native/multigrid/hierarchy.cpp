@@ -41,7 +41,7 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
                      const std::vector<HierarchyLevel>& levels)
     : workers_(workers), options_(options), cycle_(workers) {
   degree_of_two_ = cycle_.degree =
-      options.smoother_degree > 0 ? options.smoother_degree : options.usual_degree;
+      options.smoother_degree > 0 ? options.smoother_degree : usual_degree;
   for (const HierarchyLevel& level : levels) {
     CycleLevel& own = cycle_.levels.emplace_back();
     own.op = &level.op;
@@ -70,8 +70,6 @@ void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
     is_factor_old_ = true;
   else if (fresh)
     refresh(top, true);
-  else
-    refactor_lines(top);
 }
 
 void Hierarchy::change_unknowns(std::size_t top) {

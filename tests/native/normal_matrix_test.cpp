@@ -71,7 +71,7 @@ struct RandomRows {
 template <class Body>
 void on_all(const Body& body) {
   for (const auto& control : {octahedron(), cube(), dodecahedron()})
-    for (int level = 1; level <= 3; ++level) {
+    for (int level = 1; level <= 4; ++level) {
       RandomRows setting(control, level);
       body(setting);
     }
