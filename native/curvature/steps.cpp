@@ -148,8 +148,7 @@ class GaussNewtonMethod final : public StepMethod {
 
   void find_step(StepReport& step) override {
     if (!varies()) held_ = it_.current.held;
-    const bool fresh =
-        (damping_ && !varies()) || it_.needs_coarse_levels(is_like_before());
+    const bool fresh = (damping_ && !varies()) || it_.needs_coarse_levels(is_like_before());
     if (fresh) it_.system.linearize_below(it_.level, it_.current);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{},
                            varies() ? share_for_long_waves() : 0);
@@ -185,6 +184,7 @@ class GaussNewtonMethod final : public StepMethod {
   bool accept(const StepReport& step, const StepCount& count,
               CurvatureLevelReport& report) override {
     if (step.length != 1) anderson_.took_share(step.length);
+    last_energy_ = it_.current.energy;
     std::swap(it_.current, it_.trial);
     if (!varies()) it_.current.held = held_;
     const double before = remainder_.last_decrement();
@@ -212,12 +212,11 @@ class GaussNewtonMethod final : public StepMethod {
   bool varies() const {
     return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
   }
-  // Whether the surface is so much as it was before the last step that what is about that one goes on to
-  // precondition, wherever the step was long, too (measured: else bob and spheres take a twentieth
-  // longer). Where it climbed, the surface may be any.
+  // Whether the surface is so much as it was before the last step that coarse levels about that one go on
+  // to precondition, with their factor, lines and spectra.
   bool is_like_before() const {
-    const double last = remainder_.last_decrement();
-    return last > 0 && (last < settling_decrement || gain_ > 0);
+    return remainder_.last_decrement() > 0 && last_energy_ <= unlike_energy * it_.current.energy &&
+           it_.current.energy <= unlike_energy * last_energy_;
   }
   // What decrements are relative to.
   double scale() const { return it_.current.energy + flat_; }
@@ -270,7 +269,8 @@ class GaussNewtonMethod final : public StepMethod {
   Array<float> predicted_;
   Multipliers<1> held_;  // that goes with the step
   LeftToMove remainder_;
-  double flat_ = 0;  // an energy that counts for nothing
+  double flat_ = 0;         // an energy that counts for nothing
+  double last_energy_ = 0;  // of the surface before the last step
   // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
   int climbed_ = 0, damped_ = 0;  // steps

@@ -186,8 +186,8 @@ double SurfaceIterate::movement(double length) {
   return length * largest(workers(), step.size(), [&](std::size_t i) { return step[i]; });
 }
 
-bool SurfaceIterate::needs_coarse_levels(bool has_begun) {
-  return !std::exchange(is_near_earlier, false) && !has_begun;
+bool SurfaceIterate::needs_coarse_levels(bool is_like_before) {
+  return !std::exchange(is_near_earlier, false) && !is_like_before;
 }
 
 }  // namespace fairing

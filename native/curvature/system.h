@@ -167,9 +167,9 @@ struct SurfaceIterate {
   // The farthest that a step of that length takes a point.
   double movement(double length);
 
-  // Before the next step: whether coarse levels have to be linearized anew. `has_begun`: not where
-  // there was no step before, it was rejected, or it led to another surface.
-  bool needs_coarse_levels(bool has_begun);
+  // Before the next step: whether coarse levels have to be linearized anew. `is_like_before`: the one
+  // before has led to a surface like its own.
+  bool needs_coarse_levels(bool is_like_before);
 };
 
 }  // namespace fairing
