@@ -8,7 +8,6 @@
 
 #include "curvature/system.h"
 #include "parallel/reductions.h"
-#include "transfer/quadratic.h"
 
 namespace fairing {
 namespace {
@@ -129,18 +128,12 @@ struct GaussNewtonSystem::HeldSolve {
   // prolongation: it belongs to their forces. Their own rows alone know only that of points beside
   // them (measured: a cube at level 7 ended 4e-4 off its sphere with one degree of the smoother).
   void foresee() {
-    const Unknowns& carried = hats->rows();
-    Array<float> fine(h.size() + vector_room), coarse;
-    for (std::size_t i = 0; i < h.size(); ++i) fine[i] = float(r[i]);
-    for (int l = level; l > 0; --l) {
-      coarse.assign(system.grid(l - 1).size() + vector_room, 0.0f);
-      restrict_to<float, 1>(system.grid(l - 1), system.grid(l), system.stencils_, carried,
-                            system.workers(), system.shared_.float_slots, fine.data(),
-                            coarse.data());
-      fine.swap(coarse);
-    }
+    NormalLoads rest(vertices());
+    restrict_to_vertices<1>(
+        system.transfers_, level, hats->rows(), system.workers(), r,
+        [this](int l) { return system.hierarchy_->room(std::size_t(l - system.base_)); }, rest);
     for (std::size_t v = 0; v < forces.size(); ++v)
-      if (hats->under(v)) forces[v][0] -= double(fine[v]);
+      if (hats->under(v)) forces[v] -= rest[v];
   }
 
   LevelSolve solve() {

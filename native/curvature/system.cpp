@@ -60,7 +60,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
   std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
-    if (l > base)
+    if (l > 0)
       transfers_.push_back(std::make_unique<QuadraticTransfer<1>>(
           grid(l - 1), grid(l), stencils, shared_.unknowns, levels[std::size_t(l)].to_coarser,
           workers, shared_.float_slots));

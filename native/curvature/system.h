@@ -134,7 +134,7 @@ class GaussNewtonSystem {
   std::vector<const GridLevel*> grids_;
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
-  std::vector<std::unique_ptr<LevelTransfer>> transfers_;
+  QuadraticTransfers<1> transfers_;
   std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;

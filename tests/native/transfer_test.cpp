@@ -5,14 +5,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <new>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "grid/linear.h"
 #include "level_settings.h"
 #include "thin_plate/operator.h"
-#include "transfer/quadratic.h"
-#include "transfer/quadratic_matrix.h"
+#include "transfer/level_transfer.h"
 
 namespace fairing::test {
 namespace {
@@ -232,6 +235,48 @@ TEST(Rows, TransferAsPassesDo) {
       rows->restrict_to<1>(one.data(), workers, result.data());
       EXPECT_LT((result.cast<double>() - ry.col(2)).norm(), rounding * (1 + y.norm()));
     }
+  });
+}
+
+// By rows and by passes, through transfers whose own unknowns are fewer.
+TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Unknowns own = some_points(s.mesh, 0);
+    for (const int choice : {1, 2})
+      for (const bool by_rows : {false, true}) {
+        const Unknowns carried = some_points(s.mesh, choice);
+        const int level = s.grid.level();
+        std::vector<std::unique_ptr<GridLevel>> grids;
+        for (int l = 0; l <= level; ++l) grids.push_back(std::make_unique<GridLevel>(s.mesh, l));
+        std::vector<std::unique_ptr<AssembledTransfer>> rows;
+        std::vector<FloatPoints> rooms(1);
+        QuadraticTransfers<3> transfers;
+        ElementSlots<float> slots;
+        ElementSlots<double> double_slots;
+        const Points x = masked(*grids[0], carried, random_points(grids[0]->size()));
+        Points hx = x;
+        for (std::size_t l = 1; l < grids.size(); ++l) {
+          const GridLevel &coarse = *grids[l - 1], &fine = *grids[l];
+          rows.push_back(by_rows
+                             ? AssembledTransfer::make(coarse, fine, s.stencils, carried, workers)
+                             : nullptr);
+          transfers.push_back(std::make_unique<QuadraticTransfer<3>>(
+              coarse, fine, s.stencils, own, rows.back().get(), workers, slots));
+          rooms.push_back(with_room(random_points(fine.size())));
+          Points below = std::exchange(hx, Points(Eigen::Index(fine.size()), 3));
+          prolong(coarse, fine, s.stencils, &carried, workers, double_slots, below.data(),
+                  hx.data());
+        }
+        const Points r = masked(s.grid, carried, random_points(s.grid.size(), 2));
+        std::vector<Vec3> sums(grids[0]->size());
+        restrict_to_vertices<3>(
+            transfers, level, carried, workers, {r.data(), std::size_t(r.size())},
+            [&](int l) { return rooms[std::size_t(l)].data(); }, sums);
+        const Eigen::Map<const Points> htr(sums[0].data(), x.rows(), 3);
+        EXPECT_NEAR(htr.cwiseProduct(x).sum(), r.cwiseProduct(hx).sum(),
+                    1e-6 * (1 + r.norm() * hx.norm()));
+        EXPECT_EQ((htr - masked(*grids[0], carried, htr)).norm(), 0);
+      }
   });
 }
 
