@@ -284,13 +284,13 @@ TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
 TEST(Rows, RefuseTooManyColumnsInOnePlace) {
   Workers workers(1);
   for (const Index columns : {65000, 66000}) {
-    AssembledMatrix matrix(2, std::size_t(columns));
     const auto writer = [&] {
       return [columns](Index row, RowBuilder& builder) {
         for (Index c = row; c < columns; c += 2) builder.add(c, 1.0);
       };
     };
-    EXPECT_EQ(matrix.build(workers, writer), columns == 65000);
+    EXPECT_EQ(AssembledMatrix::make(2, std::size_t(columns), workers, writer) != nullptr,
+              columns == 65000);
   }
 }
 
@@ -314,10 +314,10 @@ TEST(Rows, RepeatNumbersInOtherColumns) {
       }
     };
   };
-  AssembledMatrix matrix(size, size + 1);
-  ASSERT_TRUE(matrix.build(workers, writer));
+  const auto matrix = AssembledMatrix::make(size, size + 1, workers, writer);
+  ASSERT_NE(matrix, nullptr);
   Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(size + 16, 1, size + 16), y = x;
-  matrix.apply<1>(x.data(), workers, y.data());
+  matrix->apply<1>(x.data(), workers, y.data());
   for (Index r = 0; r < size; ++r)
     EXPECT_EQ(y[r], r == 0 || r % 2 == 1 ? 3 * x[r] + 0.5f * x[r + 1] : 7 * x[r]) << r;
 }
@@ -337,12 +337,12 @@ TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
     };
   };
   for (const Index last : {0, 1, 7}) {
-    AssembledMatrix broken(size, size), whole(size, size);
-    EXPECT_THROW(broken.build(workers, writer(last)), std::bad_alloc);
-    ASSERT_TRUE(whole.build(workers, writer(size)));
+    EXPECT_THROW(AssembledMatrix::make(size, size, workers, writer(last)), std::bad_alloc);
+    const auto whole = AssembledMatrix::make(size, size, workers, writer(size));
+    ASSERT_NE(whole, nullptr);
     const Eigen::VectorXf x = Eigen::VectorXf::Ones(size + 16);
     Eigen::VectorXf y = Eigen::VectorXf::Zero(size + 16);
-    whole.apply<1>(x.data(), workers, y.data());
+    whole->apply<1>(x.data(), workers, y.data());
     for (Index r = 0; r < size; ++r) EXPECT_EQ(y[r], float(size * r + size * (size - 1) / 2));
   }
 }
