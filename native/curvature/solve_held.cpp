@@ -55,9 +55,8 @@ void GaussNewtonSystem::take_weights(int level, bool spectrum) {
 // The coarsest level's K knows control vertices alone.
 void GaussNewtonSystem::look_along(const LinearizedSurface& about, const Multipliers<1>& held) {
   const Array<float>& diagonal = op(base_).diagonal();
-  stiffness_.assign(diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count()));
-  hold_->set_stiffness(stiffness_);
-  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds);
+  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds,
+                    {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
 }
 
 // One step's solves.
@@ -155,7 +154,7 @@ struct GaussNewtonSystem::HeldSolve {
     if (!hats) return true;
     NormalLoads product;
     const std::vector<double> compliance_ratio =
-        hold() ? compliance_ratios(system.shared_.unknowns, weights(), system.stiffness_, *hats)
+        hold() ? compliance_ratios(system.shared_.unknowns, weights(), hold()->stiffness(), *hats)
                : std::vector<double>{};
     hats->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
     hats->multiply_mass<1>(held.loads, product);

@@ -70,7 +70,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
 bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
                                               CurvatureLevelReport& report) {
   const bool is_plain = step(start, report);
-  if (is_finest() && hold_.any()) fix_held(report);
+  if (is_finest() && hold_.any()) end_hold(report);
   keep_start_if_worse(start, plate, report);
   if (varies()) vary(is_plain, report);
   return is_plain;
@@ -137,7 +137,7 @@ StepEnd GaussNewtonSolver::end() {
   return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
-void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
+void GaussNewtonSolver::end_hold(CurvatureLevelReport& report) {
   const bool any_moved = hold_.active();
   if (any_moved) hold_.enforce(surface().data());
   iterate_.current.held.bounds.clear();

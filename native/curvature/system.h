@@ -139,7 +139,6 @@ class GaussNewtonSystem {
   Symmetrizer symmetrizer_;
   StepWork work_;
   HoldAlongNormals* hold_ = nullptr;
-  std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
 };
 
 struct SurfaceIterate {

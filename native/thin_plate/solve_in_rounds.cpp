@@ -56,7 +56,8 @@ struct ThinPlateSolver::Rounds {
   HoldInSpace* constraint;  // or null
 
   const std::shared_ptr<const Hats> hats = run.solver.supports_.hats(level);  // null: point forces
-  Couples* const couples = run.solver.supports_.couples(level);  // null: no normal is fixed here
+  // null: no normal is fixed here
+  const std::shared_ptr<const LevelCouples> couples = run.solver.supports_.couples(level);
   LoadSteps<3> steps = load_steps<3>(
       hats.get(), constraint ? constraint->comparable(hats.get()) : std::vector<double>{},
       couples ? couples->mass() : Moments{});
@@ -171,9 +172,9 @@ struct ThinPlateSolver::Rounds {
 
   // Couples are tried out after a solve: the smoother is to know the whole of the surface first.
   Sizes correct_couples() {
-    if (!couples->knows_compliance())
-      run.solver.supports_.measure_couples(level, options().solve.max_iterations);
-    correction.moments = couples->correction(x());
+    PlateSupports& supports = run.solver.supports_;
+    if (!supports.compliance()) supports.measure_couples(level, options().solve.max_iterations);
+    correction.moments = couples->correction(*supports.compliance(), x());
     report().normal_angle = tilt = 0;
     Sizes out;
     for (std::size_t c = 0; c < couples->size(); ++c) {
