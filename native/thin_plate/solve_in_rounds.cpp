@@ -124,24 +124,24 @@ struct ThinPlateSolver::Rounds {
       // Afterwards something has to move: forces that are read again say nothing.
       if (!constraint && report().pad_corrections == 0) now.enough = limits.tolerance;
     }
-    foresight.begin(run.r.data(), report().direct, forces);
+    const Foresight::Seen before = foresight.before(run.r.data(), report().direct, forces);
     const double begun = norm(levels().workers(), run.size(level), run.r.data());
-    const int before = report().iterations;
+    const int iterations = report().iterations;
     const LevelSolve solve = levels().solve(
         level, now, {[&](const double* y, double* r) { residual(y, r); }, x(), run.r.data()},
         [&](const PcgResult& so_far) {
           // nobody knows how many iterations the rounds will take
-          run.report_done(level, 1 - 1 / std::sqrt(1.0 + before + so_far.iterations));
+          run.report_done(level, 1 - 1 / std::sqrt(1.0 + iterations + so_far.iterations));
         });
     static_cast<LevelSolve&>(report()) = solve;
-    report().iterations += before;
+    report().iterations += iterations;
     if (now.from_start && !limits.from_start)
       take_scale(limits.residual_scale > 0 ? begun / limits.residual_scale : 0.0);
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     if (hats && !solve.direct && !levels().op(level).single_precision_suffices()) take_residual();
     own_forces = forces;
-    foresight.end(x(), run.r.data(), solve.direct, hats.get(), forces);
+    foresight.foresee(before, x(), run.r.data(), solve.direct, hats.get(), forces);
   }
 
   // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
