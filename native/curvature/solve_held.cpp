@@ -36,8 +36,6 @@ double GaussNewtonSystem::share_left(int level, const Functional& functional) co
   return functional.pads && !hold_ && level == finest() ? left_on_finest : inexact;
 }
 
-void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) { hold_ = hold.any() ? &hold : nullptr; }
-
 void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
   hold_ = nullptr;
   shared_.unknowns = std::move(unknowns);

@@ -37,16 +37,14 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
     : options_(options),
       hold_(std::move(hold)),
       pads_{pads},
-      system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
-              monitor),
+      system_(mesh, levels, base, stencils, unknowns, options, hold_.any() ? &hold_ : nullptr,
+              std::move(mirrors), workers, monitor),
       iterate_{system_},
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
       steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
       rough_(iterate_, unfolding_, steps_),
-      variation_(iterate_, steps_) {
-  system_.hold_by(hold_);
-}
+      variation_(iterate_, steps_) {}
 
 CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
   CurvatureLevelReport report;

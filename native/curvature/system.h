@@ -64,12 +64,13 @@ constexpr double inexact = 0.1;
 
 class GaussNewtonSystem {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. The references must
-  // outlive the system.
+  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `hold`: what holds the
+  // control vertices that move, along the normals, while total curvature is minimized, until let_go();
+  // or null. All references must outlive the system.
   GaussNewtonSystem(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
-                    const GaussNewtonOptions& options, Mirrors mirrors, Workers& workers,
-                    Monitor& monitor);
+                    const GaussNewtonOptions& options, HoldAlongNormals* hold, Mirrors mirrors,
+                    Workers& workers, Monitor& monitor);
   ~GaussNewtonSystem();
   GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
 
@@ -92,9 +93,6 @@ class GaussNewtonSystem {
   // `share`: as for CurvatureLevel.
   void set_damping(int level, const Array<float>& mu, double share);
 
-  // What holds the control vertices that move, along the normals, while total curvature is
-  // minimized. It must stay where it is until let_go().
-  void hold_by(HoldAlongNormals& hold);
   // From here on nothing holds control vertices: those that are none of `unknowns` stay. The systems
   // of `level` and below are linearized about `surface`, with factors of those unknowns.
   void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
@@ -138,7 +136,7 @@ class GaussNewtonSystem {
   std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;
-  HoldAlongNormals* hold_ = nullptr;
+  HoldAlongNormals* hold_;  // null: nothing
 };
 
 struct SurfaceIterate {
