@@ -27,7 +27,7 @@
 #include "fairing/control_positions.h"
 #include "fairing/options.h"
 #include "grid/linear.h"
-#include "hold/hold_in_space.h"
+#include "hold/control_hold.h"
 #include "mesh/validate/check.h"
 #include "thin_plate/solver.h"
 
@@ -112,10 +112,9 @@ class Race {
     ThinPlateSolver system(mesh_, ChartMaker(mesh_), stencils_, unknowns_, {}, options, workers_,
                            monitor_);
     std::vector<LevelReport> reports;
-    HoldInSpace hold(mesh_, mesh_.positions, unknowns_);
     system.solve_nested(
-        {mesh_.positions, curves_}, hold, x, reports, [](const double*) {},
-        [](int, Array<double>&) {});
+        {mesh_.positions, curves_}, {mesh_, mesh_.positions, unknowns_}, x, reports,
+        [](const double*) {}, [](int, Array<double>&) {});
     return reports.back().iterations;
   }
 

@@ -8,7 +8,6 @@
 
 #include "curvature/system.h"
 #include "parallel/reductions.h"
-#include "transfer/quadratic.h"
 
 namespace fairing {
 namespace {
@@ -37,8 +36,6 @@ double GaussNewtonSystem::share_left(int level, const Functional& functional) co
   return functional.pads && !hold_ && level == finest() ? left_on_finest : inexact;
 }
 
-void GaussNewtonSystem::hold_by(HoldAlongNormals& hold) { hold_ = hold.any() ? &hold : nullptr; }
-
 void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
   hold_ = nullptr;
   shared_.unknowns = std::move(unknowns);
@@ -56,9 +53,8 @@ void GaussNewtonSystem::take_weights(int level, bool spectrum) {
 // The coarsest level's K knows control vertices alone.
 void GaussNewtonSystem::look_along(const LinearizedSurface& about, const Multipliers<1>& held) {
   const Array<float>& diagonal = op(base_).diagonal();
-  stiffness_.assign(diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count()));
-  hold_->set_stiffness(stiffness_);
-  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds);
+  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds,
+                    {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
 }
 
 // One step's solves.
@@ -129,18 +125,12 @@ struct GaussNewtonSystem::HeldSolve {
   // prolongation: it belongs to their forces. Their own rows alone know only that of points beside
   // them (measured: a cube at level 7 ended 4e-4 off its sphere with one degree of the smoother).
   void foresee() {
-    const Unknowns& carried = hats->rows();
-    Array<float> fine(h.size() + vector_room), coarse;
-    for (std::size_t i = 0; i < h.size(); ++i) fine[i] = float(r[i]);
-    for (int l = level; l > 0; --l) {
-      coarse.assign(system.grid(l - 1).size() + vector_room, 0.0f);
-      restrict_to<float, 1>(system.grid(l - 1), system.grid(l), system.stencils_, carried,
-                            system.workers(), system.shared_.float_slots, fine.data(),
-                            coarse.data());
-      fine.swap(coarse);
-    }
+    NormalLoads rest(vertices());
+    restrict_to_vertices<1>(
+        system.transfers_, level, hats->rows(), system.workers(), r,
+        [this](int l) { return system.hierarchy_->room(std::size_t(l - system.base_)); }, rest);
     for (std::size_t v = 0; v < forces.size(); ++v)
-      if (hats->under(v)) forces[v][0] -= double(fine[v]);
+      if (hats->under(v)) forces[v] -= rest[v];
   }
 
   LevelSolve solve() {
@@ -162,7 +152,7 @@ struct GaussNewtonSystem::HeldSolve {
     if (!hats) return true;
     NormalLoads product;
     const std::vector<double> compliance_ratio =
-        hold() ? compliance_ratios(system.shared_.unknowns, weights(), system.stiffness_, *hats)
+        hold() ? compliance_ratios(system.shared_.unknowns, weights(), hold()->stiffness(), *hats)
                : std::vector<double>{};
     hats->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
     hats->multiply_mass<1>(held.loads, product);

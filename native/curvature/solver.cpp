@@ -37,16 +37,14 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
     : options_(options),
       hold_(std::move(hold)),
       pads_{pads},
-      system_(mesh, levels, base, stencils, unknowns, options, std::move(mirrors), workers,
-              monitor),
+      system_(mesh, levels, base, stencils, unknowns, options, hold_.any() ? &hold_ : nullptr,
+              std::move(mirrors), workers, monitor),
       iterate_{system_},
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
       steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
       rough_(iterate_, unfolding_, steps_),
-      variation_(iterate_, steps_) {
-  system_.hold_by(hold_);
-}
+      variation_(iterate_, steps_) {}
 
 CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
   CurvatureLevelReport report;
@@ -70,7 +68,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
 bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
                                               CurvatureLevelReport& report) {
   const bool is_plain = step(start, report);
-  if (is_finest() && hold_.any()) fix_held(report);
+  if (is_finest() && hold_.any()) end_hold(report);
   keep_start_if_worse(start, plate, report);
   if (varies()) vary(is_plain, report);
   return is_plain;
@@ -137,7 +135,7 @@ StepEnd GaussNewtonSolver::end() {
   return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
-void GaussNewtonSolver::fix_held(CurvatureLevelReport& report) {
+void GaussNewtonSolver::end_hold(CurvatureLevelReport& report) {
   const bool any_moved = hold_.active();
   if (any_moved) hold_.enforce(surface().data());
   iterate_.current.held.bounds.clear();

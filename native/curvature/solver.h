@@ -75,9 +75,9 @@ class GaussNewtonSolver {
   StepEnd end();
   // On the finest level: counts folds; where there are any, pads beside them go, if that helps.
   void leave_folds(CurvatureLevelReport& report);
-  // From here on held control vertices stay where they are. The surface follows by a few plain
-  // steps, if these settle.
-  void fix_held(CurvatureLevelReport& report);
+  // The hold ends, in the system too: its control vertices stay where they are from here on. The
+  // surface follows by a few plain steps, if these settle.
+  void end_hold(CurvatureLevelReport& report);
   // Returns whether plain steps led to the surface.
   bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);

@@ -44,21 +44,22 @@ void Symmetrizer::displacements(const GridLevel& grid, Array<double>& h) const {
 GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
                                      const std::vector<CurvatureGrid>& levels, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
-                                     const GaussNewtonOptions& options, Mirrors mirrors,
-                                     Workers& workers, Monitor& monitor)
+                                     const GaussNewtonOptions& options, HoldAlongNormals* hold,
+                                     Mirrors mirrors, Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
       max_iterations_(options.solve.max_iterations),
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
       shared_{mesh, unknowns, workers},
-      symmetrizer_(std::move(mirrors), shared_.unknowns, workers) {
+      symmetrizer_(std::move(mirrors), shared_.unknowns, workers),
+      hold_(hold) {
   shared_.tension = options.tension;
   for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
   std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
-    if (l > base)
+    if (l > 0)
       transfers_.push_back(std::make_unique<QuadraticTransfer<1>>(
           grid(l - 1), grid(l), stencils, shared_.unknowns, levels[std::size_t(l)].to_coarser,
           workers, shared_.float_slots));

@@ -60,12 +60,13 @@ constexpr double inexact = 0.1;
 
 class GaussNewtonSystem {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. The references must
-  // outlive the system.
+  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `hold`: what holds the
+  // control vertices that move, along the normals, while total curvature is minimized, until let_go();
+  // or null. All references must outlive the system.
   GaussNewtonSystem(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
-                    const GaussNewtonOptions& options, Mirrors mirrors, Workers& workers,
-                    Monitor& monitor);
+                    const GaussNewtonOptions& options, HoldAlongNormals* hold, Mirrors mirrors,
+                    Workers& workers, Monitor& monitor);
   ~GaussNewtonSystem();
   GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
 
@@ -88,9 +89,6 @@ class GaussNewtonSystem {
   // `share`: as for CurvatureLevel.
   void set_damping(int level, const Array<float>& mu, double share);
 
-  // What holds the control vertices that move, along the normals, while total curvature is
-  // minimized. It must stay where it is until let_go().
-  void hold_by(HoldAlongNormals& hold);
   // From here on nothing holds control vertices: those that are none of `unknowns` stay. The systems
   // of `level` and below are linearized about `surface`, with factors of those unknowns.
   void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
@@ -130,12 +128,11 @@ class GaussNewtonSystem {
   std::vector<const GridLevel*> grids_;
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
-  std::vector<std::unique_ptr<LevelTransfer>> transfers_;
+  QuadraticTransfers<1> transfers_;
   std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;
-  HoldAlongNormals* hold_ = nullptr;
-  std::vector<double> stiffness_;  // of the surface at control vertices, along the normals
+  HoldAlongNormals* hold_;  // null: nothing
 };
 
 struct SurfaceIterate {

@@ -10,7 +10,6 @@
 #include "fairing/memory_plan.h"
 #include "fairing/unknowns.h"
 #include "fairing/warnings.h"
-#include "hold/hold_in_space.h"
 #include "mesh/validate/check.h"
 #include "thin_plate/surface_differences.h"
 
@@ -82,8 +81,7 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
                                    strength_of_membrane(problem));
   if (options.energy != Energy::thin_plate)
     problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
-  problem.start_weights =
-      problem.hold_of<HoldInSpace>(problem.basis, problem.units.weight).weights();
+  problem.start_weights = problem.hold_of(problem.basis, problem.units.weight).start_weights();
   require_anchored(mesh, problem.unknowns, problem.start_weights);
 }
 

@@ -48,11 +48,10 @@ struct FairingProblem {
   }
   // What holds control vertices about these positions; weights in this unit. `control` must outlive
   // it.
-  template <class Hold>
-  Hold hold_of(const ControlPositions& control, double unit) const {
+  ControlHold hold_of(const ControlPositions& control, double unit) const {
     if (options.interpolation != Interpolation::approximate)
-      return Hold(mesh, control.working, unknowns);
-    return Hold(mesh, control.working, unknowns, weights_with_copies(), unit, working_tolerances());
+      return {mesh, control.working, unknowns};
+    return {mesh, control.working, unknowns, weights_with_copies(), unit, working_tolerances()};
   }
 
  private:

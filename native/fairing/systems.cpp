@@ -9,7 +9,6 @@
 #include "fairing/extremes.h"
 #include "fairing/output.h"
 #include "grid/linear.h"
-#include "hold/hold_in_space.h"
 #include "paper/back_leg.h"
 #include "paper/release.h"
 
@@ -81,7 +80,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   options.solve = problem_.options.solve;
   return std::make_unique<GaussNewtonSolver>(
       problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
-      problem_.hold_of<HoldAlongNormals>(control, weight_unit(problem_.mesh)), plate().pads(),
+      problem_.hold_of(control, weight_unit(problem_.mesh)), plate().pads(),
       problem_.mirrors_of(control), *problem_.workers, monitor_);
 }
 
@@ -97,13 +96,13 @@ PlateState FairingSystems::solve(const ControlPositions& control, bool measured,
     if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
   };
   const PaperOptions& paper = problem_.options.paper;
-  HoldInSpace hold = problem_.hold_of<HoldInSpace>(control, problem_.units.weight);
   PlateState state;
   if (paper.method == Method::back_leg)
     solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, x, report.levels,
                    on_prediction);
   else
-    state = plate().solve_nested(data_of(control), hold, x, report.levels, on_prediction, on_level);
+    state = plate().solve_nested(data_of(control), problem_.hold_of(control, problem_.units.weight),
+                                 x, report.levels, on_prediction, on_level);
   for (const LevelReport& level : report.levels)
     report.constraint_rounds += level.constraint_rounds;
   report.constraint_gap = report.levels.back().constraint_gap;

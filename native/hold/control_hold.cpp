@@ -52,6 +52,13 @@ ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
   weights_ = base_;
 }
 
+VertexWeights ControlHold::start_weights() const {
+  VertexWeights out = weights_;
+  for (std::size_t v = 0; active_ && v < size(); ++v)
+    if (bound(v)) out[v] = std::max(base_[v], stiff * unit_);
+  return out;
+}
+
 void ControlHold::take_gap(double gap, double energy, double farthest) {
   if (start_energy_ == 0) start_energy_ = energy;
   const bool pulled = farthest > rounding && energy > 0;

@@ -46,6 +46,8 @@ class ControlHold {
   // One a control vertex. Empty: all stay, or are free.
   const VertexWeights& weights() const { return weights_; }
   bool any() const { return !weights_.empty(); }
+  // To begin with in space: within tolerances so large that they hardly give way.
+  VertexWeights start_weights() const;
   // Whether there is anything to find.
   bool active() const { return active_; }
   // Where control vertices belong.
@@ -53,10 +55,6 @@ class ControlHold {
   // Of input vertices and copies: how many, and whether one is an unknown that may move only so far.
   std::size_t size() const { return tolerance_.size(); }
   bool bound(std::size_t v) const { return unknowns_.vertex[v] && std::isfinite(tolerance_[v]); }
-
-  // Of the surface at each control vertex, against moving it alone. Call before multipliers are
-  // looked for; it must outlive the hold.
-  void set_stiffness(std::span<const double> of_surface) { of_surface_ = of_surface; }
 
   // How far the energy may still be over the least possible one, relative.
   double gap() const { return gap_; }
@@ -78,7 +76,6 @@ class ControlHold {
   std::vector<double> tolerance_;  // aimed at, one an input vertex and copy
   std::vector<double> base_;       // the caller's own weights
   VertexWeights weights_;
-  std::span<const double> of_surface_;
   double gap_ = 0, start_energy_ = 0;
 };
 

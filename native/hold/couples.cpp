@@ -40,8 +40,6 @@ Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
   }
   arms_.resize(first_arm_.back());
   rows_.resize(first_row_.back());
-  total_.assign(size(), 0.0);
-  mass_.assign(size(), Vec2::Zero());
   workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       Chart chart = charts.vertex(normals_[c].vertex);
@@ -75,25 +73,26 @@ void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<Fla
 
 // visit(point, Omega, (u, v), phi) for the points under a hat but its top, where psi is nothing.
 template <class Visit>
-void Couples::visit_points(std::size_t c, Visit&& visit) const {
-  const int n = grid_->n();
+void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
+  const int n = grid_.n();
   const int reach = std::max(n / 2, 2);  // half the faces, so that hats do not meet
   const double step = 1.0 / n, share = step * step, fall = 1.0 / reach;
-  const auto ring = mesh_.ring(normals_[c].vertex);
+  const ControlMesh& mesh = grid_.mesh();
+  const auto ring = mesh.ring(couples_.normals_[c].vertex);
   for (std::size_t s = 0; s < ring.size(); ++s) {
     const Spoke& spoke = ring[s];
-    const Arm& arm = arms_[first_arm_[c] + s];
+    const Couples::Arm& arm = couples_.arms_[couples_.first_arm_[c] + s];
     for (int k = 1; k < reach; ++k)
-      visit(grid_->edge_point(spoke.edge, spoke.outward ? k : n - k), share * arm.edge_weight,
+      visit(grid_.edge_point(spoke.edge, spoke.outward ? k : n - k), share * arm.edge_weight,
             Vec2(k * step * arm.ahead), 1 - k * fall);
     if (spoke.face < 0) continue;
-    const bool quad = mesh_.faces[std::size_t(spoke.face)].quad();
+    const bool quad = mesh.faces[std::size_t(spoke.face)].quad();
     for (int r = 1; r < reach; ++r) {
       stop_in_large_face(r);
       for (int k = 1; k < (quad ? reach : reach - r); ++k) {
         const double a = k * step, b = r * step;
         const Index p =
-            grid_->face_point(spoke.face, closed_point(quad, n, int(spoke.corner), k, r));
+            grid_.face_point(spoke.face, closed_point(quad, n, int(spoke.corner), k, r));
         if (quad)
           visit(p, share * arm.face_weight,
                 Vec2(a * (1 - b) * arm.ahead + a * b * arm.far + (1 - a) * b * arm.behind),
@@ -106,88 +105,82 @@ void Couples::visit_points(std::size_t c, Visit&& visit) const {
   }
 }
 
-void Couples::set_level(const GridLevel& grid) {
-  if (grid_ == &grid) return;
-  grid_ = &grid;
-  workers_.for_parts(size(), element_grain(grid_->n()), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      total_[c] = 0;
-      mass_[c].setZero();
+LevelCouples::LevelCouples(const Couples& couples, const GridLevel& grid)
+    : couples_(couples), grid_(grid), total_(size(), 0.0), mass_(size(), Vec2::Zero()) {
+  Workers& workers = couples_.workers_;
+  workers.for_parts(size(), element_grain(grid_.n()), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
       visit_points(c, [&](Index, double weight, const Vec2& uv, double hat) {
         total_[c] += weight * hat * uv.squaredNorm();
         mass_[c] += weight * hat * hat * uv.cwiseAbs2();
+      });
+  });
+}
+
+void LevelCouples::add(const std::vector<Couple>& couples, double* r) const {
+  // Whole hats meet: one after another.
+  const bool meet = grid_.n() < 1 << Couples::first_level;
+  const std::size_t grain = meet ? size() : element_grain(grid_.n());
+  couples_.workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const Couple& couple = couples[c];
+      if (couple.isZero(0)) continue;
+      visit_points(c, [&](Index p, double weight, const Vec2& uv, double hat) {
+        Eigen::Map<Vec3>(r + 3 * std::size_t(p)) += weight * hat * (couple * uv);
       });
     }
   });
 }
 
-void Couples::add(const std::vector<Couple>& couples, double* r) const {
-  const auto add_one = [&](std::size_t c) {
-    const Couple& couple = couples[c];
-    if (couple.isZero(0)) return;
-    visit_points(c, [&](Index p, double weight, const Vec2& uv, double hat) {
-      Eigen::Map<Vec3>(r + 3 * std::size_t(p)) += weight * hat * (couple * uv);
-    });
-  };
-  // Whole hats meet.
-  if (grid_->n() < 1 << first_level) {
-    for (std::size_t c = 0; c < size(); ++c) add_one(c);
-    return;
-  }
-  workers_.for_parts(size(), element_grain(grid_->n()), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) add_one(c);
-  });
-}
-
-void Couples::add(const Moments& moments, double* r) const {
+void LevelCouples::add(const Moments& moments, double* r) const {
   std::vector<Couple> couples(size());
-  for (std::size_t c = 0; c < size(); ++c) couples[c] = normal(c) * moments[c].transpose();
+  for (std::size_t c = 0; c < size(); ++c) couples[c] = couples_.normal(c) * moments[c].transpose();
   add(couples, r);
 }
 
-Couple Couples::slopes(std::size_t c, const double* x) const {
+Couple LevelCouples::slopes(std::size_t c, const double* x) const {
   Couple out = Couple::Zero();
-  const Index v = normals_[c].vertex;
+  const Index v = couples_.normals_[c].vertex;
   const Eigen::Map<const Vec3> own(x + 3 * std::size_t(v));
-  std::size_t k = first_row_[c];
-  visit_ring(*grid_, v, [&](Index p, std::size_t) {
-    out += (Eigen::Map<const Vec3>(x + 3 * std::size_t(p)) - own) * rows_[k++].transpose();
+  std::size_t k = couples_.first_row_[c];
+  visit_ring(grid_, v, [&](Index p, std::size_t) {
+    out += (Eigen::Map<const Vec3>(x + 3 * std::size_t(p)) - own) * couples_.rows_[k++].transpose();
   });
-  return grid_->n() * out;
+  return grid_.n() * out;
 }
 
-double Couples::angle(std::size_t c, const double* x) const {
+double LevelCouples::angle(std::size_t c, const double* x) const {
   const Couple slope = slopes(c, x);
   const Vec3 own = slope.col(0).cross(slope.col(1));
-  return std::atan2(own.cross(normal(c)).norm(), own.dot(normal(c)));
+  const Vec3& normal = couples_.normal(c);
+  return std::atan2(own.cross(normal).norm(), own.dot(normal));
 }
 
-void Couples::set_compliance(std::vector<Eigen::Matrix2d> slopes) {
-  compliance_ = std::move(slopes);
-  measured_total_ = total_;
-  for (Eigen::Matrix2d& slope : compliance_) {
+Compliance LevelCouples::compliance(std::vector<Eigen::Matrix2d> slopes) const {
+  for (Eigen::Matrix2d& slope : slopes) {
     const double mean = 0.5 * slope.trace();
     // in its weak direction it is not trusted where that has no more than solves leave
     if (!(slope.determinant() > coarse_force_tolerance * mean * mean))
       slope = (mean > 0 ? mean : slope.norm()) * Eigen::Matrix2d::Identity();
   }
+  return {std::move(slopes), total_};
 }
 
-Moments Couples::correction(const double* x) const {
+Moments LevelCouples::correction(const Compliance& compliance, const double* x) const {
   Moments out(size(), Vec2::Zero());
-  workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
+  couples_.workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      if (!(compliance_[c].trace() > 0) || !(total_[c] > 0)) continue;
-      const Eigen::Matrix2d made = total_[c] / measured_total_[c] * compliance_[c];
-      out[c] = -(made.inverse() * (slopes(c, x).transpose() * normal(c)));
+      if (!(compliance.slopes[c].trace() > 0) || !(total_[c] > 0)) continue;
+      const Eigen::Matrix2d made = total_[c] / compliance.totals[c] * compliance.slopes[c];
+      out[c] = -(made.inverse() * (slopes(c, x).transpose() * couples_.normal(c)));
     }
   });
   return out;
 }
 
-void Couples::carry(const std::vector<double>& totals_before, Moments& moments) const {
+void LevelCouples::carry(const LevelCouples& from, Moments& moments) const {
   for (std::size_t c = 0; c < size(); ++c)
-    if (total_[c] > 0) moments[c] *= totals_before[c] / total_[c];
+    if (total_[c] > 0) moments[c] *= from.total_[c] / total_[c];
 }
 
 std::vector<std::vector<std::size_t>> Couples::sets_apart() const {

@@ -27,6 +27,7 @@ using Moments = LoadsOf<2>;
 // Couples in space, m_u and m_v as columns; and as many slopes x_u and x_v.
 using Couple = Eigen::Matrix<double, 3, 2>;
 
+// What they are on all levels.
 class Couples {
  public:
   // Levels on which half a hat has points; where there is no such, whole ones serve.
@@ -41,9 +42,43 @@ class Couples {
   std::size_t size() const { return normals_.size(); }
   const Vec3& normal(std::size_t c) const { return normals_[c].normal; }
 
-  // Hats are sampled on a level's points, of edges in two pieces at the least. Call before what
-  // follows when the level changes.
-  void set_level(const GridLevel& grid);
+  // Sets of normals so far apart that their couples hardly disturb each other.
+  std::vector<std::vector<std::size_t>> sets_apart() const;
+
+ private:
+  friend class LevelCouples;
+  // One spoke of a vertex' ring, in (u, v): its end, the far corner of the face behind it, and that
+  // face's other neighbour of the vertex; and the weights of points on it and inside the face.
+  struct Arm {
+    Vec2 ahead, far, behind;
+    double edge_weight, face_weight;
+  };
+
+  void fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat);
+
+  const ControlMesh& mesh_;
+  Workers& workers_;
+  std::vector<FixedNormal> normals_;
+  std::vector<std::size_t> first_arm_, first_row_;  // of each, and the end
+  Array<Arm> arms_;
+  Array<Vec2> rows_;  // of the first divided differences, one a neighbour
+};
+
+// Which slopes a unit couple makes, one matrix a normal, and sum Omega psi_c . (u, v) on the level
+// where that was measured. Other levels have nearly the same.
+struct Compliance {
+  std::vector<Eigen::Matrix2d> slopes;
+  std::vector<double> totals;
+};
+
+// With hats sampled on a level's points, of edges in two pieces at the least.
+class LevelCouples {
+ public:
+  // Both must outlive it.
+  LevelCouples(const Couples& couples, const GridLevel& grid);
+
+  const GridLevel& grid() const { return grid_; }
+  std::size_t size() const { return couples_.size(); }
 
   // r <- r + Omega sum_c n_c psi_c . m_c, 3 numbers a point.
   void add(const Moments& moments, double* r) const;
@@ -54,45 +89,25 @@ class Couples {
   // Between the normal asked for and that of x; radians, from 0 to pi.
   double angle(std::size_t c, const double* x) const;
 
-  // Which slopes a unit couple makes, one matrix a normal on the present level: what corrections are
-  // made by. Measured once; other levels have nearly the same.
-  bool knows_compliance() const { return !compliance_.empty(); }
-  void set_compliance(std::vector<Eigen::Matrix2d> slopes);
-  // Sets of normals so far apart that their couples hardly disturb each other.
-  std::vector<std::vector<std::size_t>> sets_apart() const;
-
+  // From the slopes of unit couples on this level.
+  Compliance compliance(std::vector<Eigen::Matrix2d> slopes) const;
   // What couples lack, as this surface says.
-  Moments correction(const double* x) const;
+  Moments correction(const Compliance& compliance, const double* x) const;
   // sum Omega psi_c^2, u and v apart: what makes them comparable with loads.
   const Moments& mass() const { return mass_; }
-  // moments <- for the present level, from those of the one that this was of before.
-  void carry(const std::vector<double>& totals_before, Moments& moments) const;
+  // moments <- for this level, from those of another.
+  void carry(const LevelCouples& from, Moments& moments) const;
   // sum Omega psi_c . (u, v) of each.
   const std::vector<double>& totals() const { return total_; }
 
  private:
-  // One spoke of a vertex' ring, in (u, v): its end, the far corner of the face behind it, and that
-  // face's other neighbour of the vertex; and the weights of points on it and inside the face.
-  struct Arm {
-    Vec2 ahead, far, behind;
-    double edge_weight, face_weight;
-  };
-
-  void fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat);
   template <class Visit>
   void visit_points(std::size_t c, Visit&& visit) const;
 
-  const ControlMesh& mesh_;
-  Workers& workers_;
-  const GridLevel* grid_ = nullptr;
-  std::vector<FixedNormal> normals_;
-  std::vector<std::size_t> first_arm_, first_row_;  // of each, and the end
-  Array<Arm> arms_;
-  Array<Vec2> rows_;  // of the first divided differences, one a neighbour
+  const Couples& couples_;
+  const GridLevel& grid_;
   std::vector<double> total_;
   Moments mass_;
-  std::vector<Eigen::Matrix2d> compliance_;
-  std::vector<double> measured_total_;
 };
 
 }  // namespace fairing

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/rounding.h"
 
@@ -18,7 +19,8 @@ constexpr int most_turns = 4;
 }  // namespace
 
 void HoldAlongNormals::look_along(const double* normal, const double* x,
-                                  const std::vector<double>& sides) {
+                                  const std::vector<double>& sides, std::vector<double> stiffness) {
+  stiffness_ = std::move(stiffness);
   along_.resize(weights_.size());
   reach_.assign(size(), 0.0);
   turns_.assign(size(), 0);
@@ -40,7 +42,7 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
 // No spring at all would not keep a closed surface in its place.
 void HoldAlongNormals::choose_weight(std::size_t v) {
   const double least = std::max(base_[v], rounding * unit_);
-  weights_[v] = sides_[v] != 0 ? std::max(least, stiff * std::max(of_surface_[v], unit_)) : least;
+  weights_[v] = sides_[v] != 0 ? std::max(least, stiff * std::max(stiffness_[v], unit_)) : least;
 }
 
 bool HoldAlongNormals::settled(double energy, double wanted, const double* h) {
@@ -51,7 +53,7 @@ bool HoldAlongNormals::settled(double energy, double wanted, const double* h) {
     if (sides_[v] != 0) {
       gap += 4 * std::max(0.0, -pressure(v, h[v])) * reach_[v];
     } else if (outside > 0) {
-      gap += 2 * of_surface_[v] * outside * outside;
+      gap += 2 * stiffness_[v] * outside * outside;
     }
     farthest = std::max(farthest, 1 + outside / reach_[v]);
   }

@@ -4,6 +4,9 @@
 // its share of the tolerance.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "hold/control_hold.h"
 
 namespace fairing {
@@ -15,11 +18,14 @@ namespace fairing {
 // hold_in_space.h serves better.)
 class HoldAlongNormals : public ControlHold {
  public:
-  using ControlHold::ControlHold;
+  HoldAlongNormals(ControlHold hold) : ControlHold(std::move(hold)) {}
 
   // From here on it is about a surface x that moves along `normal`: of the control vertices at the
   // least, 3 numbers each. `sides`: as sides() were; empty: those where the surface stands.
-  void look_along(const double* normal, const double* x, const std::vector<double>& sides);
+  // `stiffness` of the surface at each control vertex, against moving it alone.
+  void look_along(const double* normal, const double* x, const std::vector<double>& sides,
+                  std::vector<double> stiffness);
+  const std::vector<double>& stiffness() const { return stiffness_; }
   // Of each input vertex: the end it stands on, 1 or -1; 0: on none.
   const std::vector<double>& sides() const { return sides_; }
   bool on_end(std::size_t v) const { return v < sides_.size() && sides_[v] != 0; }
@@ -43,6 +49,7 @@ class HoldAlongNormals : public ControlHold {
   double excess(std::size_t v, double h) const { return std::abs(along_[v] + h) - reach_[v]; }
   void choose_weight(std::size_t v);
 
+  std::vector<double> stiffness_;
   std::vector<double> along_;  // p - c along the normals, one a control vertex
   std::vector<double> reach_;  // half the interval, one an input vertex
   std::vector<double> sides_;

@@ -17,14 +17,6 @@ Vec3 point(const double* x, std::size_t v) { return Eigen::Map<const Vec3>(x + 3
 
 }  // namespace
 
-HoldInSpace::HoldInSpace(const ControlMesh& mesh, std::span<const Vec3> targets,
-                         const Unknowns& unknowns, std::span<const double> weights, double unit,
-                         std::vector<double> tolerances)
-    : ControlHold(mesh, targets, unknowns, weights, unit, std::move(tolerances)) {
-  for (std::size_t v = 0; active() && v < size(); ++v)
-    if (bound(v)) weights_[v] = std::max(base_[v], stiff * unit);
-}
-
 void HoldInSpace::renew(const double* x) {
   if (forces_.empty()) return;
   if (led_away()) weight_outside_ = 1 / weight_by_stiffness;
@@ -33,10 +25,10 @@ void HoldInSpace::renew(const double* x) {
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
     const Vec3 move = move_of(x, v), p = point(x, v) + move;
-    const Vec3 force = forces_[v] + base_[v] * (targets_[v] - p + move) + of_surface_[v] * move;
+    const Vec3 force = forces_[v] + base_[v] * (targets_[v] - p + move) + stiffness_[v] * move;
     const double least = std::max(weight_by_stiffness, leaves_ball(x, v) ? weight_outside_ : 0.0);
     weights_[v] = base_[v] + std::max(weight_by_multiplier * forces_[v].norm() / tolerance_[v],
-                                      least * of_surface_[v]);
+                                      least * stiffness_[v]);
     aims_[v] = weights_[v] > 0 ? Vec3(p + force / weights_[v]) : p;
   }
 }
@@ -53,7 +45,7 @@ bool HoldInSpace::settled(double energy, double wanted, const double* x) {
     force = weights_[v] * (aims()[v] - p) - base_[v] * (targets_[v] - p);
     const double pull = force.norm(), outside = (p - inside).norm();
     gap += 2 * (tolerance_[v] * pull - force.dot(to_target)) +
-           2 * (pull + of_surface_[v] * outside) * outside;
+           2 * (pull + stiffness_[v] * outside) * outside;
     farthest = std::max(farthest, (targets_[v] - p).norm() / tolerance_[v]);
   }
   take_gap(gap, energy, farthest);
@@ -65,7 +57,7 @@ std::vector<double> HoldInSpace::correction(const double* x, Loads& forces) cons
   std::vector<double> out(3 * size(), 0.0);
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v) || !(weights_[v] > 0)) continue;
-    const Vec3 move = move_of(x, v), pull = of_surface_[v] * move;
+    const Vec3 move = move_of(x, v), pull = stiffness_[v] * move;
     Eigen::Map<Vec3>(out.data() + 3 * v) = move + pull / weights_[v];
     if (!forces.empty()) forces[v] += pull;
   }
@@ -78,7 +70,7 @@ bool HoldInSpace::leaves_ball(const double* x, std::size_t v) const {
 
 Vec3 HoldInSpace::move_of(const double* x, std::size_t v) const {
   const Vec3 p = point(x, v);
-  const double stiffness = base_[v] + of_surface_[v];
+  const double stiffness = base_[v] + stiffness_[v];
   return (stiffness > 0 ? in_ball(p - forces_[v] / stiffness, v) : p) - p;
 }
 
@@ -104,8 +96,8 @@ std::vector<double> HoldInSpace::comparable(const Hats* hats) const {
     }
   const double mean = count > 0 ? inverse / count : 1;
   for (std::size_t v = 0; v < size(); ++v) {
-    const double both = weights_[v] + of_surface_[v],
-                 force = bound(v) && both > 0 ? weights_[v] * of_surface_[v] / both : 0.0;
+    const double both = weights_[v] + stiffness_[v],
+                 force = bound(v) && both > 0 ? weights_[v] * stiffness_[v] / both : 0.0;
     out.insert(out.end(), 3, force * force * (under(v) ? 1 / hats->total(v) : mean));
   }
   return out;

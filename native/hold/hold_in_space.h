@@ -2,6 +2,10 @@
 // Control vertices that move in space, as the thin plate's do: each stays within a ball.
 #pragma once
 
+#include <span>
+#include <utility>
+#include <vector>
+
 #include "hold/control_hold.h"
 
 namespace fairing {
@@ -22,10 +26,11 @@ namespace fairing {
 // it a stiffer one is better: weights are some lambdas of the level below, and stay on a level.
 class HoldInSpace : public ControlHold {
  public:
-  using ControlHold::ControlHold;
-  // At first weights are so large that they hardly give way.
-  HoldInSpace(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns,
-              std::span<const double> weights, double unit, std::vector<double> tolerances);
+  // `stiffness` of the surface at each control vertex, against moving it alone. It must outlive the hold.
+  HoldInSpace(ControlHold hold, std::span<const double> stiffness)
+      : ControlHold(std::move(hold)), stiffness_(stiffness) {
+    weights_ = start_weights();
+  }
 
   // Where the springs pull control vertices.
   std::span<const Vec3> aims() const { return aims_.empty() ? targets_ : aims_; }
@@ -54,6 +59,7 @@ class HoldInSpace : public ControlHold {
   bool leaves_ball(const double* x, std::size_t v) const;
   Vec3 in_ball(const Vec3& p, std::size_t v) const;
 
+  std::span<const double> stiffness_;
   std::vector<Vec3> aims_;    // empty: the targets
   std::vector<Vec3> forces_;  // P; empty: not known yet
   double first_gap_ = 0;      // with these springs; 0: not known yet

@@ -6,7 +6,7 @@
 // inside a face, share their numbers: between 2 and 6 bytes an entry, where rows of 32-bit indices
 // take 8.
 //
-// Built once, and not changed afterwards.
+// Not changed once it is made.
 #pragma once
 
 #include <algorithm>
@@ -181,35 +181,31 @@ struct MatrixColumns {
 
 class AssembledMatrix {
  public:
-  AssembledMatrix(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns) {}
-  AssembledMatrix(const AssembledMatrix&) = delete;
-  AssembledMatrix& operator=(const AssembledMatrix&) = delete;
-  ~AssembledMatrix() { MemoryLedger::remove(bytes_); }
-
-  // Call once. make_writer() gives a writer, one for each stretch of rows that a thread takes;
-  // writer(row, builder) adds the numbers of one row after another; none: the row is zero. False:
-  // the matrix has too many columns in one chunk, and is not to be used. Throws where the run has
-  // been cancelled.
+  // make_writer() gives a writer, one for each stretch of rows that a thread takes; writer(row,
+  // builder) adds the numbers of one row after another; none: the row is zero. Null: it would have
+  // too many columns in one chunk. Throws where the run has been cancelled.
   template <class MakeWriter>
-  bool build(Workers& workers, MakeWriter&& make_writer) {
-    chunk_.resize((rows_ + chunk_rows - 1) / chunk_rows);
+  static std::unique_ptr<const AssembledMatrix> make(std::size_t rows, std::size_t columns,
+                                                     Workers& workers, MakeWriter&& make_writer) {
+    Array<RowChunk> chunks((rows + chunk_rows - 1) / chunk_rows);
     std::atomic<bool> fits = true;
-    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      RowBuilder builder(columns_);
+    workers.for_parts(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
+      RowBuilder builder(columns);
       auto write = make_writer();
       for (std::size_t c = begin; c < end; ++c) {
         builder.begin_chunk();
-        for (std::size_t r = c * chunk_rows; r < std::min(rows_, (c + 1) * chunk_rows); ++r) {
+        for (std::size_t r = c * chunk_rows; r < std::min(rows, (c + 1) * chunk_rows); ++r) {
           write(Index(r), builder);
           builder.finish();
         }
         if (!builder.fits()) fits = false;
-        chunk_[c] = builder.chunk();  // a copy: its vectors are no longer than they need be
+        chunks[c] = builder.chunk();  // a copy: its vectors are no longer than they need be
       }
     });
-    for (const RowChunk& chunk : chunk_) bytes_ += chunk.bytes();
-    MemoryLedger::add(bytes_);
-    return fits;
+    if (!fits) return nullptr;
+    std::size_t bytes = 0;
+    for (const RowChunk& chunk : chunks) bytes += chunk.bytes();
+    return std::unique_ptr<AssembledMatrix>(new AssembledMatrix(columns, std::move(chunks), bytes));
   }
 
   // The number of a row in its own column; 0 where the row is zero.
@@ -252,8 +248,12 @@ class AssembledMatrix {
   }
 
  private:
-  std::size_t rows_, columns_, bytes_ = 0;
+  AssembledMatrix(std::size_t columns, Array<RowChunk> chunks, std::size_t bytes)
+      : columns_(columns), chunk_(std::move(chunks)), bytes_(bytes) {}
+
+  std::size_t columns_;
   Array<RowChunk> chunk_;
+  CountedBytes bytes_;
 };
 
 }  // namespace fairing

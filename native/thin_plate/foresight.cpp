@@ -13,7 +13,7 @@ double Foresight::spring(std::size_t v) const {
   return levels_.shared().unknowns.vertex[v] && !weights.empty() ? weights[v] : 0.0;
 }
 
-Foresight::Seen Foresight::look(const double* r, bool direct, const Loads& forces) {
+Foresight::Seen Foresight::look(const double* r, bool direct, const Loads& forces) const {
   const ThinPlateShared& shared = levels_.shared();
   Seen out{Loads(std::size_t(shared.mesh.vertex_count()), Vec3::Zero()), forces, 0};
   if (direct || !is_believed_) return out;
@@ -25,14 +25,10 @@ Foresight::Seen Foresight::look(const double* r, bool direct, const Loads& force
   return out;
 }
 
-void Foresight::begin(const double* r, bool direct, const Loads& forces) {
-  if (!is_judged_) before_ = look(r, direct, forces);
-}
-
-void Foresight::end(const double* x, const double* r, bool direct, const Hats* hats,
-                    Loads& forces) {
+void Foresight::foresee(const Seen& before, const double* x, const double* r, bool direct,
+                        const Hats* hats, Loads& forces) {
   Seen after = look(r, direct, forces);
-  if (!is_judged_ && !direct) judge(after);
+  if (!is_judged_ && !direct) judge(before, after);
   if (!is_believed_) after.rest.assign(after.rest.size(), Vec3::Zero());
   vertices_.assign(x, x + 3 * after.rest.size());
   for (std::size_t v = 0; v < after.rest.size(); ++v) {
@@ -44,15 +40,15 @@ void Foresight::end(const double* x, const double* r, bool direct, const Hats* h
 // Which forces loads leave does not depend on how far a solve goes, so what is foreseen of them
 // should not change. It does as the residual, where the prolongation is far from H: at borders with
 // stiff stencils. It is believed where it is now known better than by the vertices' own rows.
-void Foresight::judge(const Seen& after) {
+void Foresight::judge(const Seen& before, const Seen& after) {
   is_judged_ = true;
   double own = 0, all = 0;
   for (std::size_t v = 0; v < after.forces.size(); ++v) {
-    const Vec3 change = after.forces[v] - before_.forces[v];
+    const Vec3 change = after.forces[v] - before.forces[v];
     own += change.squaredNorm();
-    all += (change - after.rest[v] + before_.rest[v]).squaredNorm();
+    all += (change - after.rest[v] + before.rest[v]).squaredNorm();
   }
-  is_believed_ = after.residual * std::sqrt(all) <= before_.residual * std::sqrt(own);
+  is_believed_ = after.residual * std::sqrt(all) <= before.residual * std::sqrt(own);
 }
 
 }  // namespace fairing

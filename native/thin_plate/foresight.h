@@ -16,28 +16,32 @@ class Foresight {
   Foresight(ThinPlateLevels& levels, int level, const std::vector<double>& stiffness)
       : levels_(levels), level_(level), stiffness_(stiffness) {}
 
-  // Around a solve to x, of residual r: the forces left at vertices on pads, which become what they
-  // would be after a whole solve. `direct`: the solve is whole.
-  void begin(const double* r, bool direct, const Loads& forces);
-  void end(const double* x, const double* r, bool direct, const Hats* hats, Loads& forces);
-
-  // Where a whole solve would have the control vertices, 3 numbers each.
-  const double* vertices() const { return vertices_.data(); }
-
- private:
   struct Seen {
     Loads rest;  // H^T r; of vertices on springs what these do not give way to
     Loads forces;
     double residual = 0;
   };
-  Seen look(const double* r, bool direct, const Loads& forces);
-  void judge(const Seen& after);
+  // Of a solve that starts with the residual r: the forces left at vertices on pads. Empty where it has
+  // nothing to show.
+  Seen before(const double* r, bool direct, const Loads& forces) const {
+    return is_judged_ ? Seen{} : look(r, direct, forces);
+  }
+  // After it, with x and its residual: the forces become what they would be after a whole solve.
+  // `direct`: it is whole.
+  void foresee(const Seen& before, const double* x, const double* r, bool direct, const Hats* hats,
+               Loads& forces);
+
+  // Where a whole solve would have the control vertices, 3 numbers each.
+  const double* vertices() const { return vertices_.data(); }
+
+ private:
+  Seen look(const double* r, bool direct, const Loads& forces) const;
+  void judge(const Seen& before, const Seen& after);
   double spring(std::size_t v) const;
 
   ThinPlateLevels& levels_;
   int level_;
   const std::vector<double>& stiffness_;
-  Seen before_;
   std::vector<double> vertices_;
   // What the first solve has shown: whether forces that are foreseen change less than those read from
   // the vertices' own rows do.

@@ -54,16 +54,13 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
   for (int l = base_; l <= top(); ++l) {
     monitor.check_cancelled();
     operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l), weights));
-    if (l > base_) {
+    if (l > 0) {
       transfer_matrices_.push_back(
-          AssembledTransfer::make(grid(l - 1), grid(l), stencils, carried_, workers));
-      const auto transfer_of = [&](const Unknowns& carried) {
-        return std::make_unique<QuadraticTransfer<3>>(grid(l - 1), grid(l), stencils, carried,
-                                                      transfer_matrices_.back().get(), workers,
-                                                      shared_.float_slots);
-      };
-      transfers_.push_back(transfer_of(shared_.unknowns));
-      vertex_transfers_.push_back(transfer_of(carried_));
+          l > base_ ? AssembledTransfer::make(grid(l - 1), grid(l), stencils, carried_, workers)
+                    : nullptr);
+      transfers_.push_back(std::make_unique<QuadraticTransfer<3>>(
+          grid(l - 1), grid(l), stencils, shared_.unknowns, transfer_matrices_.back().get(),
+          workers, shared_.float_slots));
     }
     all.push_back(
         {*operators_.back(), l > base_ ? transfers_.back().get() : nullptr, unknowns_of(l)});
@@ -106,22 +103,9 @@ void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const A
 }
 
 void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span<Vec3> sums) {
-  float* fine = hierarchy_->room(index(level));
-  for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { fine[i] = float(r[i]); });
-  for (int l = level; l > base_; --l) {
-    float* const coarse = hierarchy_->room(index(l - 1));
-    vertex_transfers_[index(l) - 1]->restrict_to(fine, coarse);
-    fine = coarse;
-  }
-  Array<float> vertices;
-  if (base_ > 0) {
-    vertices.resize(3 * grid(0).size() + vector_room);
-    restrict_to<float, 3>(grid(0), grid(base_), shared_.stencils, carried_, workers(),
-                          shared_.float_slots, fine, vertices.data());
-    fine = vertices.data();
-  }
-  for (std::size_t v = 0; v < sums.size(); ++v)
-    sums[v] = Eigen::Map<const Eigen::Vector3f>(fine + 3 * v).cast<double>();
+  fairing::restrict_to_vertices<3>(
+      transfers_, level, carried_, workers(), {r, 3 * grid(level).size()},
+      [&](int l) { return hierarchy_->room(index(l)); }, sums);
 }
 
 void ThinPlateLevels::measure(int level, const double* x, double exponent) {

@@ -37,7 +37,7 @@ class ThinPlateLevels {
   const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
   // Between a level and the one below; null where passes serve, and on the coarsest.
   const AssembledTransfer* transfer_matrix(int level) const {
-    return level > base_ ? transfer_matrices_[std::size_t(level - base_ - 1)].get() : nullptr;
+    return level > 0 ? transfer_matrices_[std::size_t(level - 1)].get() : nullptr;
   }
   // r <- K x without weights, where these control vertices count as unknowns.
   void apply_with(int level, const Unknowns& unknowns, const double* x, double* r) {
@@ -63,9 +63,9 @@ class ThinPlateLevels {
     return hierarchy_->solve(index(level), limits, system, each);
   }
 
-  // sums <- H^T r of a level for every control vertex off all curves and inside the region, with H
-  // the prolongation of control vertices through all levels. Zero elsewhere, and always where
-  // `options` had no pads. Between solves only.
+  // sums <- H^T r of a level for every control vertex off all curves and inside the region
+  // (transfer/level_transfer.h). Zero elsewhere, and always where `options` had no pads. Between
+  // solves only.
   void restrict_to_vertices(int level, const double* r, std::span<Vec3> sums);
 
   // From here on the level is in the metric of the surface x. Once a level: later surfaces are in the
@@ -105,10 +105,9 @@ class ThinPlateLevels {
   int base_;
   std::vector<std::unique_ptr<GridLevel>> grids_;
   std::vector<std::unique_ptr<ThinPlateLevel>> operators_;             // from base_ on
-  std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from base_ + 1 on
-  std::vector<std::unique_ptr<QuadraticTransfer<3>>> transfers_;       // likewise
-  Unknowns carried_;  // by transfers to control vertices: these too
-  std::vector<std::unique_ptr<QuadraticTransfer<3>>> vertex_transfers_;  // from base_ + 1 on
+  std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from 1 on
+  QuadraticTransfers<3> transfers_;
+  Unknowns carried_;  // to control vertices: these too
   std::unique_ptr<Hierarchy> hierarchy_;
 };
 

@@ -134,12 +134,12 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers) {
   if (!has_rows(grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
-  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const PlateRings plate(grid, stencils, unknowns, workers);
   const auto writer = [&] {
     return [rows = PlateRows(plate)](Index p, RowBuilder& row) mutable { rows.write(p, row); };
   };
-  return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
+  return make(unknowns, grid.size(),
+              AssembledMatrix::make(grid.size(), grid.size(), workers, writer));
 }
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid,
@@ -147,11 +147,17 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid,
                                                const Unknowns& unknowns, Workers& workers) {
   if (!has_rows(grid.n(), grid.size()) || !worth_products(surface.products(), grid.size()))
     return nullptr;
-  std::unique_ptr<PlateMatrix> matrix(new PlateMatrix(grid, unknowns));
   const auto writer = [&] {
     return [&surface](Index p, RowBuilder& row) { surface.write_row(p, row); };
   };
-  return matrix->rows_.build(workers, writer) ? std::move(matrix) : nullptr;
+  return make(unknowns, grid.size(),
+              AssembledMatrix::make(grid.size(), grid.size(), workers, writer));
+}
+
+std::unique_ptr<PlateMatrix> PlateMatrix::make(const Unknowns& unknowns, std::size_t points,
+                                               Rows rows) {
+  if (!rows) return nullptr;
+  return std::unique_ptr<PlateMatrix>(new PlateMatrix(unknowns, points, std::move(rows)));
 }
 
 void PlateMatrix::set_weights(const VertexWeights& weights) {
@@ -166,12 +172,12 @@ void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& ba
     Array<float> root(points_);
     for_each_index(workers, points_,
                    [&](std::size_t p) { root[p] = std::sqrt(inverse_diagonal[p]); });
-    rows_.visit_numbers(workers, [&](Index p, Index q, float number) {
+    rows_->visit_numbers(workers, [&](Index p, Index q, float number) {
       if (p != q) band.offer(p, q, std::abs(number) * root[std::size_t(p)] * root[std::size_t(q)]);
     });
   };
   band.write(offer, [&] {
-    rows_.visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
+    rows_->visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
   });
 }
 
@@ -179,7 +185,7 @@ Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
   Array<float> inverse(points_);
   workers.for_parts(points_, chunk_rows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const float diagonal = rows_.diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+      const float diagonal = rows_->diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
       inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
     }
   });

@@ -48,7 +48,7 @@ class PlateMatrix {
   // `vector_room` more.
   template <class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
-    rows_.visit_products<3>(x, workers, [&](std::size_t first, std::size_t count, float* product) {
+    rows_->visit_products<3>(x, workers, [&](std::size_t first, std::size_t count, float* product) {
       for (std::size_t i = 3 * first; i < std::min(3 * (first + count), weight_.size()); ++i)
         product[i - 3 * first] += weight_[i] * x[i];
       finish(first, count, static_cast<const float*>(product));
@@ -56,11 +56,13 @@ class PlateMatrix {
   }
 
  private:
-  PlateMatrix(const GridLevel& grid, const Unknowns& unknowns)
-      : points_(grid.size()), rows_(points_, points_), moves_(unknowns.vertex) {}
+  using Rows = std::unique_ptr<const AssembledMatrix>;
+  static std::unique_ptr<PlateMatrix> make(const Unknowns& unknowns, std::size_t points, Rows rows);
+  PlateMatrix(const Unknowns& unknowns, std::size_t points, Rows rows)
+      : points_(points), rows_(std::move(rows)), moves_(unknowns.vertex) {}
 
   std::size_t points_;
-  AssembledMatrix rows_;
+  Rows rows_;
   std::vector<std::uint8_t> moves_;  // whether a control vertex is an unknown
   std::vector<float> weight_;        // 3 a control vertex; empty: none
 };

@@ -56,7 +56,8 @@ struct ThinPlateSolver::Rounds {
   HoldInSpace* constraint;  // or null
 
   const std::shared_ptr<const Hats> hats = run.solver.supports_.hats(level);  // null: point forces
-  Couples* const couples = run.solver.supports_.couples(level);  // null: no normal is fixed here
+  // null: no normal is fixed here
+  const std::shared_ptr<const LevelCouples> couples = run.solver.supports_.couples(level);
   LoadSteps<3> steps = load_steps<3>(
       hats.get(), constraint ? constraint->comparable(hats.get()) : std::vector<double>{},
       couples ? couples->mass() : Moments{});
@@ -123,24 +124,24 @@ struct ThinPlateSolver::Rounds {
       // Afterwards something has to move: forces that are read again say nothing.
       if (!constraint && report().pad_corrections == 0) now.enough = limits.tolerance;
     }
-    foresight.begin(run.r.data(), report().direct, forces);
+    const Foresight::Seen before = foresight.before(run.r.data(), report().direct, forces);
     const double begun = norm(levels().workers(), run.size(level), run.r.data());
-    const int before = report().iterations;
+    const int iterations = report().iterations;
     const LevelSolve solve = levels().solve(
         level, now, {[&](const double* y, double* r) { residual(y, r); }, x(), run.r.data()},
         [&](const PcgResult& so_far) {
           // nobody knows how many iterations the rounds will take
-          run.report_done(level, 1 - 1 / std::sqrt(1.0 + before + so_far.iterations));
+          run.report_done(level, 1 - 1 / std::sqrt(1.0 + iterations + so_far.iterations));
         });
     static_cast<LevelSolve&>(report()) = solve;
-    report().iterations += before;
+    report().iterations += iterations;
     if (now.from_start && !limits.from_start)
       take_scale(limits.residual_scale > 0 ? begun / limits.residual_scale : 0.0);
     if (solve.iterations > 0 && solve.residuals.back() > 0)
       gain += std::log(solve.residuals.front() / solve.residuals.back());
     if (hats && !solve.direct && !levels().op(level).single_precision_suffices()) take_residual();
     own_forces = forces;
-    foresight.end(x(), run.r.data(), solve.direct, hats.get(), forces);
+    foresight.foresee(before, x(), run.r.data(), solve.direct, hats.get(), forces);
   }
 
   // Residuals are reported relative to the control polyhedron's, however far a solve was to go.
@@ -171,9 +172,9 @@ struct ThinPlateSolver::Rounds {
 
   // Couples are tried out after a solve: the smoother is to know the whole of the surface first.
   Sizes correct_couples() {
-    if (!couples->knows_compliance())
-      run.solver.supports_.measure_couples(level, options().solve.max_iterations);
-    correction.moments = couples->correction(x());
+    PlateSupports& supports = run.solver.supports_;
+    if (!supports.compliance()) supports.measure_couples(level, options().solve.max_iterations);
+    correction.moments = couples->correction(*supports.compliance(), x());
     report().normal_angle = tilt = 0;
     Sizes out;
     for (std::size_t c = 0; c < couples->size(); ++c) {

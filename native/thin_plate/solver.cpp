@@ -96,14 +96,14 @@ void ThinPlateSolver::Run::report_done(int level, double done) const {
   solver.monitor_.report(Phase::solve, share);
 }
 
-PlateState ThinPlateSolver::solve_nested(const PlateData& data, HoldInSpace& hold, Array<double>& x,
+PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlHold hold, Array<double>& x,
                                          std::vector<LevelReport>& reports,
                                          const OnPrediction& on_prediction,
                                          const OnLevel& on_level) {
-  if (levels_.weights(levels_.top()) != hold.weights())
-    levels_.set_weights(hold.weights(), levels_.top());
-  HoldInSpace* const constraint = hold.active() ? &hold : nullptr;
-  if (constraint) constraint->set_stiffness(supports_.stiffness());
+  HoldInSpace in_space(std::move(hold), supports_.stiffness());
+  HoldInSpace* const constraint = in_space.active() ? &in_space : nullptr;
+  if (levels_.weights(levels_.top()) != in_space.weights())
+    levels_.set_weights(in_space.weights(), levels_.top());
   const auto tolerance = [&](int level) {
     return level >= levels_.top() ? options_.solve.relative_residual
                                   : std::max(coarse_tolerance, options_.solve.relative_residual);

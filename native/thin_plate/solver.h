@@ -10,7 +10,7 @@
 
 namespace fairing {
 
-class HoldInSpace;
+class ControlHold;
 
 // The thin plate of a control mesh, in working coordinates. Builds every level once; solves as often
 // as weights or control positions change. Throws what its levels throw.
@@ -29,7 +29,8 @@ class ThinPlateSolver {
   const Pads* pads() const { return supports_.pads(); }  // null without
   // Of the finest level; null without pads.
   std::shared_ptr<const Hats> hats() { return supports_.hats(levels_.top()); }
-  const Couples* couples() { return supports_.couples(); }  // null where no normal is fixed
+  // Likewise; null where no normal is fixed.
+  std::shared_ptr<const LevelCouples> couples() { return supports_.couples(levels_.top()); }
 
   // Of a surface that nothing holds yet.
   PlateState unheld() const { return supports_.unheld(); }
@@ -37,10 +38,10 @@ class ThinPlateSolver {
   // From here on the smoother stays as it is, so that a surface depends on its own shape alone.
   void keep_smoother() { levels_.hierarchy().keep_smoother(); }
 
-  // Full multigrid: from the control polyhedron to the solution on the finest level. `hold` has the
-  // weights to begin with and, where it is active, chooses them on each level. `on_prediction` sees
-  // the finest level's start; `on_level` may change x after each level's solve.
-  PlateState solve_nested(const PlateData& data, HoldInSpace& hold, Array<double>& x,
+  // Full multigrid: from the control polyhedron to the solution on the finest level. Where `hold` is
+  // active, weights are chosen on each level. `on_prediction` sees the finest level's start; `on_level`
+  // may change x after each level's solve.
+  PlateState solve_nested(const PlateData& data, ControlHold hold, Array<double>& x,
                           std::vector<LevelReport>& reports, const OnPrediction& on_prediction,
                           const OnLevel& on_level);
 

@@ -46,10 +46,12 @@ std::shared_ptr<const Hats> PlateSupports::hats(int level) {
   return hats_;
 }
 
-Couples* PlateSupports::couples(int level) {
+std::shared_ptr<const LevelCouples> PlateSupports::couples(int level) {
   if (!couples_ || level < std::min(Couples::first_level, levels_.top())) return nullptr;
-  couples_->set_level(levels_.grid(level));
-  return couples_.get();
+  const GridLevel& grid = levels_.grid(level);
+  if (!(level_couples_ && &level_couples_->grid() == &grid))
+    level_couples_ = std::make_shared<LevelCouples>(*couples_, grid);
+  return level_couples_;
 }
 
 void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& forces_below) {
@@ -104,17 +106,16 @@ bool PlateSupports::leave_thrown_pads(int level, std::span<const Vec3> targets, 
 
 // Couples stay what they are as a whole.
 void PlateSupports::start_couples(int level, Moments& moments) {
-  if (level > levels_.base() && couples(level - 1)) {
-    const std::vector<double> before = couples_->totals();
-    couples(level)->carry(before, moments);
-  } else {
+  if (const auto below = level > levels_.base() ? couples(level - 1) : nullptr)
+    couples(level)->carry(*below, moments);
+  else
     std::fill(moments.begin(), moments.end(), Vec2::Zero());
-  }
 }
 
 // Couples far apart are tried out in one solve, and others along each axis. How well that goes says
 // nothing about the surface, which the smoother is to adapt to.
 void PlateSupports::measure_couples(int level, int max_iterations) {
+  const auto here = couples(level);
   const std::vector<std::vector<std::size_t>> sets = couples_->sets_apart();
   std::vector<Eigen::Matrix2d> slopes(couples_->size(), Eigen::Matrix2d::Zero());
   Workers& workers = levels_.workers();
@@ -136,16 +137,16 @@ void PlateSupports::measure_couples(int level, int max_iterations) {
     const auto residual = [&](const double* x, double* out) {
       levels_.op(level).apply(x, out);
       for_each_index(workers, y.size(), [&](std::size_t i) { out[i] = -out[i]; });
-      couples_->add(trials, out);
+      here->add(trials, out);
     };
     for_each_index(workers, y.size(), [&](std::size_t i) { y[i] = 0; });
     residual(y.data(), r.data());
     levels_.solve(level, rough, {residual, y.data(), r.data()}, [](const PcgResult&) {});
     each_of(first, [&](std::size_t c, Eigen::Index axis, Eigen::Index k) {
-      slopes[c].col(k) = couples_->slopes(c, y.data()).row(axis).transpose();
+      slopes[c].col(k) = here->slopes(c, y.data()).row(axis).transpose();
     });
   }
-  couples_->set_compliance(std::move(slopes));
+  compliance_ = here->compliance(std::move(slopes));
 }
 
 }  // namespace fairing

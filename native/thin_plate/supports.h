@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "thin_plate/levels.h"
 #include "thin_plate/plate_state.h"
@@ -19,9 +20,10 @@ class PlateSupports {
   const Pads* pads() const { return pads_.get(); }  // null: point forces hold control vertices
   // Of the pads as they stand, on a level's points; null: there are none.
   std::shared_ptr<const Hats> hats(int level);
-  Couples* couples() { return couples_.get(); }  // null: no normal is fixed
-  // On a level's points, until they are wanted on another's; null where hats have no points there.
-  Couples* couples(int level);
+  // On a level's points; null: no normal is fixed, or hats have no points there.
+  std::shared_ptr<const LevelCouples> couples(int level);
+  // What corrections of them are made by; null: not measured yet.
+  const Compliance* compliance() const { return compliance_ ? &*compliance_ : nullptr; }
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   const std::vector<double>& stiffness() const { return stiffness_; }
 
@@ -43,6 +45,8 @@ class PlateSupports {
   std::unique_ptr<Pads> pads_;
   std::shared_ptr<const Hats> hats_;  // of the latest level; null: not known
   std::unique_ptr<Couples> couples_;
+  std::shared_ptr<const LevelCouples> level_couples_;  // of the latest level; null: none
+  std::optional<Compliance> compliance_;
   std::vector<double> stiffness_;
 };
 

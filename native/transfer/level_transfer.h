@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vectors of unknowns between a level and the next coarser one, in single precision: what a
-// multigrid cycle asks for.
+// multigrid cycle asks for. And from a level to the control vertices.
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
 
+#include "parallel/reductions.h"
 #include "transfer/quadratic.h"
 #include "transfer/quadratic_matrix.h"
 
@@ -24,8 +28,8 @@ class LevelTransfer {
 template <int C>
 class QuadraticTransfer final : public LevelTransfer {
  public:
-  // All must outlive the transfer. `matrix` may be null, or about more control vertices than
-  // `unknowns`; `slots` may be shared by all levels.
+  // All must outlive the transfer. `matrix` may be null, or about more control vertices than the
+  // unknowns; `slots` may be shared by all levels.
   QuadraticTransfer(const GridLevel& coarse, const GridLevel& fine, const Stencils& stencils,
                     const Unknowns& unknowns, const AssembledTransfer* matrix, Workers& workers,
                     ElementSlots<float, C>& slots)
@@ -40,23 +44,25 @@ class QuadraticTransfer final : public LevelTransfer {
   void prolong(const float* x, float* y) override {
     if (matrix_) {
       matrix_->prolong<C>(x, workers_, y);
-      return clear_fixed(y);
+      return clear_fixed(unknowns_, y);
     }
     fairing::prolong(coarse_, fine_, stencils_, &unknowns_, workers_, slots_, x, y);
   }
-  void restrict_to(const float* x, float* y) override {
+  void restrict_to(const float* x, float* y) override { restrict_to(unknowns_, x, y); }
+  // On these unknowns, of which the matrix knows all control vertices.
+  void restrict_to(const Unknowns& unknowns, const float* x, float* y) {
     if (matrix_) {
       matrix_->restrict_to<C>(x, workers_, y);
-      return clear_fixed(y);
+      return clear_fixed(unknowns, y);
     }
-    fairing::restrict_to(coarse_, fine_, stencils_, unknowns_, workers_, slots_, x, y);
+    fairing::restrict_to(coarse_, fine_, stencils_, unknowns, workers_, slots_, x, y);
   }
 
  private:
   // Control vertices may have been fixed since the matrix was made.
-  void clear_fixed(float* y) const {
-    for (std::size_t v = 0; v < unknowns_.vertex.size(); ++v)
-      if (!unknowns_.vertex[v]) std::fill_n(y + C * v, C, 0.0f);
+  static void clear_fixed(const Unknowns& unknowns, float* y) {
+    for (std::size_t v = 0; v < unknowns.vertex.size(); ++v)
+      if (!unknowns.vertex[v]) std::fill_n(y + C * v, C, 0.0f);
   }
 
   const GridLevel &coarse_, &fine_;
@@ -66,5 +72,26 @@ class QuadraticTransfer final : public LevelTransfer {
   Workers& workers_;
   ElementSlots<float, C>& slots_;
 };
+
+// Of all levels from 1 on.
+template <int C>
+using QuadraticTransfers = std::vector<std::unique_ptr<QuadraticTransfer<C>>>;
+
+// sums <- H^T r of a level for the control vertices that are `carried`, with H their prolongation
+// through all levels; zero elsewhere. room(l) gives a vector of level l to work in.
+template <int C, class Room>
+void restrict_to_vertices(const QuadraticTransfers<C>& transfers, int level,
+                          const Unknowns& carried, Workers& workers, std::span<const double> r,
+                          Room&& room, std::span<Eigen::Matrix<double, C, 1>> sums) {
+  Array<float> vertices(C * sums.size());
+  const auto at = [&](int l) { return l > 0 ? room(l) : vertices.data(); };
+  float* const finest = at(level);
+  for_each_index(workers, r.size(), [&](std::size_t i) { finest[i] = float(r[i]); });
+  for (int l = level; l > 0; --l)
+    transfers[std::size_t(l - 1)]->restrict_to(carried, at(l), at(l - 1));
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    sums[v] =
+        Eigen::Map<const Eigen::Matrix<float, C, 1>>(&vertices[C * v]).template cast<double>();
+}
 
 }  // namespace fairing

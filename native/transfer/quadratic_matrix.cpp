@@ -196,7 +196,6 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
                                                            const Unknowns& unknowns,
                                                            Workers& workers) {
   if (!suits(fine, stencils)) return nullptr;
-  std::unique_ptr<AssembledTransfer> transfer(new AssembledTransfer(coarse.size(), fine.size()));
   const HalfWay half(coarse, stencils, unknowns, workers);
   const std::vector<std::uint8_t> unknown = unknown_points(fine, unknowns);
   const auto fine_writer = [&] {
@@ -204,8 +203,9 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
       if (unknown[std::size_t(p)]) rows.write(p, row);
     };
   };
-  if (!transfer->prolongation_.build(workers, fine_writer)) return nullptr;
-  const MatrixColumns columns = transfer->prolongation_.by_columns(workers);
+  Matrix prolongation = AssembledMatrix::make(fine.size(), coarse.size(), workers, fine_writer);
+  if (!prolongation) return nullptr;
+  const MatrixColumns columns = prolongation->by_columns(workers);
   const auto coarse_writer = [&] {
     return [&columns](Index p, RowBuilder& row) {
       for (std::size_t k = columns.first[std::size_t(p)]; k < columns.first[std::size_t(p) + 1];
@@ -213,8 +213,10 @@ std::unique_ptr<AssembledTransfer> AssembledTransfer::make(const GridLevel& coar
         row.add(columns.entry[k].row, double(columns.entry[k].number));
     };
   };
-  if (!transfer->restriction_.build(workers, coarse_writer)) return nullptr;
-  return transfer;
+  Matrix restriction = AssembledMatrix::make(coarse.size(), fine.size(), workers, coarse_writer);
+  if (!restriction) return nullptr;
+  return std::unique_ptr<AssembledTransfer>(
+      new AssembledTransfer(std::move(prolongation), std::move(restriction)));
 }
 
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "sparse/matrix.h"
 #include "sparse/ring_table.h"
@@ -26,18 +27,19 @@ class AssembledTransfer {
   // has `vector_room` more.
   template <int C>
   void prolong(const float* coarse, Workers& workers, float* fine) const {
-    prolongation_.apply<C>(coarse, workers, fine);
+    prolongation_->apply<C>(coarse, workers, fine);
   }
   template <int C>
   void restrict_to(const float* fine, Workers& workers, float* coarse) const {
-    restriction_.apply<C>(fine, workers, coarse);
+    restriction_->apply<C>(fine, workers, coarse);
   }
 
  private:
-  AssembledTransfer(std::size_t coarse, std::size_t fine)
-      : prolongation_(fine, coarse), restriction_(coarse, fine) {}
+  using Matrix = std::unique_ptr<const AssembledMatrix>;
+  AssembledTransfer(Matrix prolongation, Matrix restriction)
+      : prolongation_(std::move(prolongation)), restriction_(std::move(restriction)) {}
 
-  AssembledMatrix prolongation_, restriction_;
+  const Matrix prolongation_, restriction_;
 };
 
 }  // namespace fairing

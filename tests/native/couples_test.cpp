@@ -19,8 +19,8 @@ std::vector<FixedNormal> upright(const ControlMesh& mesh) {
   return out;
 }
 
-std::vector<double> coupled(const Couples& couples, const GridLevel& grid, const Moments& moments) {
-  std::vector<double> r(3 * grid.size(), 0.0);
+std::vector<double> coupled(const LevelCouples& couples, const Moments& moments) {
+  std::vector<double> r(3 * couples.grid().size(), 0.0);
   couples.add(moments, r.data());
   return r;
 }
@@ -28,14 +28,13 @@ std::vector<double> coupled(const Couples& couples, const GridLevel& grid, const
 TEST(Couples, PushNothing) {
   const ControlMesh mesh = make_control_mesh(grid(4, 4).view(), {});
   Workers workers(2);
-  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
+  const Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
   ASSERT_EQ(couples.size(), 9u);
   for (const int level : {1, 2, 4}) {
     const GridLevel grid(mesh, level);
-    couples.set_level(grid);
     Moments one(9, Vec2::Zero());
     one[4] = Vec2(1, 0.5);
-    const std::vector<double> r = coupled(couples, grid, one);
+    const std::vector<double> r = coupled({couples, grid}, one);
     double sum = 0, size = 0;
     for (std::size_t i = 0; i < grid.size(); ++i) {
       EXPECT_EQ(r[3 * i], 0);
@@ -52,12 +51,12 @@ TEST(Couples, PushNothing) {
 TEST(Couples, ActOnHalfTheFacesAround) {
   const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
   Workers workers(1);
-  Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
-  const GridLevel grid(mesh, 4);
-  couples.set_level(grid);
+  const Couples all(mesh, ChartMaker(mesh), upright(mesh), workers);
+  const GridLevel grid(mesh, 4), coarse(mesh, 3);
+  const LevelCouples couples(all, grid);
   Moments one(couples.size(), Vec2::Zero());
   one[0] = Vec2(1, 2);
-  const std::vector<double> r = coupled(couples, grid, one);
+  const std::vector<double> r = coupled(couples, one);
   for (const Spoke& spoke : mesh.ring(0))
     for (int k = 8; k < 16; ++k) {
       const auto p = std::size_t(grid.edge_point(spoke.edge, spoke.outward ? k : 16 - k));
@@ -66,9 +65,7 @@ TEST(Couples, ActOnHalfTheFacesAround) {
   // (u, v) grows as far as half of the half, and what couples do to u is what they do to v.
   EXPECT_NEAR(couples.mass()[0][0], couples.mass()[0][1], 1e-12 * couples.mass()[0][0]);
   const double fine = couples.totals()[0];
-  const GridLevel coarse(mesh, 3);
-  couples.set_level(coarse);
-  EXPECT_NEAR(couples.totals()[0], fine, 0.05 * fine);
+  EXPECT_NEAR(LevelCouples(all, coarse).totals()[0], fine, 0.05 * fine);
 }
 
 TEST(Couples, SeeTheSlopesOfAPlane) {
@@ -81,11 +78,10 @@ TEST(Couples, SeeTheSlopesOfAPlane) {
   std::vector<FixedNormal> normals = upright(mesh);
   normals[0].normal = normal;
   normals[1].normal = -normal;
-  const Couples level_free(mesh, ChartMaker(mesh), normals, workers);
+  const Couples all(mesh, ChartMaker(mesh), normals, workers);
   for (const int level : {1, 3}) {
-    Couples couples = level_free;
     const GridLevel grid(mesh, level);
-    couples.set_level(grid);
+    const LevelCouples couples(all, grid);
     std::vector<double> x(3 * grid.size());
     refine_linearly(grid, mesh.positions, workers, x.data());
     EXPECT_NEAR(couples.angle(0, x.data()), 0, 1e-7);

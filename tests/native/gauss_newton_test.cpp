@@ -163,7 +163,7 @@ struct Levels {
     unknowns.vertex.assign(std::size_t(mesh.vertex_count()), 0);
     unknowns.edge.assign(mesh.edges.size(), 1);
     system = std::make_unique<GaussNewtonSystem>(mesh, levels, 1, stencils, unknowns, options,
-                                                 Mirrors{}, workers, monitor);
+                                                 nullptr, Mirrors{}, workers, monitor);
   }
   Array<double> polyhedron(int level) const {
     Array<double> x(3 * grids[std::size_t(level)].size());

@@ -5,14 +5,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <new>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "grid/linear.h"
 #include "level_settings.h"
 #include "thin_plate/operator.h"
-#include "transfer/quadratic.h"
-#include "transfer/quadratic_matrix.h"
+#include "transfer/level_transfer.h"
 
 namespace fairing::test {
 namespace {
@@ -235,17 +238,59 @@ TEST(Rows, TransferAsPassesDo) {
   });
 }
 
+// By rows and by passes, through transfers whose own unknowns are fewer.
+TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Unknowns own = some_points(s.mesh, 0);
+    for (const int choice : {1, 2})
+      for (const bool by_rows : {false, true}) {
+        const Unknowns carried = some_points(s.mesh, choice);
+        const int level = s.grid.level();
+        std::vector<std::unique_ptr<GridLevel>> grids;
+        for (int l = 0; l <= level; ++l) grids.push_back(std::make_unique<GridLevel>(s.mesh, l));
+        std::vector<std::unique_ptr<AssembledTransfer>> rows;
+        std::vector<FloatPoints> rooms(1);
+        QuadraticTransfers<3> transfers;
+        ElementSlots<float> slots;
+        ElementSlots<double> double_slots;
+        const Points x = masked(*grids[0], carried, random_points(grids[0]->size()));
+        Points hx = x;
+        for (std::size_t l = 1; l < grids.size(); ++l) {
+          const GridLevel &coarse = *grids[l - 1], &fine = *grids[l];
+          rows.push_back(by_rows
+                             ? AssembledTransfer::make(coarse, fine, s.stencils, carried, workers)
+                             : nullptr);
+          transfers.push_back(std::make_unique<QuadraticTransfer<3>>(
+              coarse, fine, s.stencils, own, rows.back().get(), workers, slots));
+          rooms.push_back(with_room(random_points(fine.size())));
+          Points below = std::exchange(hx, Points(Eigen::Index(fine.size()), 3));
+          prolong(coarse, fine, s.stencils, &carried, workers, double_slots, below.data(),
+                  hx.data());
+        }
+        const Points r = masked(s.grid, carried, random_points(s.grid.size(), 2));
+        std::vector<Vec3> sums(grids[0]->size());
+        restrict_to_vertices<3>(
+            transfers, level, carried, workers, {r.data(), std::size_t(r.size())},
+            [&](int l) { return rooms[std::size_t(l)].data(); }, sums);
+        const Eigen::Map<const Points> htr(sums[0].data(), x.rows(), 3);
+        EXPECT_NEAR(htr.cwiseProduct(x).sum(), r.cwiseProduct(hx).sum(),
+                    1e-6 * (1 + r.norm() * hx.norm()));
+        EXPECT_EQ((htr - masked(*grids[0], carried, htr)).norm(), 0);
+      }
+  });
+}
+
 // A block whose rows name more columns than 16-bit indices can tell apart is refused.
 TEST(Rows, RefuseTooManyColumnsInOnePlace) {
   Workers workers(1);
   for (const Index columns : {65000, 66000}) {
-    AssembledMatrix matrix(2, std::size_t(columns));
     const auto writer = [&] {
       return [columns](Index row, RowBuilder& builder) {
         for (Index c = row; c < columns; c += 2) builder.add(c, 1.0);
       };
     };
-    EXPECT_EQ(matrix.build(workers, writer), columns == 65000);
+    EXPECT_EQ(AssembledMatrix::make(2, std::size_t(columns), workers, writer) != nullptr,
+              columns == 65000);
   }
 }
 
@@ -269,10 +314,10 @@ TEST(Rows, RepeatNumbersInOtherColumns) {
       }
     };
   };
-  AssembledMatrix matrix(size, size + 1);
-  ASSERT_TRUE(matrix.build(workers, writer));
+  const auto matrix = AssembledMatrix::make(size, size + 1, workers, writer);
+  ASSERT_NE(matrix, nullptr);
   Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(size + 16, 1, size + 16), y = x;
-  matrix.apply<1>(x.data(), workers, y.data());
+  matrix->apply<1>(x.data(), workers, y.data());
   for (Index r = 0; r < size; ++r)
     EXPECT_EQ(y[r], r == 0 || r % 2 == 1 ? 3 * x[r] + 0.5f * x[r + 1] : 7 * x[r]) << r;
 }
@@ -292,12 +337,12 @@ TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
     };
   };
   for (const Index last : {0, 1, 7}) {
-    AssembledMatrix broken(size, size), whole(size, size);
-    EXPECT_THROW(broken.build(workers, writer(last)), std::bad_alloc);
-    ASSERT_TRUE(whole.build(workers, writer(size)));
+    EXPECT_THROW(AssembledMatrix::make(size, size, workers, writer(last)), std::bad_alloc);
+    const auto whole = AssembledMatrix::make(size, size, workers, writer(size));
+    ASSERT_NE(whole, nullptr);
     const Eigen::VectorXf x = Eigen::VectorXf::Ones(size + 16);
     Eigen::VectorXf y = Eigen::VectorXf::Zero(size + 16);
-    whole.apply<1>(x.data(), workers, y.data());
+    whole->apply<1>(x.data(), workers, y.data());
     for (Index r = 0; r < size; ++r) EXPECT_EQ(y[r], float(size * r + size * (size - 1) / 2));
   }
 }
