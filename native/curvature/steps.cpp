@@ -45,9 +45,6 @@ void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
 
 namespace {
 
-// The decrement from which on steps are settling: total curvature's are accelerated, and damped ones may
-// be the last.
-constexpr double settling_decrement = 0.1;
 // The share of the energy that two damped steps have to gain together.
 constexpr double worthwhile_gain = 0.005;
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
@@ -148,7 +145,8 @@ class GaussNewtonMethod final : public StepMethod {
 
   void find_step(StepReport& step) override {
     if (!varies()) held_ = it_.current.held;
-    const bool fresh = (damping_ && !varies()) || it_.needs_coarse_levels(is_like_before());
+    const bool fresh =
+        (damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement());
     if (fresh) it_.system.linearize_below(it_.level, it_.current);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{},
                            varies() ? share_for_long_waves() : 0);
@@ -184,7 +182,6 @@ class GaussNewtonMethod final : public StepMethod {
   bool accept(const StepReport& step, const StepCount& count,
               CurvatureLevelReport& report) override {
     if (step.length != 1) anderson_.took_share(step.length);
-    last_energy_ = it_.current.energy;
     std::swap(it_.current, it_.trial);
     if (!varies()) it_.current.held = held_;
     const double before = remainder_.last_decrement();
@@ -211,12 +208,6 @@ class GaussNewtonMethod final : public StepMethod {
  private:
   bool varies() const {
     return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
-  }
-  // Whether the surface is so much as it was before the last step that coarse levels about that one go on
-  // to precondition, with their factor, lines and spectra.
-  bool is_like_before() const {
-    return remainder_.last_decrement() > 0 && last_energy_ <= unlike_energy * it_.current.energy &&
-           it_.current.energy <= unlike_energy * last_energy_;
   }
   // What decrements are relative to.
   double scale() const { return it_.current.energy + flat_; }
@@ -269,8 +260,7 @@ class GaussNewtonMethod final : public StepMethod {
   Array<float> predicted_;
   Multipliers<1> held_;  // that goes with the step
   LeftToMove remainder_;
-  double flat_ = 0;         // an energy that counts for nothing
-  double last_energy_ = 0;  // of the surface before the last step
+  double flat_ = 0;  // an energy that counts for nothing
   // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
   int climbed_ = 0, damped_ = 0;  // steps

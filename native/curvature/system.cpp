@@ -187,8 +187,9 @@ double SurfaceIterate::movement(double length) {
   return length * largest(workers(), step.size(), [&](std::size_t i) { return step[i]; });
 }
 
-bool SurfaceIterate::needs_coarse_levels(bool is_like_before) {
-  return !std::exchange(is_near_earlier, false) && !is_like_before;
+bool SurfaceIterate::needs_coarse_levels(double last_decrement) {
+  if (std::exchange(is_near_earlier, false)) return false;
+  return !(last_decrement > 0 && last_decrement < settling_decrement);
 }
 
 }  // namespace fairing

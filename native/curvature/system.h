@@ -55,6 +55,10 @@ struct LinearizedSurface {
   Multipliers<1> held;  // what holds its control vertices; empty: not known
 };
 
+// Decrement below which the surface changes so little from step to step that coarse levels, their
+// factor and the spectra serve as they are.
+constexpr double settling_decrement = 0.1;
+
 // What solves leave of their error where what they solve for is about to change: loads, and ends.
 constexpr double inexact = 0.1;
 
@@ -164,9 +168,9 @@ struct SurfaceIterate {
   // The farthest that a step of that length takes a point.
   double movement(double length);
 
-  // Before the next step: whether coarse levels have to be linearized anew. `is_like_before`: the one
-  // before has led to a surface like its own.
-  bool needs_coarse_levels(bool is_like_before);
+  // Before the next step: whether coarse levels have to be linearized anew. `last_decrement` of the
+  // step before; 0: there was none, or it was rejected.
+  bool needs_coarse_levels(double last_decrement);
 };
 
 }  // namespace fairing

@@ -70,6 +70,8 @@ void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
     is_factor_old_ = true;
   else if (fresh)
     refresh(top, true);
+  else if (cycle_.levels[top].lines)
+    cycle_.levels[top].lines->refactor();
 }
 
 void Hierarchy::change_unknowns(std::size_t top) {

@@ -68,7 +68,7 @@ class Hierarchy {
   void refresh(std::size_t top, bool spectrum);
   // After the operator of level `top` has changed as from one step of many to the next, and those
   // below with it where they are `fresh`: a factor of that level itself goes on as a preconditioner
-  // as long as it serves, and lines do where nothing else is fresh.
+  // as long as it serves.
   void refresh_lazily(std::size_t top, bool fresh);
   // Call after the operators have taken other unknowns: lines that others are on are sought anew.
   void change_unknowns(std::size_t top);
