@@ -127,10 +127,16 @@ class Iteration {
     z_unit_ = is_single ? 1 : length_;
     float* to = level_.state.residual.data();
     for_each_index(workers_, size_, [&](std::size_t i) { to[i] = float(v_.r[i] / z_unit_); });
-    cycle_.run(top_);
-    if (system_.between && !cycle_.solves(top_)) {
-      system_.between(level_.state.x.data(), level_.state.residual.data());
+    if (!system_.between || cycle_.solves(top_)) {
       cycle_.run(top_);
+    } else {
+      // Each is the other's transpose. What the first one ends with S takes up, and the second one
+      // smooths. (Measured: without a step at its end bob takes 119 iterations for 46; with as many
+      // as at its beginning 43, in half as long again.)
+      const int few = std::max(1, cycle_.degree / 6);
+      cycle_.run(top_, cycle_.degree, few);
+      system_.between(level_.state.x.data(), level_.state.residual.data());
+      cycle_.run(top_, few, cycle_.degree);
     }
     return level_.state.x.data();  // only now: the smoother swaps its vectors
   }

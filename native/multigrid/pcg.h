@@ -58,7 +58,7 @@ struct LinearSystem {
   double* x;  // is improved in place
   double* r;  // b - K x of x as it is, which is overwritten
   // z <- S y, where K is nearly A S^-1 A, with the A that the cycle's levels apply in single
-  // precision: a cycle, S, and another cycle precondition. Empty: A is K.
+  // precision: a cycle, S, and that cycle's transpose precondition. Empty: A is K.
   std::function<void(const float* y, float* z)> between{};
 };
 

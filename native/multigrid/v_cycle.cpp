@@ -163,22 +163,22 @@ void CoarseSolver::solve(const LineJacobi* lines, double largest_eigenvalue, int
   std::copy(x.begin(), x.end(), state.x.begin());
 }
 
-void VCycle::run(std::size_t top) {
+void VCycle::run(std::size_t top, int before, int after) {
   CycleLevel& level = levels[top];
   if (top == base) {
     coarse->solve(level.lines.get(), level.largest_eigenvalue, degree, level.state);
     return;
   }
   SmootherState& s = level.state;
-  const auto smooth_from = [&](SmoothFrom from, bool last_residual) {
-    smooth(*level.op, level.lines.get(), workers_, level.largest_eigenvalue, degree, from,
+  const auto smooth_from = [&](SmoothFrom from, int steps, bool last_residual) {
+    smooth(*level.op, level.lines.get(), workers_, level.largest_eigenvalue, steps, from,
            last_residual, s);
   };
-  smooth_from(SmoothFrom::zero, true);
+  smooth_from(SmoothFrom::zero, before, true);
   level.transfer->restrict_to(s.residual.data(), levels[top - 1].state.residual.data());
-  run(top - 1);
+  run(top - 1, before, after);
   level.transfer->prolong(levels[top - 1].state.x.data(), s.step.data());
-  smooth_from(SmoothFrom::correction, false);
+  smooth_from(SmoothFrom::correction, after, false);
 }
 
 }  // namespace fairing

@@ -72,9 +72,9 @@ struct CycleLevel {
   SmootherState state;
 };
 
-// The V-cycle as a preconditioner, in single precision: one linear, symmetric positive definite
-// map, since restriction is the transpose of prolongation and the smoother is the same before and
-// after the coarser levels' correction.
+// The V-cycle as a preconditioner, in single precision: one linear map, with restriction the
+// transpose of prolongation. With the same smoother before and after the coarser levels' correction
+// it is symmetric positive definite.
 class VCycle {
  public:
   explicit VCycle(Workers& workers) : workers_(workers) {}
@@ -89,7 +89,9 @@ class VCycle {
 
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.
-  void run(std::size_t top);
+  void run(std::size_t top) { run(top, degree, degree); }
+  // With other degrees, one at the least, before and after. Exchanged, they give the transpose.
+  void run(std::size_t top, int before, int after);
 
  private:
   Workers& workers_;
