@@ -40,8 +40,9 @@ class Exchanged {
 Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
                      const std::vector<HierarchyLevel>& levels)
     : workers_(workers), options_(options), cycle_(workers) {
-  degree_of_two_ = cycle_.degree =
-      options.smoother_degree > 0 ? options.smoother_degree : usual_degree;
+  const bool is_given = options.smoother_degree > 0;
+  cycle_.degree = is_given ? options.smoother_degree : usual_degree;
+  degree_of_two_ = is_given ? options.smoother_degree : 2 * usual_degree;
   for (const HierarchyLevel& level : levels) {
     CycleLevel& own = cycle_.levels.emplace_back();
     own.op = &level.op;
