@@ -12,14 +12,12 @@
 namespace fairing {
 namespace {
 
-// Columns of a block.
-constexpr std::size_t block_size = 4;
-using Four = Packs<float, block_size * sizeof(float)>;
+using Block = Packs<float, 16>;
+constexpr std::size_t block_size = Block::size;
 
-// Room that is reserved a row.
-constexpr std::size_t usual_blocks = 8;
 constexpr std::uint16_t none = 0xffff;
-constexpr std::size_t grain = vector_grain / (block_size * usual_blocks);  // rows worth a thread
+// Rows worth a thread, of about as many blocks as a ring has points.
+constexpr std::size_t grain = vector_grain / (block_size * most_slots);
 
 // Whether no rings are so large that their squares are not linear, nor that 16 bits do not tell the
 // places in a row apart: a vertex' ring of rings has three points a slot, at most each in a block.
@@ -115,7 +113,7 @@ void NormalMatrix::find_blocks(const std::vector<Index>& unknown) {
   std::size_t targets = 0;
   for (const RingSlot& entry : ring_slot_) targets += jacobian_.size(entry.ring);
   target_.reserve(targets);
-  block_.reserve(usual_blocks * unknown.size());
+  block_.reserve(most_slots * unknown.size());
   RowBlocks row(unknown.size(), block_);
   for (std::size_t p = 0; p < unknown.size(); ++p) {
     stop_if_cancelled(p);
@@ -197,10 +195,10 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
   workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      Four::Pack even = {}, odd = {}, of_x, numbers;
-      const auto add = [&](std::size_t block, Four::Pack& sum) {
-        Four::load(x + block_[block], of_x);
-        Four::load(number_.data() + block_size * block, numbers);
+      Block::Pack even = {}, odd = {}, of_x, numbers;
+      const auto add = [&](std::size_t block, Block::Pack& sum) {
+        Block::load(x + block_[block], of_x);
+        Block::load(number_.data() + block_size * block, numbers);
         sum += numbers * of_x;
       };
       std::size_t k = block_begin_[p];
