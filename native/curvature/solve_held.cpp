@@ -150,14 +150,14 @@ struct GaussNewtonSystem::HeldSolve {
 
   bool loads_settled() {
     if (!hats) return true;
-    NormalLoads over_mass;
+    NormalLoads mass_of_loads;
     const std::vector<double> compliance_ratio =
         hold() ? compliance_ratios(system.shared_.unknowns, weights(), hold()->stiffness(), *hats)
                : std::vector<double>{};
     hats->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
-    hats->multiply_mass<1>(held.loads, over_mass);
+    hats->multiply_mass<1>(held.loads, mass_of_loads);
     const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
-                 size = std::sqrt(std::max(0.0, dot<1>(held.loads, over_mass)));
+                 size = std::sqrt(std::max(0.0, dot<1>(held.loads, mass_of_loads)));
     if (first_force == 0) first_force = left;
     const double tolerance =
         level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
