@@ -18,9 +18,9 @@ from bpy.app.handlers import persistent
 from . import curve_cage, memory
 from .blender import Context, Mesh, Object, Scene, all_objects, current_context
 from .errors import JobError
-from .memory import source_of
+from .memory import FAIRING_PG_surface, source_of
 from .mesh.object import Reference, session_key
-from .mesh.read import control_mesh, read_mesh, tolerance_shares
+from .mesh.read import control_mesh, read_mesh, tolerance_shares, vertex_pulls
 from .mesh.shape_keys import read_shape_keys
 from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
@@ -66,7 +66,7 @@ def why_stale(target: Object) -> str:
     if not made or source_of(target) is None:
         return ""
     know(target)
-    if made["settings"] != _that_count(target.discrete_fairing):
+    if _differ(made["settings"], target.discrete_fairing):
         return SETTINGS_CHANGED
     key = session_key(target)
     if key not in _sums or key in _unread:
@@ -92,6 +92,17 @@ def _that_count(settings: Settings) -> dict[str, Any]:
     return {name: getattr(settings, name) for name in NAMES if name not in _ELSEWHERE}
 
 
+def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
+    """Of what a surface was `made` with: a setting that it does not know, as it is newer than the
+    surface, counts as one that nobody has chosen.
+    """
+    properties: Any = settings.bl_rna.properties
+    return any(
+        now != made.get(name, properties[name].default)
+        for name, now in _that_count(settings).items()
+    )
+
+
 def _look() -> None:
     """Reads the sources that may have changed."""
     context = current_context()
@@ -112,6 +123,7 @@ def _checksum(context: Context, source: Object, settings: Settings) -> int:
         parts = [*astuple(arrays), _selection(mesh) if settings.use_selection else None]
         with suppress(JobError):
             parts.append(tolerance_shares(source, mesh, settings))
+            parts.append(vertex_pulls(source, mesh, settings))
     if settings.use_shape_keys:
         keys = read_shape_keys(source, len(arrays.positions))
         parts.append(keys.shapes if keys is not None else None)

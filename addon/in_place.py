@@ -24,7 +24,7 @@ from .job import run_warnings
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.world_shape import world_shape
-from .preferences import preferences
+from .preferences import of_runs
 from .settings import Settings, snapshot
 from .transfer.carrier import Carrier
 from .transfer.cut_out import CutOut, cut_out, grown, inside
@@ -79,6 +79,7 @@ class InPlaceJob:
         """
         self.name, self._source, self._wish = source.name, Reference(source), wish
         self._length = partial(length_text, context.scene)
+        self._preferences = of_runs()  # arguments are also made on the thread that computes
         self._mode = source.mode
         self.result: Any = None
         self._arrays, chosen = self._read(context, source)
@@ -105,7 +106,7 @@ class InPlaceJob:
 
     def _arguments_of(self, arrays: Any, region: np.ndarray | None = None) -> dict[str, Any]:
         world = self._shape.of_arrays(arrays)
-        return core.fair_arguments(world, self._asked, preferences(), region)
+        return core.fair_arguments(world, self._asked, self._preferences, region)
 
     @property
     def _rings(self) -> int:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on's preferences: what holds for all files of a user."""
 
+from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 import bpy
@@ -66,6 +67,12 @@ def preferences() -> Preferences:
     """The user's preferences, or the defaults."""
     entry = current_context().preferences.addons.get(__package__)
     return entry.preferences if entry is not None and entry.preferences is not None else Defaults
+
+
+def of_runs() -> SimpleNamespace:
+    """What runs ask of them, as plain values: for threads, where Blender may not be asked."""
+    now = preferences()
+    return SimpleNamespace(memory_limit=now.memory_limit, threads=now.threads)
 
 
 @persistent

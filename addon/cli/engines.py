@@ -104,6 +104,11 @@ def _run(
 @contextmanager
 def _dask(arguments: Namespace) -> Iterator[Engine]:
     address = arguments.scheduler
+    if not bpy.app.online_access:
+        raise NoEngine(
+            "--scheduler needs Blender's online access: allow it in Preferences > System > Network, "
+            "or start Blender with --online-mode before --command."
+        )
     try:
         import distributed
     except ImportError as error:

@@ -271,7 +271,8 @@ def _start() -> None:
 def register() -> None:
     if bpy.app.background:
         return
-    bpy.app.timers.register(_start, first_interval=0.0)
+    # persistent: Blender may be about to open a file, which ends other timers
+    bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
     for name, handler in _HANDLERS.items():
         getattr(bpy.app.handlers, name).append(handler)
 

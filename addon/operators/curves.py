@@ -12,6 +12,7 @@ from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, ENERGY_MEANING
 from ..curve_cage import CageSettings
 from ..job import Job
+from ..mesh.object import Reference
 from ..mesh.read_curves import has_curves
 from ..settings import snapshot
 from .fair import Fairing, poll_reason
@@ -77,7 +78,7 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
             layout.prop(self, name)
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        self._cage: Object | None = None
+        self._cage: Reference | None = None
         return self._tidied(super().invoke(context, event))
 
     def execute(self, context: Context) -> Answer:
@@ -93,22 +94,25 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
 
     def _tidied(self, answer: Answer) -> Answer:
         """A control mesh without a surface is nothing that anyone has asked for."""
-        if answer == {"CANCELLED"} and self._cage is not None:
-            mesh = self._cage.data
-            bpy.data.objects.remove(self._cage)
-            bpy.data.meshes.remove(mesh)
+        cage = self._cage.find() if self._cage is not None else None  # undo may have taken it
+        if answer == {"CANCELLED"}:
             self._cage = None
+            if cage is not None:
+                mesh = cage.data
+                bpy.data.objects.remove(cage)
+                bpy.data.meshes.remove(mesh)
         return answer
 
     def make_jobs(self, context: Context) -> list[Job]:
-        if self._cage is None:
+        cage = self._cage.find() if self._cage is not None else None
+        if cage is None:
             sources = curve_objects(context)
             name = "Curves" if len(sources) > 1 else sources[0].name
-            made = curve_cage.new_cage(context, f"{name} Network", sources, self)
-            self._cage, self._found = made
+            cage, self._found = curve_cage.new_cage(context, f"{name} Network", sources, self)
+            self._cage = Reference(cage)
         own = vars(snapshot(context.scene.discrete_fairing)) | _OURS
         own |= {"levels": self.levels, "energy": self.energy}
-        return [Job(context, self._cage, SimpleNamespace(**own))]
+        return [Job(context, cage, SimpleNamespace(**own))]
 
     def after(self, context: Context, jobs: Any) -> None:
         faces = len(self._found.mesh.faces)

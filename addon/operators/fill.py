@@ -102,7 +102,7 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
         manager = current_context().window_manager
         if place < len(manager.windows) and not running():
             with current_context().temp_override(window=manager.windows[place]):
-                operator("INVOKE_DEFAULT", **properties)
+                operator("INVOKE_DEFAULT", True, **properties)  # with a step of undo, as a button's
 
     bpy.app.timers.register(begin, first_interval=0.01)
 

@@ -10,8 +10,12 @@ from ..blender import Answer, Context, registration
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..purposes import EASED_FIRST, PURPOSES, preset_file
+from ..settings import snapshot
 from ..ui.main import fairing_operator, remembered, settings_at_hand
 from .fair import poll_reason
+
+# an operator that another one calls leaves no step of undo by itself; from a script's call none does
+_UNDO = True
 
 
 class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
@@ -52,19 +56,17 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         path = preset_file(self.purpose)
         if path is None:
             if context.mode == "OBJECT":
-                return operators.fairing_scan(how)
-            return operators.fairing_in_place(how, vertices="MEASURED", levels=0)
+                return operators.fairing_scan(how, _UNDO)
+            return operators.fairing_in_place(how, _UNDO, vertices="MEASURED", levels=0)
         operators.fairing_preset_apply(filepath=str(path))
         if self.purpose in EASED_FIRST:
             if how == "INVOKE_DEFAULT":
-                return operators.fairing_ease(how, fair_afterwards=True)
+                return operators.fairing_ease(how, _UNDO, fair_afterwards=True)
             operators.fairing_ease(how)
         if how == "INVOKE_DEFAULT" or remembered(context) is not None:
-            return fairing_operator(context)(how)
-        settings: Any = settings_at_hand(context)
-        return operators.fairing_surface(
-            how, **{name: getattr(settings, name) for name in settings.__annotations__}
-        )
+            return fairing_operator(context)(how, _UNDO)
+        settings = vars(snapshot(settings_at_hand(context)))
+        return operators.fairing_surface(how, _UNDO, **settings)
 
 
 register, unregister = registration(OBJECT_OT_fairing_for)

@@ -239,7 +239,8 @@ def _start() -> None:
 def register() -> None:
     if bpy.app.background:
         return
-    bpy.app.timers.register(_start, first_interval=0.0)
+    # persistent: Blender may be about to open a file, which ends other timers
+    bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
     bpy.app.handlers.load_pre.append(_forget)
 
 

@@ -8,6 +8,7 @@ import threading
 import time
 from pathlib import Path
 
+import bpy
 import psutil
 import pytest
 from cli_files import write_obj, write_ply
@@ -24,6 +25,20 @@ def folder(tmp_path, monkeypatch):
     program = f"import sys; sys.path[:0] = {[str(ROOT), str(CORE)]}\n{PROCESS}"
     monkeypatch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", program])
     return tmp_path
+
+
+@pytest.fixture
+def online():
+    """As in a Blender that may use the network."""
+    bpy.context.preferences.system.use_online_access = True
+    yield
+    bpy.context.preferences.system.use_online_access = False
+
+
+def test_a_cluster_needs_online_access(capfd):
+    write_obj("in.obj")
+    code = run("in.obj", "out.obj", "--scheduler", "tcp://127.0.0.1:9")
+    assert code == command.SOME_FAILED and "--online-mode" in capfd.readouterr().err
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +126,7 @@ def test_a_refusal_comes_back_from_another_process(capfd):
     assert record["error"]["code"] == "TOO_LARGE"
 
 
-def test_files_on_a_cluster(cluster):
+def test_files_on_a_cluster(online, cluster):
     names = three_files()
     assert run(*names, "alone/", "--levels", 2, "--quiet") == 0
     code, records = entries(*names, "spread/", "--levels", 2, "--scheduler", cluster)
@@ -120,7 +135,7 @@ def test_files_on_a_cluster(cluster):
         assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
 
 
-def test_pieces_on_a_cluster(cluster):
+def test_pieces_on_a_cluster(online, cluster):
     write_obj("in.obj")
     words = ("--levels", 3, "--pieces", 3)
     assert run("in.obj", "one.obj", *words) == 0
@@ -128,7 +143,7 @@ def test_pieces_on_a_cluster(cluster):
     assert Path("two.obj").read_text() == Path("one.obj").read_text()
 
 
-def test_no_scheduler_there(capfd):
+def test_no_scheduler_there(online, capfd):
     write_obj("in.obj")
     code, (record,) = entries("in.obj", "out.obj", "--scheduler", "tcp://127.0.0.1:9")
     assert code == command.SOME_FAILED and record["status"] == "not_run"

@@ -13,8 +13,9 @@ from addon import curve_cage, freshness
 from addon.curves.cubics import points_at
 from addon.inspection import overlay
 from addon.live import registry, switch
-from addon.mesh.object import session_key
+from addon.mesh.object import Reference, session_key
 from addon.mesh.read_curves import chains, read_curves
+from addon.operators.curves import OBJECT_OT_fairing_curves
 from addon.ui.curves import VIEW3D_PT_fairing_curves
 from addon.ui.main import VIEW3D_PT_fairing
 
@@ -235,3 +236,18 @@ def test_curves_have_their_own_panel_alone():
     assert VIEW3D_PT_fairing_curves.poll(bpy.context)
     add("Cube", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
     assert VIEW3D_PT_fairing.poll(bpy.context) and not VIEW3D_PT_fairing_curves.poll(bpy.context)
+
+
+def test_a_run_whose_control_mesh_was_undone_ends_well():
+    """Ctrl Z takes the new control mesh in mid-run, ESC then ends the run."""
+
+    class Run:
+        _cage = None
+        _tidied = OBJECT_OT_fairing_curves._tidied
+
+    scene(networks.three_by_four)
+    cage = surface().discrete_fairing.source
+    run = Run()
+    run._cage = Reference(cage)
+    bpy.data.objects.remove(cage)
+    assert run._tidied({"CANCELLED"}) == {"CANCELLED"} and run._cage is None

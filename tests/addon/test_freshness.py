@@ -8,7 +8,7 @@ from fake_layout import Layout, draw
 from live_scenes import follow, live, move
 from scenes import CUBE, activate, add, fair, positions
 
-from addon import freshness
+from addon import freshness, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.ui import main, outliner
 
@@ -145,3 +145,28 @@ def test_nothing_is_walked_while_there_is_no_surface():
             raise AssertionError
 
     freshness._note_changes(bpy.context.scene, Unseen())
+
+
+def test_pulls_count_where_vertices_are_met_nearly():
+    source = add("Box", *CUBE)
+    group = source.vertex_groups.new(name="Pull")
+    group.add(range(8), 0.5, "REPLACE")
+    target = fair(levels=1, interpolation="APPROXIMATE", pull_group="Pull")
+    assert why_stale(target) == ""
+    group.add([0], 0.9, "REPLACE")
+    source.data.update()
+    follow()
+    assert why_stale(target) == SOURCE_CHANGED
+
+
+def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
+    add("Box", *CUBE)
+    target = fair(levels=1)
+    made = dict(memory.recall(target, "made"))
+    made["settings"] = {
+        name: value for name, value in made["settings"].items() if name != "pad_size"
+    } | {"of_an_older_version": 3}
+    memory.keep(target, "made", made)
+    assert why_stale(target) == ""
+    target.discrete_fairing.pad_size = 0.5
+    assert why_stale(target) == SETTINGS_CHANGED

@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the user prefers reaches scenes and the core."""
 
+from threading import current_thread, main_thread
 from types import SimpleNamespace
 
 import bpy
 from scenes import CUBE, add
 
-from addon import preferences
+from addon import core, preferences
 from addon.core import fair_arguments
+from addon.in_place import InPlaceJob
+from addon.in_place import Wish as ScanWish
+from addon.job import Job
 from addon.mesh.read import read_mesh
+from addon.queue import Queue
 from addon.settings import snapshot
+from addon.strain.ease import EaseJob, Wish
+from addon.strain.measure import StrainJob
 
 
 def prefer(monkeypatch, **values):
@@ -53,3 +60,29 @@ def test_memory_and_threads_reach_the_core(monkeypatch):
 
 def test_not_installed_means_defaults():
     assert preferences.preferences() is preferences.Defaults
+
+
+def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
+    """Whatever computes has all that it needs beforehand."""
+    asked = []
+    now = preferences.current_context
+
+    def context():
+        asked.append(current_thread() is main_thread())
+        return now()
+
+    monkeypatch.setattr(preferences, "current_context", context)
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    source, scene = bpy.context.object, bpy.context.scene
+    settings = snapshot(scene.discrete_fairing)
+    wish = ScanWish(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
+    jobs = [
+        Job(bpy.context, source, settings),
+        StrainJob(bpy.context, source),
+        EaseJob(bpy.context, source, Wish("AUTOMATIC", 0.0, 3, False, False)),
+        InPlaceJob(bpy.context, source, scene.discrete_fairing, wish),
+    ]
+    queue = Queue(jobs, core.module().Monitor)
+    queue.start()
+    queue.join()
+    assert queue.error is None and asked and all(asked)
