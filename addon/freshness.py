@@ -82,10 +82,15 @@ def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
     """The known surfaces in the file that are out of date; those made from `source` alone."""
     for reference in list(_surfaces.values()):
         target = reference.find()
-        if target is None or target.library is not None or not target.users_scene:
+        if target is None or not target.users_scene or not is_own(target):
             continue
         if (source is None or target.discrete_fairing.source == source) and why_stale(target):
             yield target
+
+
+def is_own(target: Object) -> bool:
+    """Whether its mesh can be made anew: not of linked data, which overrides have too."""
+    return not (target.library or target.data.library)
 
 
 def _that_count(settings: Settings) -> dict[str, Any]:

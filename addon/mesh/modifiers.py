@@ -31,11 +31,13 @@ def copy_modifiers(
     targets and drivers. `subdivided`: the surface passes where Subdivision Surface would, and gets
     none.
 
-    Both objects have to be in the view layer, in Object Mode. Returns what could not be copied, a
-    sentence each.
+    Both objects have to be in the view layer. Returns what could not be copied, a sentence each;
+    nothing can where Blender is not in Object Mode.
     """
     if not len(source.modifiers):
         return []
+    if context.mode != "OBJECT":
+        return ["Modifiers are copied in Object Mode only."]
     both = [source, target]
     with context.temp_override(
         object=source, active_object=source, selected_objects=both, selected_editable_objects=both

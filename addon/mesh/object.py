@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The new object beside its source: same place, same collections, same materials."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from typing import Any, cast
 
 import bpy
@@ -56,18 +57,48 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     return target
 
 
+@contextmanager
+def nothing_left_behind() -> Iterator[None]:
+    """What an error ends inside the `with` leaves no new object and no new mesh."""
+    kinds: tuple[Any, ...] = (bpy.data.objects, bpy.data.meshes)
+    before = [set(map(session_key, blocks)) for blocks in kinds]
+    try:
+        yield
+    except BaseException:
+        for blocks, known in zip(kinds, before):
+            for block in [b for b in blocks if session_key(b) not in known]:
+                blocks.remove(block)
+        raise
+
+
+def is_in_view_layer(context: Context, target: Object) -> bool:
+    """Whether it can be selected and hidden there: not in an excluded collection, nor in another scene alone."""
+    objects = context.view_layer.objects
+    _ = objects.active  # lets Blender list those that are new
+    return objects.get(target.name) == target
+
+
 def select_only(context: Context, objects: list[Object]) -> None:
-    """Selects `objects` and nothing else; the last one becomes active."""
+    """Selects `objects` and nothing else; the last one becomes active. Those that are not in the view
+    layer, as in an excluded collection, stay as they are.
+    """
+    here = [one for one in objects if is_in_view_layer(context, one)]
+    if not here:
+        return
     for other in context.view_layer.objects.selected[:]:
         other.select_set(False)
-    for target in objects:
+    for target in here:
         target.select_set(True)
-    context.view_layer.objects.active = objects[-1]
+    context.view_layer.objects.active = here[-1]
 
 
 def _collections(context: Context, source: Object) -> list[bpy.types.Collection]:
-    own = [collection for collection in source.users_collection if not collection.library]
-    return own or [context.collection]
+    """Of the source those that take objects; linked and overridden ones do not."""
+    for found in (source.users_collection, [context.collection], [context.scene.collection]):
+        own = [each for each in found if not (each.library or each.override_library)]
+        if own:
+            return own
+    return []
 
 
 def _copy_place(context: Context, source: Object, target: Object) -> None:

@@ -12,12 +12,12 @@ import bpy
 from .. import core, curve_cage, prediction
 from ..blender import Answer, Context, Object, registration
 from ..errors import JobCancelled, JobError
-from ..freshness import stale_surfaces
+from ..freshness import is_own, stale_surfaces
 from ..job import Job
 from ..live import switch
 from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
-from ..mesh.object import select_only
+from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
@@ -100,6 +100,7 @@ class Fairing(ExplainedPoll, ModalRun):
     def _prepare(self, context: Context) -> list[Job] | None:
         """The jobs, or None after an error has been reported."""
         fill.give_way()
+        self._mode = context.mode
         try:
             return self.make_jobs(context)
         except JobError as error:
@@ -121,7 +122,7 @@ class Fairing(ExplainedPoll, ModalRun):
         return self.finish(context, jobs)
 
     def finish(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> Answer:
-        """Writes what finished jobs have computed, in Object Mode."""
+        """Writes what finished jobs have computed, and selects it in Object Mode."""
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
             self.report(
@@ -129,15 +130,21 @@ class Fairing(ExplainedPoll, ModalRun):
                 f"Fair once more: {', '.join(gone)} was deleted or undone during the run, and nothing has been made.",
             )
             return {"CANCELLED"}
-        if context.mode != "OBJECT":  # whatever the user has begun meanwhile
+        targets = [target for job in jobs if (target := job.target) is not None]
+        # what the user has begun meanwhile goes on, unless it is done to the very surfaces
+        busy = context.mode not in {"OBJECT", self._mode}
+        busy = busy and all(target.mode == "OBJECT" for target in targets)
+        if context.mode != "OBJECT" and not busy:
             bpy.ops.object.mode_set(mode="OBJECT")
-        self._written = [job.write(context) for job in jobs]
+        with nothing_left_behind():
+            self._written = [job.write(context) for job in jobs]
         for job in jobs:
             for sentence in job.notes:
                 self.report({"INFO"}, f"{job.name}: {sentence}")
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        select_only(context, self._written)
+        if not busy:
+            select_only(context, self._written)
         self.after(context, jobs)
         return {"FINISHED"}
 
@@ -178,7 +185,8 @@ class FairSurface(Fairing, FairingSettings):
             hidden = self.hide_source and not switch.live_surfaces_of(
                 source
             )  # or it is being edited
-            if hidden and context.view_layer.objects.get(source.name) == source:
+            hidden = hidden and source.mode == "OBJECT"
+            if hidden and is_in_view_layer(context, source):
                 source.hide_set(True)
 
 
@@ -231,7 +239,7 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
         targets = faired_objects(context)
         if not targets:
             return no_source_reason(context.active_object)
-        if any(target.data.library or target.library for target in targets):
+        if not all(map(is_own, targets)):
             return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
         return ""
 
@@ -270,7 +278,7 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         source = source_of(active) if active is not None else None
         if source is None:
             return no_source_reason(active)
-        if context.view_layer.objects.get(source.name) != source:
+        if not is_in_view_layer(context, source):
             return f"Link '{source.name}' to this scene first: it is not in this view layer"
         return ""
 

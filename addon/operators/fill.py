@@ -60,6 +60,10 @@ class StandIn:
     def source(self) -> Object | None:
         return self._job.source
 
+    @property
+    def target(self) -> Object | None:
+        return self._job.target
+
     def is_writable(self) -> bool:
         return self._job.is_writable()
 

@@ -9,7 +9,7 @@ from .. import core, memory
 from ..blender import Answer, Context, Mesh, Object, registration
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
-from ..mesh.object import new_object
+from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
 from ..poll import ExplainedPoll
 from ..settings import for_source, is_limit, wants_modifiers
 
@@ -51,7 +51,9 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
             for target in targets:
                 switch.switch_off(target, context)
             return {"FINISHED"}
-        for target in targets or [self._make(context)]:
+        with nothing_left_behind():
+            targets = targets or [self._make(context)]
+        for target in targets:
             _show(context, cast(Object, memory.source_of(target)))
             switch.switch_on(target)
             if switch.problem(target):
@@ -70,16 +72,14 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         target = new_object(context, source, mesh)
         memory.remember(target, source, settings, {})
         if wants_modifiers(settings):
-            if context.mode == "OBJECT":
-                copy_modifiers(context, source, target, is_limit(settings))
-            else:
-                self.report({"INFO"}, "Modifiers are copied in Object Mode only")
+            for sentence in copy_modifiers(context, source, target, is_limit(settings)):
+                self.report({"INFO"}, sentence)
         return target
 
 
 def _show(context: Context, source: Object) -> None:
     """What is hidden can neither be edited nor does Blender look at it."""
-    if context.view_layer.objects.get(source.name) == source:
+    if is_in_view_layer(context, source):
         source.hide_set(False)
 
 
