@@ -7,6 +7,7 @@
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/construct.h"
+#include "binding/report.h"
 #include "binding/runner.h"
 #include "mesh/fill/crossings.h"
 #include "mesh/validate/check.h"
@@ -22,20 +23,34 @@ class Filler {
   Filler(const Numbers& vertices, const Ids& corners, const Ids& offsets)
       : mesh_(copy_of(vertices, corners, offsets)) {}
 
-  std::vector<HoleLoop> find(Monitor& monitor, const py::object& progress) {
-    std::vector<HoleLoop> loops;
-    run_once(monitor, progress, [&] { loops = find_holes(mesh_.view(), half_edges()); });
-    return loops;
+  // Loops, and dicts of why other border edges are around no hole.
+  py::tuple find(Monitor& monitor, const py::object& progress) {
+    FoundHoles found;
+    run_once(monitor, progress, [&] { found = find_holes(mesh_.view(), half_edges()); });
+    py::list unclear;
+    for (const FairingError& error : found.unclear) unclear.append(to_python(error));
+    return py::make_tuple(std::move(found.loops), unclear);
   }
 
-  py::list fill(std::vector<Hole> holes, double density, Monitor& monitor,
-                const py::object& progress) {
+  // What fills the holes, but for those that cannot be filled, and of each hole why it is not filled,
+  // a dict, or None.
+  py::tuple fill(std::vector<Hole> holes, double density, Monitor& monitor,
+                 const py::object& progress) {
+    Refusals refusals;
     run_once(monitor, progress, [&] {
-      holes_ = checked_holes(mesh_.view(), half_edges(), std::move(holes));
+      holes_ = std::move(holes);
+      refusals = check_holes(mesh_.view(), half_edges(), holes_);
       options_ = {.density = density};
-      filled_ = fairing::fill(mesh_.view(), half_edges(), holes_, options_);
+      filled_ = fairing::fill(mesh_.view(), half_edges(), holes_, options_, refusals);
     });
-    return arrays();
+    py::list why;
+    std::size_t kept = 0;
+    for (std::size_t h = 0; h < refusals.size(); ++h) {
+      why.append(refusals[h] ? py::object(to_python(*refusals[h])) : py::none());
+      if (!refusals[h]) std::swap(holes_[kept++], holes_[h]);
+    }
+    holes_.resize(kept);
+    return py::make_tuple(arrays(), why);
   }
 
   // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine.

@@ -144,6 +144,14 @@ py::list to_python(const Defects& defects) {
   return list;
 }
 
+py::dict to_python(const FairingError& error) {
+  const bool in_pairs = error.kind == ElementKind::edge;
+  return py::dict(
+      "code"_a = name(error.code), "message"_a = error.what(),
+      "elements"_a = in_pairs ? py::cast(pairs_of(error.elements)) : py::cast(error.elements),
+      "kind"_a = name(error.kind));
+}
+
 py::object to_python(const MendedMesh* mended) {
   if (!mended) return py::none();
   const auto& origins = mended->corner_origin;

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<HoleLoop> holes_of(const OwnedPolygonMesh& mesh) {
   const HalfEdges half_edges(mesh.view());
-  return find_holes(mesh.view(), half_edges);
+  return find_holes(mesh.view(), half_edges).loops;
 }
 
 TEST(Fill, LoopsOfHoles) {
@@ -133,13 +133,13 @@ TEST(Fill, BothEndsOfACylinder) {
   const OwnedPolygonMesh mesh = open_cylinder(12);
   const HalfEdges half_edges(mesh.view());
   std::vector<Hole> holes;
-  for (HoleLoop& loop : find_holes(mesh.view(), half_edges)) {
+  for (HoleLoop& loop : find_holes(mesh.view(), half_edges).loops) {
     std::reverse(loop.begin(), loop.end());
     holes.push_back({loop});
   }
-  holes = checked_holes(mesh.view(), half_edges, holes);
+  Refusals refusals = check_holes(mesh.view(), half_edges, holes);
   OwnedPolygonMesh closed = mesh;
-  for (const FilledHole& hole : fill(mesh.view(), half_edges, holes, {})) {
+  for (const FilledHole& hole : fill(mesh.view(), half_edges, holes, {}, refusals)) {
     for (const Vec3& p : hole.points)
       closed.coordinates.insert(closed.coordinates.end(), p.begin(), p.end());
     for (const Triangle& t : hole.triangles) {
@@ -158,12 +158,15 @@ TEST(Fill, BothEndsOfACylinder) {
 TEST(Fill, RefusesWhatIsNoHole) {
   const OwnedPolygonMesh mesh = grid(3, 3);
   const HalfEdges half_edges(mesh.view());
-  const auto refused = [&](Hole hole) {
-    return thrown([&] { checked_holes(mesh.view(), half_edges, {std::move(hole)}); }).code;
+  const auto checked = [&](Hole hole) {
+    std::vector<Hole> holes{std::move(hole)};
+    return check_holes(mesh.view(), half_edges, holes);
   };
-  EXPECT_EQ(refused({}), ErrorCode::bad_option);
-  EXPECT_EQ(refused({{0, 1}}), ErrorCode::bad_option);
-  EXPECT_EQ(refused({{0, 1, 99}}), ErrorCode::index_out_of_range);
+  const auto thrown_for = [&](const Hole& hole) { return thrown([&] { checked(hole); }).code; };
+  EXPECT_EQ(thrown_for({}), ErrorCode::bad_option);
+  EXPECT_EQ(thrown_for({{0, 1}}), ErrorCode::bad_option);
+  EXPECT_EQ(thrown_for({{0, 1, 99}}), ErrorCode::index_out_of_range);
+  const auto refused = [&](const Hole& hole) { return checked(hole)[0].value().code; };
   EXPECT_EQ(refused({{0, 1, 0}}), ErrorCode::repeated_vertex);
   EXPECT_EQ(refused({{5, 6, 10, 9}}), ErrorCode::bad_option);
 }

@@ -312,23 +312,95 @@ def refused(*arguments, **settings):
     return caught.value
 
 
-def test_what_is_no_hole_is_refused_in_words():
+def skipped(*arguments, **settings):
+    """The one hole that is not filled."""
+    (hole,) = df.fill_holes(*arguments, **settings).skipped
+    return hole
+
+
+def test_what_is_no_hole_is_skipped_and_says_why():
     vertices, quads = quads_with_a_hole()
     hole = min(df.find_holes(vertices, quads), key=len).tolist()
-    inside = refused(vertices, quads, holes=[quads[14]])
-    assert (inside.code, inside.kind) == ("BAD_OPTION", "edge") and "both sides" in str(inside)
-    assert "none of the mesh" in str(refused(vertices, quads, holes=[hole[::2]]))
+    filled = df.fill_holes(
+        vertices, quads, holes=[quads[14], hole, hole[::2], [*hole, hole[0]], hole]
+    )
+    assert [h.loops[0].tolist() for h in filled.holes] == [hole]
+    inside, missing, twice, again = filled.skipped
+    assert (inside.code, inside.kind, inside.cure) == ("BAD_OPTION", "edge", "")
+    assert inside.elements == [tuple(quads[14][:2])]
+    a, b = quads[14][:2]
+    assert inside.message.startswith(f"At edge {a}-{b}: ") and "both sides" in inside.message
+    assert inside.loops[0].tolist() == quads[14].tolist()
+    assert "none of the mesh" in missing.message
+    assert (twice.code, twice.elements) == ("REPEATED_VERTEX", [hole[0]])
+    assert "another hole" in again.message
+
+
+def test_what_no_mesh_could_have_is_refused():
+    vertices, quads = quads_with_a_hole()
+    hole = min(df.find_holes(vertices, quads), key=len).tolist()
     assert refused(vertices, quads, holes=[hole[:2]]).code == "BAD_OPTION"
-    assert refused(vertices, quads, holes=[[*hole, hole[0]]]).code == "REPEATED_VERTEX"
     assert refused(vertices, quads, holes=[[0, 1, 10**6]]).elements == [10**6]
-    assert "another hole" in str(refused(vertices, quads, holes=[hole, hole]))
     assert refused(vertices, quads, joint="loose").code == "BAD_OPTION"
     assert refused(vertices, quads, density=-1).code == "BAD_OPTION"
     assert refused(vertices, quads, energy="none").code == "BAD_OPTION"
-    fin = [hole[0], hole[1], 0, 0]
-    fin[2:] = quads[quads[:, 0] == 0][0][:2]
-    torn = refused(vertices, [*quads.tolist(), fin[:3], [hole[1], hole[0], fin[3]]], holes=[hole])
-    assert (torn.code, torn.elements) == ("NONMANIFOLD_EDGE", sorted(hole[:2]))
+
+
+def open_grid(n=12, gone=()):
+    """Vertices and quads [k][l] of a bent sheet, without some."""
+    at = np.arange(n * n).reshape(n, n)
+    x, y = np.divmod(np.arange(n * n), n)
+    kept = np.ones((n - 1, n - 1), bool)
+    for k, row in gone:
+        kept[k, row] = False
+    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1)
+    return np.stack([x, y, 0.2 * np.cos(0.7 * x)], 1).astype(float), quads, kept
+
+
+def test_one_bad_hole_stops_no_other():
+    """Two sound holes, an edge with a third face, a face that looks the other way, and a slit."""
+    vertices, quads, kept = open_grid(16, [(2, 2), (2, 8), (8, 2), (12, 12)])
+    slit = {8 * 16 + k: len(vertices) + k - 6 for k in (6, 7, 8)}  # across x = 8
+    quads[8:, :] = np.vectorize(lambda v: slit.get(v, v))(quads[8:, :])
+    vertices = np.concatenate([vertices, vertices[list(slit)]])
+    flipped = quads[2, 9].copy()
+    quads[2, 9] = quads[2, 9][::-1]
+    faces = [*quads[kept].tolist(), [*quads[7, 1][[2, 3]].tolist(), len(vertices)]]
+    vertices = np.concatenate([vertices, [[8.5, 1.5, 3.0]]])
+    filled = df.fill_holes(vertices, faces)
+    assert sorted(len(h.loops[0]) for h in filled.holes) == [4, 4, 60]
+    assert {s.code: s.cure for s in filled.skipped} == {
+        "NONMANIFOLD_EDGE": "delete",
+        "INCONSISTENT_ORIENTATION": "flip",
+        "COINCIDENT_VERTICES": "merge",
+    }
+    by_code = {s.code: s for s in filled.skipped}
+    shut = by_code["COINCIDENT_VERTICES"]
+    assert [len(loop) for loop in shut.loops] == [8] and len(shut.elements) == 2
+    assert set(slit) & set(shut.elements)
+    astray = by_code["INCONSISTENT_ORIENTATION"]
+    assert not astray.loops and set(np.ravel(astray.elements)) >= set(flipped[:2])
+    torn = [quads[8, 2].tolist()]
+    assert skipped(vertices, faces, holes=torn).code == "NONMANIFOLD_EDGE"
+    turned = [quads[2, 8].tolist()]
+    assert skipped(vertices, faces, holes=turned).code == "INCONSISTENT_ORIENTATION"
+
+
+def test_a_vertex_on_an_edge_is_named():
+    """Half of a side has a vertex more than the face beyond."""
+    vertices = [
+        (0, 0, 0),
+        (2, 0, 0),
+        (2, 2, 0),
+        (0, 2, 0),
+        (1, 2, 0),
+        (0, 4, 0),
+        (1, 4, 0),
+        (2, 4, 0),
+    ]
+    faces = [[0, 1, 2, 3], [3, 4, 6, 5], [4, 2, 7, 6]]
+    left = skipped(np.array(vertices, float), faces, holes=[[2, 4, 3]])
+    assert (left.code, left.elements, left.cure) == ("DEGENERATE_FACE", [4], "cut")
 
 
 def test_only_the_faces_around_are_read(monkeypatch):
@@ -351,22 +423,32 @@ def test_only_the_faces_around_are_read(monkeypatch):
     assert near.faces.tobytes() == whole.faces.tobytes()
 
 
-def test_what_is_wrong_beside_a_hole_is_said_with_the_ids_of_the_mesh():
-    """Two vertices of one face, in the second ring, at the same place."""
-    at = np.arange(144).reshape(12, 12)
-    vertices = np.stack([np.arange(144) // 12, np.arange(144) % 12, np.zeros(144)], 1).astype(float)
-    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1)
-    gone = np.zeros((11, 11), bool)
-    gone[4:7, 4:7] = True
-    vertices[at[2, 4]] = vertices[at[2, 5]]
-    error = refused(
-        vertices,
-        quads[~gone],
-        holes=[at[[4, 4, 4, 4, 5, 6, 7, 7, 7, 7, 6, 5], [4, 5, 6, 7, 7, 7, 7, 6, 5, 4, 4, 4]]],
-    )
-    assert (error.code, error.kind) == ("COINCIDENT_VERTICES", "vertex")
-    assert error.elements == [at[2, 4], at[2, 5]]
-    assert "hole 0 (vertex 28, 29)" in str(error)
+@pytest.mark.parametrize("defect", ["point", "twice", "turned"])
+def test_what_is_wrong_beside_a_hole_stops_nothing(defect):
+    """In the second ring: what fair() refuses there is ignored, and named."""
+    vertices, quads, kept = open_grid(12, [(k, row) for k in (4, 5, 6) for row in (4, 5, 6)])
+    bad = quads[2, 4]
+    if defect == "point":
+        vertices[bad[3]] = vertices[bad[0]]
+    if defect == "turned":
+        quads[2, 4] = bad[::-1]
+    faces = [*quads[kept].tolist(), *([bad.tolist()] if defect == "twice" else [])]
+    (loop,) = [h for h in df.find_holes(vertices, faces) if len(h) == 12]
+    (hole,) = df.fill_holes(vertices, faces, holes=[loop]).holes
+    assert (hole.energy, hole.joint, hole.converged) == ("total_curvature", "curvature", True)
+    assert {tuple(sorted(faces[f])) for f in hole.ignored} >= {tuple(sorted(bad))}
+    assert all(set(faces[f]) & set(bad.tolist()) for f in hole.ignored)
+
+
+def test_a_face_through_a_hole_beside_a_face_that_is_there_twice():
+    """The filling has no vertex of its own: another way is tried, which fair() refuses."""
+    vertices, quads, kept = open_grid(8, [(3, 3)])
+    spike = [(3.3, 3.4, -1), (3.7, 3.6, -1), (3.5, 3.5, 4)]
+    vertices = np.concatenate([vertices, spike])
+    faces = [*quads[kept].tolist(), [64, 65, 66], quads[5, 3].tolist()]
+    (loop,) = [h for h in df.find_holes(vertices, faces) if len(h) == 4]
+    (hole,) = df.fill_holes(vertices, faces, holes=[loop], density=0.0).holes
+    assert hole.crossings > 0
 
 
 def test_progress_and_cancel():

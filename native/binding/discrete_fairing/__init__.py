@@ -12,7 +12,7 @@ from .checking import Defect, check, predicted_size
 from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
-from .filled import Filled, FilledHole
+from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
@@ -33,6 +33,7 @@ __all__ = [
     "Part",
     "Piece",
     "Result",
+    "SkippedHole",
     "Solver",
     "SplinePatches",
     "Strain",

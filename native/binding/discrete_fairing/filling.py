@@ -13,7 +13,7 @@ from . import _native
 from .arrays import face_arrays, index_array, vertex_array
 from .crossings import in_whole, with_less_crossing
 from .errors import fairing_error
-from .filled import Filled, put_together
+from .filled import Filled, SkippedHole, put_together
 from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart
 from .options import native_options
 from .quad_grid import quad_filling
@@ -22,16 +22,18 @@ from .watching import Progress, SeveralRuns, check_watchers
 
 
 def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[np.ndarray]:
-    """The holes of a mesh: (k,) int64 vertex ids around each, as a face that fills it runs.
+    """The holes of a mesh that fill_holes() takes: (k,) int64 vertex ids around each, as a face that
+    fills it runs.
 
     A walk that touches itself in a vertex is cut there into several loops. The border of an open
     sheet is a loop like others. Loops begin with their least id and come in the order of these. At
     edges of more than two faces, and where neighbours disagree on their orientation, there is no
-    telling what a hole is: such walks are left out. Raises FairingError for arrays that make no
-    mesh.
+    telling what a hole is: such walks are left out, and loops of more than 16,384 vertices; fill_holes()
+    lists them. Raises FairingError for arrays that make no mesh.
     """
     filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
-    return [np.array(loop, np.int64) for loop in filler.find(_native.Monitor(), None)]
+    loops, _ = filler.find(_native.Monitor(), None)
+    return [np.array(loop, np.int64) for loop in loops]
 
 
 def fill_holes(
@@ -96,13 +98,17 @@ def fill_holes(
     Returns
     -------
     Filled
+        What cannot be filled stays as it is, and is listed in `skipped`: a loop that is no hole
+        (BAD_OPTION, REPEATED_VERTEX) or has more than 16,384 vertices (TOO_LARGE), a rim of faces that
+        look different ways (INCONSISTENT_ORIENTATION) or that more than two share (NONMANIFOLD_EDGE), a
+        slit (COINCIDENT_VERTICES), a vertex that lies on an edge (DEGENERATE_FACE).
 
     Raises
     ------
     FairingError
-        BAD_OPTION for a loop that is no hole, NONMANIFOLD_EDGE, REPEATED_VERTEX and
-        INDEX_OUT_OF_RANGE with the ids concerned; TOO_LARGE for loops of more than 16,384 vertices;
-        CANCELLED after a cancel.
+        BAD_OPTION for an option out of its range and a loop of fewer than three vertices,
+        INDEX_OUT_OF_RANGE for one of vertices that do not exist; CANCELLED after a cancel; and what
+        check() says of arrays that make no mesh.
     """
     check_watchers(progress, monitor)
     if joint not in RINGS:
@@ -120,21 +126,23 @@ def fill_holes(
     whole = MeshPart.of(points, corners, offsets)
     quiet = watched.run(0.0, 0.1)
     watchers = quiet["monitor"], quiet["progress"]
+    skipped = []
     if holes is None:
-        asked = [[h] for h in _native.Filler(points, corners, offsets).find(*watchers)]
+        known, unclear = _native.Filler(points, corners, offsets).find(*watchers)
+        asked = [[h] for h in known]
+        skipped = [SkippedHole.of([], why, whole.vertex_ids) for why in unclear]
     else:
         asked = _asked(holes)
     mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
-    try:
-        found = filler.fill(loops, float(density), *watchers)
-    except _native.FairingError as error:
-        if mesh is whole or error.code == "CANCELLED":
-            raise
-        # refused again, but with the ids that the caller knows
-        _native.Filler(points, corners, offsets).fill(asked, float(density), *watchers)
-        raise
+    found, why = _triangulated(filler, loops, float(density), watchers)
+    skipped += [
+        SkippedHole.of(list(map(np.array, asked[row])), reason, mesh.vertex_ids)
+        for row, reason in why.items()
+    ]
+    asked, loops = ([all_[row] for row in found] for all_ in (asked, loops))
+    found = list(found.values())
     wanted = Wanted(energy, joint, rim == "noisy", float(density))
     grids: list[Filling | str] = [""] * len(found)
     if quads:
@@ -149,7 +157,20 @@ def fill_holes(
         for count, grid in zip(crossings, grids, strict=True)
     ]
     loops_asked = [list(map(np.array, hole)) for hole in asked]
-    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told)
+    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told, skipped)
+
+
+_Triangulated = tuple[np.ndarray, np.ndarray]  # own vertices, triangles
+
+
+def _triangulated(
+    filler: _native.Filler, holes: list[list[list[int]]], density: float, watchers: Sequence[Any]
+) -> tuple[dict[int, _Triangulated], dict[int, dict[str, Any]]]:
+    """By the number of each hole what fills it, or why nothing does."""
+    found, why = filler.fill(holes, density, *watchers)
+    filled = [row for row, reason in enumerate(why) if reason is None]
+    refused = {row: reason for row, reason in enumerate(why) if reason is not None}
+    return dict(zip(filled, found, strict=True)), refused
 
 
 def _running_as(hole: list[list[int]], triangles: np.ndarray) -> list[list[int]]:
@@ -163,7 +184,7 @@ def _running_as(hole: list[list[int]], triangles: np.ndarray) -> list[list[int]]
 def _with_triangles(
     mesh: MeshPart,
     filler: _native.Filler,
-    triangulated: tuple[list[list[list[int]]], list[tuple[np.ndarray, np.ndarray]]],
+    triangulated: tuple[list[list[list[int]]], list[_Triangulated]],
     grids: list[Filling | str],
     wanted: Wanted,
     watched: SeveralRuns,
@@ -178,7 +199,7 @@ def _with_triangles(
         quiet = watched.run(1.0, 1.0)
         watchers = quiet["monitor"], quiet["progress"]
         if wanted.density > 0.0 and any(f.made.folds for f in fillings.values()):
-            bare = filler.fill(loops, 0.0, *watchers)
+            bare, _ = _triangulated(filler, loops, 0.0, watchers)
             fillings = without_folds(mesh, fillings, bare)
         doubled = []
         for row, grid in enumerate(grids):
@@ -193,7 +214,7 @@ def _with_triangles(
             return [fillings[row] for row in range(len(grids))]
         for row in doubled:
             grids[row] = "a grid would have an edge of another filling"
-        found = filler.fill(loops, wanted.density, *watchers)
+        found, _ = filler.fill(loops, wanted.density, *watchers)
 
 
 def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:

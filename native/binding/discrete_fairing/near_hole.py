@@ -31,15 +31,11 @@ class Made:
     joint: str
     converged: bool
     folds: int
+    ignored: tuple[int, ...] = ()  # faces around, of the whole mesh
 
 
-class RefusedAround(Exception):
-    """What fair() refused among the faces around a hole."""
-
-    def __init__(self, error: _native.FairingError, elements: list[int]) -> None:
-        super().__init__(str(error))
-        self.error = error
-        self.elements = elements  # ids in the whole mesh
+# Codes of fair() that say nothing of a hole.
+_NOT_OF_A_HOLE = ("CANCELLED", "OUT_OF_MEMORY", "FORKED")
 
 
 class NearHole:
@@ -51,6 +47,7 @@ class NearHole:
         self._mesh, self._own, self._faces, self._first = mesh, own, faces, first
         self._rim = np.unique(faces[faces < len(mesh.points)])
         self._beside = _SidesBehind(mesh, self._rim, faces)
+        self._ignored = np.empty(0, np.int64)  # faces around that fair() has refused
 
     def faired(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
@@ -97,41 +94,75 @@ class NearHole:
     def _solved(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> tuple[np.ndarray, Made] | None:
-        """None where fair() refuses the faces themselves."""
-        mesh, ids, touching = self._mesh, self._rim, np.empty(0, np.int64)
-        rows = [ids]
-        for _ in range(NOISY_RINGS if noisy else RINGS[joint]):
-            touching = mesh.touching(ids)
-            ids = np.unique(np.concatenate([self._rim, mesh.corners_at(touching)]))
-            rows.append(ids)
-        weights = np.full(len(ids), np.inf)
-        if noisy:
-            weights[np.isin(ids, rows[-1 - HELD_ROWS])] = NOISY_WEIGHT
+        """None where fair() refuses the filling itself. Faces around that it refuses are ignored from
+        then on: they say nothing of how the surface goes on.
+        """
+        while True:
+            rows, touching = self._around(NOISY_RINGS if noisy else RINGS[joint])
+            weights = np.full(len(rows[-1]), np.inf)
+            if noisy:
+                weights[np.isin(rows[-1], rows[-1 - HELD_ROWS])] = NOISY_WEIGHT
+            try:
+                moved, converged = self._fair(rows[-1], touching, weights, energy, watchers)
+            except _native.FairingError as error:
+                if error.code in _NOT_OF_A_HOLE:
+                    raise
+                refused = self._refused(rows[-1], touching, error)
+                if not len(refused):
+                    return None
+                self._ignored = np.union1d(self._ignored, refused)
+                continue
+            ignored = tuple(self._mesh.face_ids[self._ignored].tolist())
+            return moved, Made(energy, joint, converged, self._folds(moved), ignored)
+
+    def _around(self, rings: int) -> tuple[list[np.ndarray], np.ndarray]:
+        """Vertices of the rim, and of it and each ring of faces around; and the faces."""
+        rows, touching = [self._rim], np.empty(0, np.int64)
+        for _ in range(rings):
+            touching = np.setdiff1d(self._mesh.touching(rows[-1]), self._ignored)
+            rows.append(np.union1d(self._rim, self._mesh.corners_at(touching)))
+        return rows, touching
+
+    def _fair(
+        self,
+        ids: np.ndarray,
+        touching: np.ndarray,
+        weights: np.ndarray,
+        energy: str,
+        watchers: dict[str, Any],
+    ) -> tuple[np.ndarray, bool]:
+        """The places of its own vertices with these faces around, whose vertices `ids` have `weights`,
+        and whether the steps have converged.
+        """
+        mesh = self._mesh
         known = np.concatenate([ids, np.arange(self._first, self._first + len(self._own))])
         corners = np.concatenate([mesh.corners_at(touching), self._faces.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
         ends = np.cumsum(np.concatenate([[0], sizes, np.full(*self._faces.shape)]))
-        try:
-            result = fair(
-                np.concatenate([mesh.points[ids], self._own]),
-                (np.searchsorted(known, corners), ends),
-                levels=0,
-                energy=energy,
-                interpolation="approximate",
-                weights=np.concatenate([weights, np.zeros(len(self._own))]),
-                **watchers,
-            )
-        except _native.FairingError as error:
-            if not error.elements:
-                raise
-            names = mesh.face_ids[touching] if error.kind == "face" else mesh.vertex_ids[ids]
-            around = [int(names[i]) for i in np.ravel(error.elements) if i < len(names)]
-            if not around:
-                return None
-            raise RefusedAround(error, around) from error
+        result = fair(
+            np.concatenate([mesh.points[ids], self._own]),
+            (np.searchsorted(known, corners), ends),
+            levels=0,
+            energy=energy,
+            interpolation="approximate",
+            weights=np.concatenate([weights, np.zeros(len(self._own))]),
+            **watchers,
+        )
         levels = result.report.get("curvature") or [{"converged": True}]
-        moved = result.vertices[len(ids) : len(known)]
-        return moved, Made(energy, joint, bool(levels[-1]["converged"]), self._folds(moved))
+        return result.vertices[len(ids) : len(known)], bool(levels[-1]["converged"])
+
+    def _refused(
+        self, ids: np.ndarray, touching: np.ndarray, error: _native.FairingError
+    ) -> np.ndarray:
+        """Which of the faces `touching` the error is about, of a run of _fair()."""
+        named = np.ravel(error.elements).astype(np.int64)
+        if error.kind != "face":
+            at = self._mesh.touching(ids[named[named < len(ids)]])
+            return np.intersect1d(at, touching)
+        found = touching[named[named < len(touching)]]
+        if error.code == "INCONSISTENT_ORIENTATION" and (named >= len(touching)).any():
+            return np.setdiff1d(touching, found)  # the others disagree with the filling
+        return found
 
     def corners(self, own: np.ndarray) -> np.ndarray:
         """(t, 3 or 4, 3) of its faces, its own vertices at `own`."""

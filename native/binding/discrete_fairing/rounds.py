@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import _native
-from .errors import fairing_error
-from .near_hole import Made, MeshPart, NearHole, RefusedAround, angles_between
+from .near_hole import Made, MeshPart, NearHole, angles_between
 from .watching import SeveralRuns
 
 # A filling is remeshed where fairing has made its area so many times as large: up to there its edges
@@ -28,8 +26,6 @@ _MOST_ROUNDS = 5
 # Nine tenths of a sphere have 20 times the area of its flat filling: steps that make more have gone
 # astray.
 _MOST_GROWN = 20.0
-
-_SHOWN = 8  # ids that a message lists
 
 # Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer; a
 # rim that forces some has as many in each round.
@@ -79,12 +75,9 @@ def faired_in_rounds(
                 near = NearHole(mesh, own, triangles, first)
                 at = rows.index(row)
                 run = watched.run(*shares[at : at + 2].tolist())
-                try:
-                    moved, made, onward[row] = near.faired(
-                        wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
-                    )
-                except RefusedAround as refused:
-                    raise _said(refused, row) from refused
+                moved, made, onward[row] = near.faired(
+                    wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
+                )
                 if turn == 0:
                     flat[row] = near.area(own)
                 last[row] = Filling(moved, triangles, first, made)
@@ -135,18 +128,8 @@ def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
     return len(own) > 0 and wanted.density > 0.0 and wanted.joint != "position"
 
 
-def _said(refused: RefusedAround, hole: int) -> _native.FairingError:
-    """What fair() refused beside a hole, with the ids of the whole mesh."""
-    ids, error = refused.elements, refused.error
-    said = re.sub(r" \(\d[^)]*\)", "", str(error))
-    shown = ", ".join(map(str, ids[:_SHOWN])) + (", …" if len(ids) > _SHOWN else "")
-    where = f" ({error.kind} {shown})" if ids else ""
-    text = f"Around hole {hole}{where}: {said}"
-    return fairing_error(error.code, text, ids, error.kind if ids else "mesh")
-
-
 def without_folds(
-    mesh: MeshPart, fillings: dict[int, Filling], bare: list[tuple[np.ndarray, np.ndarray]]
+    mesh: MeshPart, fillings: dict[int, Filling], bare: dict[int, tuple[np.ndarray, np.ndarray]]
 ) -> dict[int, Filling]:
     """`fillings`, and in the place of what folds the `bare` triangles between the vertices of the rim,
     where these do not: only what any such triangles would have is left to fold.
@@ -154,7 +137,7 @@ def without_folds(
     count = len(mesh.points)
     chosen = dict(fillings)
     first = count
-    for k, (own, triangles) in enumerate(bare):
+    for k, (own, triangles) in bare.items():
         if k in chosen and chosen[k].made.folds:
             plain = NearHole(mesh, own, triangles, first).as_triangulated(True)
             others = [f.faces for row, f in chosen.items() if row != k]

@@ -10,36 +10,31 @@
 namespace fairing {
 namespace {
 
-// Corners of a hole with its islands, as the message has it.
-constexpr std::size_t longest_hole = 16'384;
-
-std::string named(std::size_t hole) { return "Hole " + std::to_string(hole); }
-
 void require_vertices(const Hole& hole, std::size_t number, std::int64_t count) {
+  const std::string named = "Hole " + std::to_string(number);
   if (hole.empty() ||
       std::any_of(hole.begin(), hole.end(), [](const HoleLoop& loop) { return loop.size() < 3; }))
-    throw FairingError(ErrorCode::bad_option,
-                       named(number) + " has a loop of fewer than three vertices.");
-  std::size_t corners = 0;
-  std::unordered_set<std::int64_t> seen;
+    throw FairingError(ErrorCode::bad_option, named + " has a loop of fewer than three vertices.");
   for (const HoleLoop& loop : hole)
-    for (const std::int64_t v : loop) {
-      ++corners;
+    for (const std::int64_t v : loop)
       if (v < 0 || v >= count)
         throw FairingError(ErrorCode::index_out_of_range,
-                           named(number) + " names vertex " + std::to_string(v) +
+                           named + " names vertex " + std::to_string(v) +
                                ", which does not exist: ids run from 0 to " +
                                std::to_string(count - 1) + ".",
                            {v}, ElementKind::vertex);
+}
+
+void require_simple(const Hole& hole) {
+  std::unordered_set<std::int64_t> seen;
+  for (const HoleLoop& loop : hole)
+    for (const std::int64_t v : loop)
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
-                           named(number) + " comes by vertex " + std::to_string(v) +
-                               " twice. Cut it there into two holes.",
-                           {v}, ElementKind::vertex);
-    }
-  if (corners > longest_hole)
-    throw FairingError(ErrorCode::too_large, named(number) + " has " + std::to_string(corners) +
-                                                 " vertices; more than 16,384 cannot be filled.");
+                           "The rim comes by a vertex twice. Cut it there into two holes.", {v},
+                           ElementKind::vertex);
+  if (seen.size() > longest_hole)
+    throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
 }
 
 // The first side that is on no border in this direction, as its two ends; empty: all are.
@@ -51,20 +46,20 @@ std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims) 
   return {};
 }
 
-[[noreturn]] void refuse(std::size_t number, const std::vector<std::int64_t>& edge,
-                         const Rims& rims) {
-  const std::string begin =
-      named(number) + ": the edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
-  const std::string why = !rims.are_joined(edge[0], edge[1]) ? " is none of the mesh"
-                          : rims.is_border(edge[0], edge[1]) || rims.is_border(edge[1], edge[0])
-                              ? " has its face on the other side than the edges before it"
-                              : " has faces on both sides";
+[[noreturn]] void refuse(const std::vector<std::int64_t>& edge, const Rims& rims) {
+  if (rims.is_border(edge[0], edge[1]) || rims.is_border(edge[1], edge[0]))
+    throw FairingError(ErrorCode::inconsistent_orientation,
+                       "Faces at the rim look different ways. Recalculate their normals.", edge,
+                       ElementKind::edge);
+  const std::string begin = "An edge of the rim ";
+  const std::string why =
+      rims.are_joined(edge[0], edge[1]) ? "has faces on both sides" : "is none of the mesh";
   throw FairingError(ErrorCode::bad_option,
                      begin + why + ". A hole is a closed walk along edges of one face each.", edge,
                      ElementKind::edge);
 }
 
-void require_manifold(const HoleLoop& loop, std::size_t number, const HalfEdges& half_edges) {
+void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
   const std::unordered_set<std::int64_t> on_loop(loop.begin(), loop.end());
   const std::vector<std::int64_t>& torn = half_edges.nonmanifold_edges();
   std::vector<std::int64_t> found;
@@ -73,37 +68,49 @@ void require_manifold(const HoleLoop& loop, std::size_t number, const HalfEdges&
       found.insert(found.end(), {torn[i], torn[i + 1]});
   if (!found.empty())
     throw FairingError(ErrorCode::nonmanifold_edge,
-                       named(number) + ": " + listing_pairs(edge_s, found, {"has", "have"}) +
-                           " more than two faces at its rim. Delete the faces that are too many.",
+                       "More than two faces meet at an edge of the rim. Delete the faces that are "
+                       "too many.",
                        found);
+}
+
+// Each side may be on one loop alone.
+using Used = std::unordered_set<std::uint64_t>;
+
+void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, const Used& used) {
+  require_manifold(loop, half_edges);
+  const std::vector<std::int64_t> missing = first_missing(loop, rims);
+  if (!missing.empty()) {
+    std::reverse(loop.begin() + 1, loop.end());
+    if (!first_missing(loop, rims).empty()) refuse(missing, rims);
+  }
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
+    if (used.contains(Rims::side(a, b)))
+      throw FairingError(ErrorCode::bad_option,
+                         "An edge of the rim is one of another hole too. Name each hole once.",
+                         {a, b}, ElementKind::edge);
+  }
 }
 
 }  // namespace
 
-std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                                std::vector<Hole> holes) {
+Refusals check_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                     std::vector<Hole>& holes) {
   for (std::size_t h = 0; h < holes.size(); ++h) require_vertices(holes[h], h, mesh.vertex_count());
   const Rims rims(mesh, half_edges, holes);
-  std::unordered_set<std::uint64_t> used;
-  for (std::size_t h = 0; h < holes.size(); ++h)
-    for (HoleLoop& loop : holes[h]) {
-      require_manifold(loop, h, half_edges);
-      const std::vector<std::int64_t> missing = first_missing(loop, rims);
-      if (!missing.empty()) {
-        std::reverse(loop.begin() + 1, loop.end());
-        if (!first_missing(loop, rims).empty()) refuse(h, missing, rims);
-      }
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
-        if (!used.insert(Rims::side(a, b)).second)
-          throw FairingError(ErrorCode::bad_option,
-                             named(h) + " has the edge " + std::to_string(a) + "-" +
-                                 std::to_string(b) + " of another hole. Name each hole once.",
-                             {a, b}, ElementKind::edge);
-      }
+  Used used;
+  Refusals refusals(holes.size());
+  for (std::size_t h = 0; h < holes.size(); ++h) try {
+      require_simple(holes[h]);
+      for (HoleLoop& loop : holes[h]) check_loop(loop, half_edges, rims, used);
+      for (const HoleLoop& loop : holes[h])
+        for (std::size_t i = 0; i < loop.size(); ++i)
+          used.insert(Rims::side(loop[i], loop[(i + 1) % loop.size()]));
+    } catch (const FairingError& error) {
+      refusals[h] = error;
     }
-  return holes;
+  return refusals;
 }
 
 }  // namespace fairing

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/fill/fill.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "base/error.h"
+#include "base/rounding.h"
 #include "mesh/fill/rims.h"
 #include "parallel/cancel.h"
 
@@ -178,8 +180,7 @@ class OneHole {
 
   [[noreturn]] void no_surface() const {
     throw FairingError(ErrorCode::bad_option,
-                       "The islands of the hole at vertex " + std::to_string(ids_[0]) +
-                           " cannot be joined to its rim. Fill it without them.",
+                       "The islands cannot be joined to the rim. Fill the hole without them.",
                        {ids_[0]}, ElementKind::vertex);
   }
 
@@ -221,19 +222,65 @@ void refine_patch(Patch& patch, const OneHole& hole, const FillOptions& options,
     refine(patch, [&](Index a, Index b) { return hole.joined(a, b); }, relaxation);
 }
 
+// A rim that runs along itself leaves nothing between.
+void require_areas(const Patch& patch, const OneHole& hole) {
+  for (const Triangle& t : patch.triangles) {
+    Vec3 sides[3];
+    std::size_t longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sides[i] = patch.points[std::size_t(t[(i + 1) % 3])] - patch.points[std::size_t(t[i])];
+      if (sides[i].squaredNorm() > sides[longest].squaredNorm()) longest = i;
+    }
+    const double area = sides[0].cross(sides[1]).norm();
+    if (area > 2 * rounding * sides[longest].squaredNorm()) continue;  // as validate/ has it
+    std::vector<std::int64_t> ids;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const Index a = t[i], b = t[(i + 1) % 3];
+          sides[i].isZero() && a < patch.rim && b < patch.rim)
+        ids = {hole.ids()[std::size_t(a)], hole.ids()[std::size_t(b)]};
+    std::sort(ids.begin(), ids.end());
+    if (!ids.empty())
+      throw FairingError(
+          ErrorCode::coincident_vertices,
+          "Vertices of the rim lie on one another, and nothing is between. Merge them "
+          "by distance.",
+          ids);
+    if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim)
+      ids = {hole.ids()[std::size_t(middle)]};
+    throw FairingError(
+        ErrorCode::degenerate_face,
+        "A vertex of the rim lies on another edge of it, and nothing is between. Cut "
+        "that edge at the vertex.",
+        ids, ElementKind::vertex);
+  }
+}
+
+FilledHole fill_one(const Hole& hole, Rims& rims, const FillOptions& options, std::int64_t first) {
+  OneHole one(hole, rims);
+  Patch patch = one.rim(options.density);
+  one.triangulate_into(patch);
+  refine_patch(patch, one, options, Relaxation::taut);
+  require_areas(patch, one);
+  return numbered(patch, one, first);
+}
+
 }  // namespace
 
 std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                             std::span<const Hole> holes, const FillOptions& options) {
+                             std::span<const Hole> holes, const FillOptions& options,
+                             Refusals& refusals) {
   Rims rims(mesh, half_edges, holes);
   std::vector<FilledHole> filled;
   std::int64_t next = mesh.vertex_count();
-  for (const Hole& hole : holes) {
-    OneHole one(hole, rims);
-    Patch patch = one.rim(options.density);
-    one.triangulate_into(patch);
-    refine_patch(patch, one, options, Relaxation::taut);
-    filled.push_back(numbered(patch, one, next));
+  for (std::size_t h = 0; h < holes.size(); ++h) {
+    if (refusals[h]) continue;
+    try {
+      filled.push_back(fill_one(holes[h], rims, options, next));
+    } catch (const FairingError& error) {
+      if (error.code == ErrorCode::cancelled) throw;
+      refusals[h] = error;
+      continue;
+    }
     between(filled.back().triangles, mesh.vertex_count(), [&](auto a, auto b) { rims.join(a, b); });
     next += std::int64_t(filled.back().points.size());
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,15 +31,22 @@ struct FilledHole {
   std::vector<Triangle> triangles;
 };
 
-// The loops as find_holes() has them, in whatever direction and from wherever they were given. Throws FairingError for what is no hole of
-// this mesh: index_out_of_range, repeated_vertex, nonmanifold_edge, bad_option.
-std::vector<Hole> checked_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                                std::vector<Hole> holes);
+// Why a hole is not filled, if so. The message names no ids.
+using Refusals = std::vector<std::optional<FairingError>>;
 
-// Fills checked holes, one after another. Throws FairingError: too_large for loops of more than
-// 16,384 vertices.
+// Turns the loops as find_holes() has them, in whatever direction and from wherever they were given,
+// and says of each hole why it is none of this mesh: repeated_vertex, nonmanifold_edge,
+// inconsistent_orientation, too_large, bad_option. Throws FairingError for loops of fewer than three
+// vertices (bad_option) and for ids of no vertex (index_out_of_range).
+Refusals check_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
+                     std::vector<Hole>& holes);
+
+// Fills checked holes, one after another, but for those that are refused, before or here: where only
+// faces without area would do, islands cannot be joined to the rim, or it would be too_large. One
+// for each that is not.
 std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                             std::span<const Hole> holes, const FillOptions& options);
+                             std::span<const Hole> holes, const FillOptions& options,
+                             Refusals& refusals);
 
 // The same fillings, of which the vertices of those `chosen` (one flag for each hole) have been moved:
 // these get triangles that fit their new shape. All vertices are numbered anew.

@@ -2,7 +2,10 @@
 #include "mesh/fill/holes.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
+#include "mesh/groups.h"
 #include "mesh/mend/loops.h"
 #include "parallel/cancel.h"
 
@@ -15,13 +18,26 @@ class Walks {
  public:
   Walks(const PolygonMesh& mesh, const HalfEdges& half_edges)
       : half_edges_(half_edges), torn_(std::size_t(mesh.vertex_count()), 0) {
-    for (const std::int64_t v : half_edges.nonmanifold_edges()) torn_[std::size_t(v)] = 1;
+    const std::vector<std::int64_t>& edges = half_edges.nonmanifold_edges();
+    for (const std::int64_t v : edges) torn_[std::size_t(v)] = 1;
+    for (std::size_t i = 0; i + 1 < edges.size(); i += 2)
+      crowded_.insert(std::minmax(edges[i], edges[i + 1]));
   }
 
   // An edge of one face. At the ends of edges with more faces nobody could say what a hole is.
-  bool is_border(std::int32_t k) const {
-    return half_edges_.twin(k) < 0 && !torn_[std::size_t(half_edges_.from(k))] &&
-           !torn_[std::size_t(half_edges_.from(half_edges_.next(k)))];
+  bool is_border(std::int32_t k) const { return half_edges_.twin(k) < 0 && !is_torn(k); }
+
+  // Whether an end of this border edge is one of an edge of more than two faces.
+  bool is_torn(std::int32_t k) const {
+    return torn_[std::size_t(half_edges_.from(k))] ||
+           torn_[std::size_t(half_edges_.from(half_edges_.next(k)))];
+  }
+
+  // The same of one that has no other face.
+  bool is_torn_border(std::int32_t k) const {
+    return half_edges_.twin(k) < 0 && is_torn(k) &&
+           !crowded_.contains(
+               std::minmax(half_edges_.from(k), half_edges_.from(half_edges_.next(k))));
   }
 
   // The border's half-edge that ends where k begins, across the faces between; none where these
@@ -38,6 +54,7 @@ class Walks {
  private:
   const HalfEdges& half_edges_;
   std::vector<std::uint8_t> torn_;
+  std::set<std::pair<std::int64_t, std::int64_t>> crowded_;  // edges of more than two faces
 };
 
 HoleLoop from_least(const Loop& loop) {
@@ -47,28 +64,94 @@ HoleLoop from_least(const Loop& loop) {
   return found;
 }
 
+FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
+  if (torn)
+    return {
+        ErrorCode::nonmanifold_edge,
+        "More than two faces meet at an edge, so that nobody can tell what a hole is. Delete the "
+        "faces that are too many.",
+        std::move(edges)};
+  return {ErrorCode::inconsistent_orientation,
+          "Faces look different ways, so that nobody can tell what a hole is. Recalculate their "
+          "normals.",
+          std::move(edges), ElementKind::edge};
+}
+
+// Of border edges (half-edges), by those that share vertices.
+std::vector<FairingError> unclear(const std::vector<std::int32_t>& left, const Walks& walks,
+                                  const HalfEdges& half_edges) {
+  Groups groups(left.size());
+  std::map<std::int64_t, Index> at;  // a vertex, to the first edge there
+  const auto ends = [&](std::size_t i) {
+    return std::pair<std::int64_t, std::int64_t>(half_edges.from(half_edges.next(left[i])),
+                                                 half_edges.from(left[i]));
+  };
+  for (std::size_t i = 0; i < left.size(); ++i)
+    for (const std::int64_t v : {ends(i).first, ends(i).second}) {
+      const auto [other, is_new] = at.try_emplace(v, Index(i));
+      if (!is_new) groups.unite(Index(i), other->second);
+    }
+  std::map<Index, std::pair<bool, std::vector<std::int64_t>>> edges;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    auto& [torn, ids] = edges[groups.lead(Index(i))];
+    torn |= walks.is_torn(left[i]);
+    ids.insert(ids.end(), {ends(i).first, ends(i).second});
+  }
+  std::vector<FairingError> found;
+  for (auto& [lead, group] : edges)
+    found.push_back(why_unclear(group.first, std::move(group.second)));
+  return found;
+}
+
+FairingError too_long(const HoleLoop& loop) {
+  std::vector<std::int64_t> edges;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    edges.insert(edges.end(), {loop[i], loop[(i + 1) % loop.size()]});
+  return {ErrorCode::too_large, too_long_text(loop.size()), std::move(edges), ElementKind::edge};
+}
+
 }  // namespace
 
-std::vector<HoleLoop> find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+std::string too_long_text(std::size_t vertices) {
+  return "The hole has " + std::to_string(vertices) +
+         " vertices; more than 16,384 cannot be filled.";
+}
+
+FoundHoles find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   const Walks walks(mesh, half_edges);
   std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0);
-  std::vector<HoleLoop> found;
+  FoundHoles found;
+  std::vector<std::int32_t> left;
   for (std::int32_t first = 0; first < half_edges.count(); ++first) {
     stop_if_cancelled(std::size_t(first));
     if (seen[std::size_t(first)] || !walks.is_border(first)) continue;
     Loop walk;
+    std::vector<std::int32_t> sides;
     bool one_face = true;
     std::int32_t k = first;
     while (k != none && !seen[std::size_t(k)]) {
       seen[std::size_t(k)] = 1;
       one_face &= half_edges.face(k) == half_edges.face(first);
       walk.push_back({Index(half_edges.from(k)), {}});
+      sides.push_back(k);
       k = walks.onward(k);
     }
+    if (k != first) left.insert(left.end(), sides.begin(), sides.end());
     if (k != first || one_face) continue;
-    for (const Loop& loop : simple_loops(walk)) found.push_back(from_least(loop));
+    for (const Loop& loop : simple_loops(walk)) {
+      HoleLoop ids = from_least(loop);
+      if (ids.size() > longest_hole)
+        found.unclear.push_back(too_long(ids));
+      else
+        found.loops.push_back(std::move(ids));
+    }
   }
-  std::sort(found.begin(), found.end());
+  for (std::int32_t k = 0; k < half_edges.count(); ++k)
+    if (walks.is_torn_border(k)) left.push_back(k);
+  std::sort(found.loops.begin(), found.loops.end());
+  std::sort(left.begin(), left.end());
+  for (FairingError& why : unclear(left, walks, half_edges))
+    found.unclear.push_back(std::move(why));
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/error.h"
 #include "mesh/half_edges.h"
 
 namespace fairing {
@@ -13,10 +14,23 @@ namespace fairing {
 // vertex comes twice.
 using HoleLoop = std::vector<std::int64_t>;
 
-// All of them, each from its least vertex on, in ascending order of these. A walk that touches
-// itself in a vertex is cut there. Walks that meet an edge of more than two faces, or faces that
-// disagree on which way they look, end nowhere, and are left out; so is the border of a face that
-// is a sheet alone. The mesh must have passed require_arrays (mesh/validate/check.h).
-std::vector<HoleLoop> find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges);
+// Vertices of a hole with its islands; more are not filled. As messages have it.
+constexpr std::size_t longest_hole = 16'384;
+
+std::string too_long_text(std::size_t vertices);
+
+struct FoundHoles {
+  // Each from its least vertex on, in ascending order of these.
+  std::vector<HoleLoop> loops;
+  // Why other border edges are around no hole: one for those that share vertices. Messages name no
+  // ids; the elements are these edges.
+  std::vector<FairingError> unclear;
+};
+
+// A walk that touches itself in a vertex is cut there. Walks that meet an edge of more than two
+// faces, or faces that disagree on which way they look, end nowhere: they are unclear. The border of
+// a face that is a sheet alone is left out. The mesh must have passed require_arrays
+// (mesh/validate/check.h).
+FoundHoles find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges);
 
 }  // namespace fairing
