@@ -28,6 +28,7 @@ from .settings import NAMES, Settings, is_evaluated
 
 SOURCE_CHANGED = "Source changed"
 SETTINGS_CHANGED = "Settings changed"
+UNFINISHED = "Shown with fewer levels"
 # settings that change nothing about a surface that is there
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
 _SOON = 0.3  # seconds
@@ -60,12 +61,22 @@ def know(target: Object) -> None:
                 _watched.setdefault(session_key(block), set()).add(key)
 
 
+def known_surfaces() -> Iterator[Object]:
+    """Those that are there."""
+    for reference in list(_surfaces.values()):
+        target = reference.find()
+        if target is not None and target.users_scene and is_own(target):
+            yield target
+
+
 def why_stale(target: Object) -> str:
     """Why `target` is out of date, in a few words; empty if it is not, or nobody can tell."""
     made = memory.recall(target, "made")
     if not made or source_of(target) is None:
         return ""
     know(target)
+    if target.discrete_fairing.unfinished:
+        return UNFINISHED
     if _differ(made["settings"], target.discrete_fairing):
         return SETTINGS_CHANGED
     key = session_key(target)
@@ -80,10 +91,7 @@ def why_stale(target: Object) -> str:
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
     """The known surfaces in the file that are out of date; those made from `source` alone."""
-    for reference in list(_surfaces.values()):
-        target = reference.find()
-        if target is None or not target.users_scene or not is_own(target):
-            continue
+    for target in known_surfaces():
         if (source is None or target.discrete_fairing.source == source) and why_stale(target):
             yield target
 

@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.props import FloatVectorProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, FloatVectorProperty, PointerProperty, StringProperty
 
 from . import records
 from .blender import Context, Object, all_objects, all_scenes, attach, detach
@@ -63,6 +63,11 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         description="Settings and source as they were when the surface was made, as JSON",
         options={"HIDDEN"},
     )
+    unfinished: BoolProperty(
+        name="Unfinished",
+        description="The mesh has fewer levels than the settings say, and the whole surface is to follow",
+        options={"HIDDEN"},
+    )
     defects: StringProperty(
         name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
     )
@@ -94,6 +99,7 @@ def remember(
     reported.
     """
     target.discrete_fairing.source = source
+    target.discrete_fairing.unfinished = False
     copy_settings(settings, target.discrete_fairing)
     keep(target, "report", report)
 

@@ -12,7 +12,9 @@ from . import cage, registry, switch
 
 @persistent
 def _note(*_: Any) -> None:
-    """Which surfaces are live, before the file is written."""
+    """Which surfaces are live, before the file is written; it gets their own shape keys too."""
+    for session in registry.sessions():
+        session.lend()
     for target in _surfaces():
         registry.note(target, switch.is_on(target))
 

@@ -70,9 +70,12 @@ def note(target: Object, on: bool) -> None:
         target.discrete_fairing_live.was_on = on
 
 
-def remove(session: Session, reason: str = "") -> None:
-    """Ends a session; `reason` if it was not switched off."""
+def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
+    """Ends a session; `reason` if it was not switched off. `hand_back`: whether the surface is still what
+    the session has made of it.
+    """
     session.cancel_full(wait=True)
+    session.release(hand_back)
     _sessions.pop(session.key, None)
     target = session.objects()[1]
     if target is not None:
@@ -92,7 +95,7 @@ def give_up(session: Session, reason: str) -> None:
 def clear() -> None:
     """Ends all."""
     for session in sessions():
-        remove(session)
+        remove(session, hand_back=False)
     _endings.clear()
     _known.clear()
 

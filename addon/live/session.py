@@ -234,6 +234,8 @@ class Session:
             if self._own is not None:
                 write_own(target, self._own, in_handler=True)
             self._mesh = session_key(target.data)
+            if not target.discrete_fairing.unfinished:
+                target.discrete_fairing.unfinished = True
         else:
             write_positions(target.data, result.vertices)
         overlay.moved(target)
@@ -328,6 +330,27 @@ class Session:
         if full.solver is not None:
             self.solver, self._arguments = full.solver, full.arguments
             self._edge_length = job.edge_length
+
+    def lend(self) -> None:
+        """What the surface has of its own comes back to it until the next edit: for a file that is saved."""
+        own, target = self._own, self._target.find()
+        if own is not None and target is not None and target.mode != "EDIT":
+            self._mesh = None
+            own.write_keys(target, last=False)
+
+    def release(self, hand_back: bool = True) -> None:
+        """What the surface has of its own comes back to it, on the level that it has; or is dropped, where
+        its mesh is not what was written. Handlers write all of that but shape keys.
+        """
+        own, self._own = self._own, None
+        target = self._target.find()
+        if own is None:
+            return
+        self._mesh = None
+        if hand_back and target is not None and target.mode != "EDIT":
+            own.write_keys(target)
+        else:
+            own.drop()
 
     @property
     def full_text(self) -> str:

@@ -37,6 +37,11 @@ def is_on(target: Object) -> bool:
     return session is not None and not session.ending
 
 
+def is_seen_to(target: Object) -> bool:
+    """Whether it follows its source, or its full level is still to come."""
+    return registry.session_of(target) is not None
+
+
 def switch_on(target: Object) -> None:
     """Makes a faired object follow its source; nothing happens if it does, or cannot."""
     session = registry.session_of(target)

@@ -20,7 +20,7 @@ def _agree(*_: Any) -> None:
     for target in registry.known():
         session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
         if session is not None and not was_on and not session.ending:
-            registry.remove(session)
+            registry.remove(session, hand_back=False)
         elif was_on and not switch.is_on(target) and not bpy.app.timers.is_registered(resume):
             bpy.app.timers.register(resume, first_interval=_SOON)
 

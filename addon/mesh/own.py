@@ -59,6 +59,21 @@ class OwnData:
     animation: KeyAnimation | None
     notes: list[str]
 
+    def write_keys(self, target: Object, last: bool = True) -> list[str]:
+        """Gives `target` the shape keys, and lets them be animated as they were; what is lost, a
+        sentence each. `last`: whether nobody else will get them.
+        """
+        samples = Samples(self.mesh, read_mesh(target.data)) if self.keys else None
+        for key, relative, away in self.keys:
+            assert samples is not None
+            add_shape_key(target, key, relative, samples.values(away, "POINT", True))
+        return self.animation.give(target, last) if self.animation else []
+
+    def drop(self) -> None:
+        """Where nothing gets it any more."""
+        if self.animation:
+            self.animation.drop()
+
 
 def read_own(target: Object, *carried: Names) -> OwnData | None:
     """What the surface `target`, in Object Mode, has beside what is `carried` from its source, now
@@ -112,9 +127,7 @@ def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[st
         zero = group.vertices[group.weights == 0.0] if samples.same else np.empty(0, np.int32)
         write_group(target, group, weights, zero, operators=not in_handler)
     _choose_active(target, own)
-    for key, relative, away in () if in_handler else own.keys:
-        add_shape_key(target, key, relative, samples.values(away, "POINT", True))
-    notes = own.notes + (own.animation.give(target) if own.animation and not in_handler else [])
+    notes = own.notes + ([] if in_handler else own.write_keys(target))
     if lost:
         notes.append(f"{_listed(lost)} dropped: the edges of the surface are others now.")
     moved = [attribute.name for attribute in own.attributes if attribute.name not in lost]

@@ -183,10 +183,12 @@ class KeyAnimation:
             return None
         return cls(session_key(mesh.copy()))
 
-    def give(self, target: Object) -> list[str]:
-        """Lets it animate the keys of `target`; what is lost, a sentence each."""
-        spare: Any = next((m for m in bpy.data.meshes if session_key(m) == self.spare), None)
-        new, notes = target.data.shape_keys, []
+    def give(self, target: Object, last: bool = True) -> list[str]:
+        """Lets it animate the keys of `target`; what is lost, a sentence each. `last`: whether they are
+        not made anew again.
+        """
+        spare, notes = self._mesh(), []
+        new = target.data.shape_keys
         if new is None or spare is None:  # undo may have taken the copy
             notes.append("The animation of the surface's shape keys is dropped.")
         else:
@@ -200,9 +202,18 @@ class KeyAnimation:
             copy_drivers(old, new, leave_out=driven)
             if len(its.nla_tracks):
                 notes.append("The NLA tracks of the surface's shape keys are dropped.")
+        if last:
+            self.drop()
+        return notes
+
+    def drop(self) -> None:
+        """Nothing is animated by it any more."""
+        spare = self._mesh()
         if spare is not None:
             bpy.data.meshes.remove(spare)
-        return notes
+
+    def _mesh(self) -> Any:
+        return next((m for m in bpy.data.meshes if session_key(m) == self.spare), None)
 
 
 def _act(old: Any, new: Any) -> None:

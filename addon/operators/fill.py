@@ -9,11 +9,13 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import bpy
+from bpy.app.handlers import persistent
 
-from .. import memory, prediction
-from ..blender import Answer, Context, Object, current_context, registration
+from .. import freshness, memory, prediction
+from ..blender import Answer, Context, Object, current_context
 from ..errors import JobError
 from ..job import Job
+from ..live import switch
 from ..memory import source_of
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import Reference, new_object
@@ -24,6 +26,7 @@ from .modal import ModalRun
 
 BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
 _WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
+_SOON = 0.1  # seconds; Live's own comes first
 _due: list[Reference] = []  # the surfaces that are still to be made whole
 
 
@@ -89,8 +92,31 @@ def fill_soon(context: Context, targets: Sequence[Object], jobs: Sequence[Job]) 
     """Lets the small surfaces `targets` become those of `jobs`, which they remember from now on."""
     for target, job in zip(targets, jobs, strict=True):
         copy_settings(job.settings, target.discrete_fairing)
+        target.discrete_fairing.unfinished = True
+    _complete_soon(context, targets)
+
+
+def _complete_soon(context: Context, targets: Sequence[Object]) -> None:
     _due[:] = map(Reference, targets)
     invoke_soon(context, cast(Any, bpy.ops.object).fairing_complete, {})
+
+
+@persistent
+def _after_undo(*_: Any) -> None:
+    """What is written outside of any step is undone with a later one: it is made anew."""
+    if not bpy.app.background and not bpy.app.timers.is_registered(resume):
+        bpy.app.timers.register(resume, first_interval=_SOON)
+
+
+def resume() -> None:
+    """Lets the unfinished surfaces that nobody else sees to become whole."""
+    found = [
+        target
+        for target in freshness.known_surfaces()
+        if target.discrete_fairing.unfinished and not switch.is_seen_to(target)
+    ]
+    if found and running() is None:
+        _complete_soon(current_context(), found)
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
@@ -168,4 +194,18 @@ class OBJECT_OT_fairing_complete(ModalRun, bpy.types.Operator):
         return {"FINISHED"}
 
 
-register, unregister = registration(OBJECT_OT_fairing_complete)
+_HANDLERS = (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+
+
+def register() -> None:
+    bpy.utils.register_class(OBJECT_OT_fairing_complete)
+    for handlers in _HANDLERS:
+        handlers.append(_after_undo)
+
+
+def unregister() -> None:
+    for handlers in _HANDLERS:
+        handlers.remove(_after_undo)
+    if bpy.app.timers.is_registered(resume):
+        bpy.app.timers.unregister(resume)
+    bpy.utils.unregister_class(OBJECT_OT_fairing_complete)

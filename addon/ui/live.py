@@ -26,7 +26,7 @@ def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
 
 def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
     """The badge of a surface that is not that of its source and settings any more."""
-    reason = "" if switch.is_on(target) else why_stale(target)
+    reason = "" if switch.is_seen_to(target) else why_stale(target)
     if reason:
         row = layout.row()
         row.alert = True
@@ -35,7 +35,9 @@ def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
 
 def draw_stale_surfaces(layout: bpy.types.UILayout, source: Object | None) -> None:
     """The same beside their source."""
-    stale = [] if source is None else [t for t in stale_surfaces(source) if not switch.is_on(t)]
+    stale = (
+        [] if source is None else [t for t in stale_surfaces(source) if not switch.is_seen_to(t)]
+    )
     for target in stale:
         row = layout.row()
         row.alert = True

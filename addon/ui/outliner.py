@@ -11,7 +11,7 @@ from ..live import switch
 
 
 def draw_count(header: Any, _context: Context) -> None:
-    count = sum(not switch.is_on(target) for target in stale_surfaces())
+    count = sum(not switch.is_seen_to(target) for target in stale_surfaces())
     if count:
         # first and short: the header is narrow
         header.layout.operator("object.fairing_recompute_stale", text=str(count), icon="ERROR")

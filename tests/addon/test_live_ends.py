@@ -10,8 +10,10 @@ from scenes import CUBE, activate, add, fair, positions
 
 import addon
 from addon import core
+from addon.freshness import UNFINISHED, why_stale
 from addon.live import handlers, registry, switch, undo
 from addon.live import session as session_module
+from addon.operators import fill
 from addon.ui import main
 
 
@@ -268,3 +270,42 @@ def test_the_panel_says_how_it_goes():
     handlers.on_timer()
     activate(target)
     assert "The source was deleted" in " ".join(draw(main.VIEW3D_PT_fairing))
+
+
+def test_undo_of_a_later_step_leaves_a_surface_whole(no_pause, monkeypatch):
+    """The last full level of Live is written after the click's own step, and so undone with the next one."""
+    source, target, _ = box_that_undo_switches()
+    session(target).ending = True  # what the click does where there is a window
+    registry.note(target, False)
+    bpy.ops.ed.undo_push(message="off")
+    tick_until(lambda: session(target) is None)
+    assert len(target.data.polygons) == 6 * 4**2 and why_stale(target) == ""
+    add("Other", *CUBE)
+    bpy.ops.ed.undo_push(message="other")
+    bpy.ops.ed.undo()
+    source, target, now = box_as_it_is()
+    assert now[2] == 6 * 4 and why_stale(target) == UNFINISHED
+    assert badges(target) == ["Out of date: shown with fewer levels"]
+    begun = []
+    monkeypatch.setattr(fill, "invoke_soon", lambda _, operator, __: begun.append(operator))
+    fill.resume()
+    (job,) = fill.due_jobs(bpy.context)
+    job.compute()
+    fill.write_jobs(bpy.context, [job])
+    assert begun and len(target.data.polygons) == 6 * 4**2 and why_stale(target) == ""
+    fill.resume()
+    assert fill.due_jobs(bpy.context) == []
+
+
+def badges(target):
+    activate(target)
+    return [line for line in draw(main.VIEW3D_PT_fairing) if "out of date" in line.lower()]
+
+
+def test_undo_while_live_leaves_the_surface_to_it():
+    source, target, _ = box_that_undo_switches()
+    move(source)
+    follow()
+    assert target.discrete_fairing.unfinished and not badges(target)
+    fill.resume()
+    assert fill.due_jobs(bpy.context) == []

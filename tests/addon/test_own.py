@@ -4,8 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, move
+from live_scenes import follow, live, move, session
 from scenes import CUBE, activate, add, fair, positions
+
+from addon.live import handlers
 
 
 def recompute(target=None):
@@ -153,3 +155,58 @@ def test_live_and_its_full_level_keep_it():
     assert np.array_equal(values(target.data, "height"), heights), (
         "and not by way of the live level"
     )
+
+
+def animated_key(target):
+    """A shape key of its own, with a keyframe."""
+    target.shape_key_add(name="Basis")
+    key = target.shape_key_add(name="Bump", from_mix=False)
+    key.data[9].co.z += 0.25
+    key.keyframe_insert("value", frame=1)
+
+
+def names_of_keys(target):
+    keys = target.data.shape_keys
+    return [block.name for block in keys.key_blocks] if keys is not None else []
+
+
+def drag():
+    """Live, in mid-edit, over a surface with an animated key of its own."""
+    source = add("Box", *CUBE)
+    target = fair(levels=2)
+    animated_key(target)
+    target.discrete_fairing_live.levels = 1
+    meshes = len(bpy.data.meshes)
+    live(target)
+    move(source)
+    follow()
+    assert not names_of_keys(target), "handlers write none"
+    return source, target, meshes
+
+
+def test_live_that_ends_in_mid_edit_gives_keys_back_and_leaves_no_mesh():
+    source, target, meshes = drag()
+    bpy.data.objects.remove(source)
+    handlers.on_timer()
+    assert session(target) is None and len(bpy.data.meshes) == meshes
+    assert names_of_keys(target) == ["Basis", "Bump"]
+    assert target.data.shape_keys.animation_data.action is not None
+
+
+def test_a_file_saved_in_mid_edit_has_the_keys(tmp_path):
+    source, target, meshes = drag()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mid.blend"), copy=True)
+    assert names_of_keys(target) == ["Basis", "Bump"]
+    move(source)
+    follow()
+    assert not names_of_keys(target)
+    bpy.ops.object.fairing_live(state="OFF")
+    key = target.data.shape_keys.key_blocks["Bump"]
+    moved = np.linalg.norm([k.co - v.co for k, v in zip(key.data, target.data.vertices)], axis=1)
+    assert moved[9] == pytest.approx(0.25, abs=1e-5) and (moved > 1e-5).sum() == 1, (
+        "as on the full level"
+    )
+    assert len(bpy.data.meshes) == meshes
+    with bpy.data.libraries.load(str(tmp_path / "mid.blend")) as (there, wanted):
+        wanted.meshes = [name for name in there.meshes if name == "Box Fair"]
+    assert "Bump" in wanted.meshes[0].shape_keys.key_blocks

@@ -188,3 +188,21 @@ def test_a_job_takes_selected_meshes_beside_another_active_object():
     assert bpy.context.active_object.type == "LIGHT"
     assert bpy.ops.object.fairing_for(purpose="MECHANICAL") == {"FINISHED"}
     assert bpy.context.active_object.discrete_fairing.source == box
+
+
+@pytest.mark.parametrize("purpose", [purpose for purpose, *_ in PURPOSES])
+@pytest.mark.parametrize("how", ["INVOKE_DEFAULT", "EXEC_DEFAULT"])
+def test_undo_takes_the_surface_and_nothing_before_it(purpose, how):
+    """As a button calls it: with a step of undo of its own."""
+    bpy.context.preferences.edit.use_global_undo = True
+    scan = noisy_sphere()
+    bpy.ops.ed.undo_push(message="there")
+    scan.location.x = 5.0
+    bpy.ops.ed.undo_push(message="moved")
+    before, points = len(bpy.data.objects), positions(scan.data)
+    bpy.context.scene.discrete_fairing.levels = 1
+    assert bpy.ops.object.fairing_for(how, True, purpose=purpose) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    (scan,) = bpy.data.objects
+    assert scan.location.x == 5.0 and len(bpy.data.objects) == before
+    assert np.array_equal(positions(scan.data), points)
