@@ -280,6 +280,8 @@ class FairingSettings:
 Settings: TypeAlias = FairingSettings | SimpleNamespace
 
 NAMES = tuple(FairingSettings.__annotations__)
+# which say that vertices may be missed, where nobody says what they are
+OF_NEAR = ("tolerance", "relative_tolerance", "tolerance_group", "pull_group")
 
 
 def is_near(settings: Settings) -> bool:
@@ -348,6 +350,17 @@ def fill_in(settings: Settings, target: Any) -> None:
             setattr(target, name, getattr(settings, name))
     if given & {"tolerance", "relative_tolerance", "tolerance_unit"}:
         target.tolerance_unit = unit  # which setting the other tolerance has changed
+
+
+def take_near(given: Any) -> None:
+    """Of operator properties: a tolerance that somebody gives means Near, and how far to follow Limit, where
+    `interpolation` is not given. Those of the last run do not count.
+    """
+    if given.is_property_set("interpolation"):
+        return
+    near, limit = any(map(given.is_property_set, OF_NEAR)), given.is_property_set("limit")
+    if near or limit:
+        given.interpolation = "APPROXIMATE" if near else "LIMIT"
 
 
 def snapshot(settings: Settings) -> SimpleNamespace:

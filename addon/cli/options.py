@@ -7,7 +7,7 @@ from math import degrees, inf, radians
 from types import SimpleNamespace
 from typing import Any
 
-from ..settings import NAMES, FAIRING_PG_settings
+from ..settings import NAMES, OF_NEAR, FAIRING_PG_settings
 from . import ease, fill, step
 from .places import FORMATS
 
@@ -48,8 +48,6 @@ _GROUPS = {
     ),
 }
 
-# options that mean nothing without --interpolation approximate, and say so by themselves
-_NEAR = ("tolerance", "relative_tolerance", "tolerance_group", "pull_group")
 # said by which of these is given
 _TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 
@@ -95,7 +93,7 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
     for name in given:
         if "use_" + name in NAMES:
             settings["use_" + name] = True
-    for name in _NEAR:
+    for name in OF_NEAR:
         if name in given:
             if given.get("interpolation") in ("EXACT", "LIMIT") or "limit" in given:
                 raise ValueError(f"{option(name)} needs --interpolation approximate")

@@ -21,7 +21,7 @@ from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
-from ..settings import FairingSettings, fill_in
+from ..settings import FairingSettings, fill_in, take_near
 from ..ui.layout import draw_settings
 from . import fill
 from .modal import ModalRun
@@ -173,8 +173,13 @@ class FairSurface(Fairing, FairingSettings):
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         """From buttons, menus and search: with the settings of the panel."""
+        take_near(self.properties)
         fill_in(context.scene.discrete_fairing, self.properties)
         return super().invoke(context, event)
+
+    def execute(self, context: Context) -> Answer:
+        take_near(self.properties)
+        return super().execute(context)
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [Job(context, source, self) for source in source_objects(context)]

@@ -201,7 +201,7 @@ def test_a_name_that_is_nothing_is_refused():
 
 def test_a_group_means_nothing_where_all_vertices_are_held():
     source = add("Box", *CUBE)
-    result = fair(levels=1, tolerance_group="Loose")
+    result = fair(levels=1, interpolation="EXACT", tolerance_group="Loose")
     assert np.array_equal(positions(result.data)[:8], positions(source.data))
 
 
@@ -244,3 +244,33 @@ def test_the_field_offers_nothing_without_a_mesh():
     activate(add("Box", *CUBE))
     bpy.data.objects.remove(bpy.context.object)
     assert _vertex_values(bpy.context.scene.discrete_fairing, bpy.context, "") == []
+
+
+@pytest.mark.parametrize("how", ["EXEC_DEFAULT", "INVOKE_DEFAULT"])
+@pytest.mark.parametrize(
+    "given, vertices",
+    [
+        ({"tolerance": 0.05}, "APPROXIMATE"),
+        ({"relative_tolerance": 0.05}, "APPROXIMATE"),
+        ({"tolerance": 0.05, "limit": 0.5}, "APPROXIMATE"),
+        ({"limit": 0.5}, "LIMIT"),
+        ({"tolerance": 0.05, "interpolation": "EXACT"}, "EXACT"),
+        ({}, "EXACT"),
+    ],
+)
+def test_a_tolerance_that_is_given_means_near(how, given, vertices):
+    add("Box", *CUBE)
+    assert bpy.ops.object.fairing_surface(how, levels=1, **given) == {"FINISHED"}
+    made = bpy.context.active_object
+    assert made.discrete_fairing.interpolation == vertices
+    off = np.linalg.norm(positions(made.data)[:8] - CUBE[0], axis=1).max()
+    assert (off > 0.01) == (vertices != "EXACT")
+    if "tolerance" in given and vertices == "APPROXIMATE":
+        assert off <= 0.05 + 1e-6
+
+
+def test_the_last_tolerance_is_not_given_again():
+    for given in ({"tolerance": 0.05}, {}):
+        add("Box", *CUBE)
+        assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=1, **given) == {"FINISHED"}
+    assert bpy.context.active_object.discrete_fairing.interpolation == "EXACT"
