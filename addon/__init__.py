@@ -8,7 +8,7 @@ window, `cad` makes spline patches of it.
 """
 
 from . import cli, curve_cage, freshness, memory, preferences, queue, settings
-from .inspection import overlay
+from .inspection import overlay, viewport_shading
 from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch, undo
 from .mesh import mesh_changes
@@ -50,6 +50,7 @@ _MODULES = (
     preferences,
     inspection_settings,
     overlay,
+    viewport_shading,
     strain_settings,
     known_strain,
     strain_overlay,

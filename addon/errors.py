@@ -28,11 +28,12 @@ REMEDIES = {
     "OUT_OF_MEMORY": "Use fewer levels, or close other programs",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NO_THREAD": "Close other programs",
-    "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or raise Tension",
+    "UNRESOLVED": "Move or add vertices there, or crease the edges where it turns",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
     "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
+_UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, or raise Tension"
 # Where there is no setting Defects; and where holes are filled.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_HOLES = WITHOUT_MENDING | {
@@ -113,9 +114,19 @@ def what(defect: dict[str, Any]) -> str:
     return _sentence(_WHOLE.get(code, defect["message"]))
 
 
-def remedy(code: str) -> str:
-    """What to do about it, in one sentence; empty where nobody knows."""
-    return _sentence(REMEDIES[code]) if code in REMEDIES else ""
+def remedy(code: str, settings: Any = None) -> str:
+    """What to do about it, in one sentence; empty where nobody knows. `settings`: those of the surface, if
+    they are known.
+    """
+    if code not in REMEDIES:
+        return ""
+    more = code == "UNRESOLVED" and settings is not None and _may_be_tauter(settings)
+    return _sentence(_UNRESOLVED_TAUTER if more else REMEDIES[code])
+
+
+def _may_be_tauter(settings: Any) -> bool:
+    """Whether there is more Tension than the `settings` have: Flow Lines have none."""
+    return settings.energy != "MINIMUM_VARIATION" and settings.tension < 1.0
 
 
 def error_text(object_name: str, error: Any, remedies: Mapping[str, str] = REMEDIES) -> str:
@@ -222,7 +233,7 @@ def faults_remedy(settings: Any) -> str:
     if settings.energy == "MINIMUM_VARIATION":
         return "Set Fairness to Bending, or to Curvature with Tension."
     help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Bending"]
-    if settings.tension < 1.0:
+    if _may_be_tauter(settings):
         help_by.insert(0, "raise Tension")
     if settings.interpolation == "EXACT":
         help_by.append("set Vertices to Near")

@@ -201,8 +201,10 @@ class InPlaceJob:
         )
         counts = self.result.faults.counts
         if counts:
-            # Near is no choice here
+            # Near is no choice here, nor are Fairness and Tension where noise alone is taken off
             settings = SimpleNamespace(**vars(self._wish), interpolation="APPROXIMATE")
+            if self._wish.measured and not self._wish.levels:
+                settings.energy, settings.tension = "THIN_PLATE", 1.0
             sentences.append(errors.faults_in_place_text(self.name, counts, settings))
         return sentences
 

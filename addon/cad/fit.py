@@ -123,7 +123,7 @@ class PatchJob(Job):
         return [
             words.together(
                 (
-                    f"{self.name}: {errors.remedy(defect['code'])}",
+                    f"{self.name}: {errors.remedy(defect['code'], self.settings)}",
                     errors.what(defect),
                     f"{words.faces_text(defect['elements'])}.",
                 )

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shading of a viewport that shows what is inspected, and the way back.
 
-What it was before is kept while Blender runs.
+What it was before is kept with the viewport itself: it goes with it, and files have it.
 """
 
+from contextlib import suppress
 from typing import Any
+
+import bpy
+from bpy.props import StringProperty
 
 from . import overlay
 from .display import VALUES
 
-_before: dict[int, tuple[str, str]] = {}  # viewport: its shading and colours
+_BEFORE = "discrete_fairing_before"  # of a viewport's shading: its type and colours
 
 
 def shows(space: Any, mode: str) -> bool:
@@ -28,7 +32,8 @@ def show(space: Any, mode: str) -> None:
         _restore(space)
     elif not shows(space, mode):
         # from one mode to the next, what was before the first one counts
-        _before.setdefault(space.as_pointer(), (space.shading.type, space.shading.color_type))
+        if not getattr(space.shading, _BEFORE):
+            setattr(space.shading, _BEFORE, f"{space.shading.type} {space.shading.color_type}")
         switch(space, "ATTRIBUTE" if mode in VALUES else "MATERIAL")
 
 
@@ -40,6 +45,20 @@ def switch(space: Any, shading: str) -> None:
 
 
 def _restore(space: Any) -> None:
-    before = _before.pop(space.as_pointer(), None)
-    if before is not None:
-        space.shading.type, space.shading.color_type = before
+    shading = getattr(space, "shading", None)
+    before = getattr(shading, _BEFORE, "").split()
+    if shading is None or not before:
+        return
+    setattr(shading, _BEFORE, "")
+    for name, value in zip(("type", "color_type"), before):
+        with suppress(TypeError):  # files may hold any text
+            setattr(shading, name, value)
+
+
+def register() -> None:
+    make_property: Any = StringProperty  # whose stub says None
+    setattr(bpy.types.View3DShading, _BEFORE, make_property(options={"HIDDEN"}))
+
+
+def unregister() -> None:
+    delattr(bpy.types.View3DShading, _BEFORE)

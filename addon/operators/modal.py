@@ -7,6 +7,7 @@ from .. import core
 from ..blender import Answer, Context, OperatorBase
 from ..job import Job
 from ..live.full_level import is_dragging
+from ..mesh.object import session_key
 from ..queue import Queue, running, set_running, status_text
 from ..redraw import Progress, tag_sidebars
 
@@ -31,6 +32,7 @@ class ModalRun(OperatorBase):
         self._queue = Queue(jobs, core.module().Monitor, self.gives_way)
         set_running(self._queue)
         self._progress = Progress()
+        self._told: set[int | str] = set()  # the workspaces whose status bar says how far it is
         manager = context.window_manager
         self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
         manager.modal_handler_add(self)
@@ -77,10 +79,16 @@ class ModalRun(OperatorBase):
         if self._progress.is_due(text):
             self._show(context, text)
 
-    @staticmethod
-    def _show(context: Context, text: str | None) -> None:
-        """Status bar and sidebars, but not the viewports, which may take long to draw; None puts
-        back what Blender shows in the status bar itself.
+    def _show(self, context: Context, text: str | None) -> None:
+        """Status bars of the workspaces that are seen, and sidebars, but not the viewports, which may
+        take long to draw; None puts back what Blender shows in each status bar itself.
         """
-        context.workspace.status_text_set(text)
+        if text is not None:
+            seen = {session_key(w.workspace): w.workspace for w in context.window_manager.windows}
+        else:  # others may have been seen meanwhile
+            seen = {session_key(w): w for w in bpy.data.workspaces}
+            seen = {key: seen[key] for key in self._told & seen.keys()}
+        for workspace in seen.values():
+            workspace.status_text_set(text)
+        self._told |= seen.keys()
         tag_sidebars(context)

@@ -87,9 +87,9 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
         level.level);
   return warning(
       "NOT_CONVERGED",
-      "On level %d the steps stopped, %zu of at most %d, with some %.1e of the mesh's size left to "
-      "move (target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
-      level.level, level.steps.size(), options.max_steps, level.left,
+      "On level %d the steps stopped after %zu with some %.1e of the mesh's size left to move "
+      "(target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
+      level.level, level.steps.size(), level.left,
       options.step_tolerance_wanted());
 }
 

@@ -3,6 +3,7 @@
 
 import ast
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
@@ -104,3 +105,16 @@ def test_an_error_leaves_edit_mode_as_it_was():
     bpy.ops.object.mode_set(mode="EDIT")
     expect_refusal("Wire: ")
     assert bpy.context.mode == "EDIT_MESH"
+
+
+@pytest.mark.parametrize(
+    "energy, tension, said",
+    [("THIN_PLATE", 0.0, True), ("THIN_PLATE", 1.0, False), ("MINIMUM_VARIATION", 0.0, False)],
+)
+def test_more_tension_is_advised_where_there_is_more(energy, tension, said):
+    settings = SimpleNamespace(energy=energy, tension=tension, interpolation="EXACT")
+    assert ("raise Tension" in errors.remedy("UNRESOLVED", settings)) == said
+    assert ("Tension" in errors.faults_remedy(settings)) == (
+        said or energy == "MINIMUM_VARIATION"  # another energy, which has it
+    )
+    assert "Tension" not in errors.remedy("UNRESOLVED")

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Zebra in files of several scenes."""
 
-from types import SimpleNamespace
-
 import bpy
 import pytest
 from scenes import CUBE, add
@@ -56,40 +54,57 @@ def test_off_leaves_nothing_of_any_scene():
     assert not bpy.data.materials and not bpy.data.node_groups
 
 
-class Space:
-    """A viewport: without a window there is none."""
+def viewport(shading="SOLID", colour="MATERIAL"):
+    """That of a screen: none is drawn without a window."""
+    areas = [area for screen in bpy.data.screens for area in screen.areas]
+    space = next(area.spaces.active for area in areas if area.type == "VIEW_3D")
+    space.shading.type, space.shading.color_type = shading, colour
+    return space
 
-    def __init__(self, shading="SOLID", colour="MATERIAL"):
-        self.type = "VIEW_3D"
-        self.shading = SimpleNamespace(type=shading, color_type=colour)
 
-    def as_pointer(self):
-        return id(self)
-
-    @property
-    def now(self):
-        return self.shading.type, self.shading.color_type
+def now(space):
+    return space.shading.type, space.shading.color_type
 
 
 @pytest.mark.parametrize("before", [("SOLID", "MATERIAL"), ("WIREFRAME", "OBJECT")])
 def test_a_click_is_seen_and_off_leads_back(before):
-    space = Space(*before)
+    space = viewport(*before)
     viewport_shading.show(space, "ZEBRA")
-    assert space.now[0] == "MATERIAL" and viewport_shading.shows(space, "ZEBRA")
+    assert now(space)[0] == "MATERIAL" and viewport_shading.shows(space, "ZEBRA")
     viewport_shading.show(space, "MEAN")
     assert viewport_shading.shows(space, "MEAN")
     viewport_shading.show(space, "NONE")
-    assert space.now == before
+    assert now(space) == before
+    space.shading.type = "SOLID"
+    viewport_shading.show(space, "NONE")
+    assert now(space)[0] == "SOLID", "once only"
+
+
+def test_the_way_back_goes_with_the_viewport_and_its_file(tmp_path):
+    """Nothing is kept by the address of a viewport, which another one of the next file may have."""
+    viewport_shading.show(viewport("WIREFRAME"), "ZEBRA")
+    path = str(tmp_path / "shown.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    space = viewport("RENDERED")
+    viewport_shading.show(space, "NONE")
+    assert now(space)[0] == "RENDERED"
+    bpy.ops.wm.open_mainfile(filepath=path)
+    areas = [area for screen in bpy.data.screens for area in screen.areas]
+    shown = [a.spaces.active for a in areas if a.type == "VIEW_3D"]
+    for space in shown:
+        viewport_shading.show(space, "NONE")
+    assert "WIREFRAME" in [space.shading.type for space in shown]
 
 
 def test_a_viewport_that_shows_it_is_left_alone():
-    space = Space("RENDERED")
+    space = viewport("RENDERED")
     viewport_shading.show(space, "ZEBRA")
     viewport_shading.show(space, "NONE")
-    assert space.now == ("RENDERED", "MATERIAL")
-    plain = Space("SOLID", "VERTEX")
+    assert now(space) == ("RENDERED", "MATERIAL")
+    plain = viewport("SOLID", "VERTEX")
     viewport_shading.show(plain, "GAUSS")
-    assert plain.now == ("SOLID", "VERTEX")
+    assert now(plain) == ("SOLID", "VERTEX")
 
 
 def test_zebra_in_edit_mode():
