@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from . import curve_cage, memory
+from . import curve_cage, memory, place
 from .blender import Context, Mesh, Object, Scene, all_objects, current_context
 from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
@@ -28,6 +28,7 @@ from .settings import NAMES, Settings, is_evaluated
 
 SOURCE_CHANGED = "Source changed"
 SETTINGS_CHANGED = "Settings changed"
+SOURCE_MOVED = "Source moved"
 UNFINISHED = "Shown with fewer levels"
 # settings that change nothing about a surface that is there
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
@@ -86,7 +87,9 @@ def why_stale(target: Object) -> str:
             _look()
         elif not bpy.app.timers.is_registered(_look):
             bpy.app.timers.register(_look, first_interval=_SOON)
-    return SOURCE_CHANGED if _sums.get(key, made["source"]) != made["source"] else ""
+    if _sums.get(key, made["source"]) != made["source"]:
+        return SOURCE_CHANGED
+    return SOURCE_MOVED if place.moved(target) else ""
 
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from . import core, errors, freshness, memory, prediction, size
+from . import core, errors, freshness, memory, place, prediction, size
 from .blender import Context, Object
 from .check.faults import find_faults
 from .choices import energy_name
@@ -212,6 +212,10 @@ class Job:
             "at_tolerance": self._at_tolerance,
         }
         memory.remember(target, source, settings, report)
+        if old is None:
+            place.note(source, target)
+        else:
+            place.follow(context, target)
         freshness.note(target, self._made)
         display.refresh(target, context.scene.discrete_fairing_inspection)
         work = self._work(settings.levels)

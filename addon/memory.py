@@ -63,6 +63,16 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         description="Settings and source as they were when the surface was made, as JSON",
         options={"HIDDEN"},
     )
+    stood: StringProperty(
+        name="Stood",
+        description="Where the source stood when the surface followed it last, as JSON",
+        options={"HIDDEN"},
+    )
+    follow_transform: BoolProperty(
+        name="Follow Transform",
+        description="Moves, turns and scales with its source, each until you do so with the surface itself",
+        default=True,
+    )
     unfinished: BoolProperty(
         name="Unfinished",
         description="The mesh has fewer levels than the settings say, and the whole surface is to follow",
@@ -105,7 +115,7 @@ def remember(
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
-    """Keeps a dict with the object `target`. `name`: report, readout, carried, made or defects."""
+    """Keeps a dict with the object `target`. `name`: one of those in records.py."""
     setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
 
 

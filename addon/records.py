@@ -120,6 +120,7 @@ _FORMS = {
         }
     ),
     "carried": _dict({}, _NAMES),
+    "stood": _any_dict,
     "made": _dict({"settings": _any_dict, "source": _whole}),
     "defects": _dict(
         {"defects": _all(_defect), "counts": _all(_whole)},

@@ -68,6 +68,7 @@ def complete(session: Session, context: Context) -> None:
 
 
 def _advance(session: Session) -> None:
+    session.stand()
     if session.needs_look():
         session.follow()
     session.advance(current_context())
@@ -110,6 +111,7 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     reshaped |= curve_cages.refreshed(filter(_is_awake, registry.sessions()), reshaped | moved)
 
     def step(session: Session) -> None:
+        session.stand()
         if session.needs_look(reshaped):
             session.follow(depsgraph)
 
@@ -125,9 +127,14 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """
     if registry.is_quiet():
         return
+
+    def step(session: Session) -> None:
+        session.stand()
+        session.follow(depsgraph)
+
     for session in registry.sessions():
         if _is_awake(session):
-            guarded(session, lambda it: it.follow(depsgraph))
+            guarded(session, step)
 
 
 def _is_awake(session: Session) -> bool:

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import bpy
 import numpy as np
 
-from .. import core, errors, memory, size
+from .. import core, errors, memory, place, size
 from ..blender import Context, Mesh, Object, current_context
 from ..core import ControlArrays
 from ..errors import JobError
@@ -105,6 +105,10 @@ class Session:
     def distrust(self) -> None:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
         self._stale, self._mesh = True, None
+
+    def stand(self) -> None:
+        """Where its source does."""
+        place.follow(None, self._present()[1])
 
     def follow(self, depsgraph: Update = None) -> bool:
         """Brings the surface up to date with source and settings, at the live level.

@@ -9,19 +9,16 @@ import bpy
 
 from ..blender import Context, Mesh, Object, all_objects
 
-_TRANSFORM = (
+TURN = (
     "rotation_mode",  # first: the others are read by it
-    "location",
     "rotation_euler",
     "rotation_quaternion",
     "rotation_axis_angle",
-    "scale",
-    "delta_location",
     "delta_rotation_euler",
     "delta_rotation_quaternion",
-    "delta_scale",
 )
-_PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_parent_inverse")
+PLACE = (*TURN, "location", "delta_location", "scale", "delta_scale")
+PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_parent_inverse")
 
 
 def session_key(block: bpy.types.ID) -> int | str:
@@ -52,7 +49,7 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     target = cast(Object, bpy.data.objects.new(mesh.name, mesh))
     for collection in _collections(context, source):
         collection.objects.link(target)
-    _copy_place(context, source, target)
+    copy_place(context, source, target)
     _copy_object_materials(source, target)
     return target
 
@@ -101,14 +98,18 @@ def _collections(context: Context, source: Object) -> list[bpy.types.Collection]
     return []
 
 
-def _copy_place(context: Context, source: Object, target: Object) -> None:
-    if source.parent is not None:
-        for name in _PARENT:
+def copy_place(context: Context | None, source: Object, target: Object) -> None:
+    """Lets `target` stand where `source` does, with the same parent. `context`: None within Blender's
+    own update, which has done what constraints do.
+    """
+    if source.parent is not None or target.parent is not None:
+        for name in PARENT:
             setattr(target, name, getattr(source, name))
-    for name in _TRANSFORM:
+    for name in PLACE:
         setattr(target, name, getattr(source, name))
     if source.constraints:  # not copied, what they did is
-        context.view_layer.update()
+        if context is not None:
+            context.view_layer.update()
         target.matrix_world = source.matrix_world
 
 

@@ -11,7 +11,7 @@ from typing import Any, cast
 import bpy
 from bpy.app.handlers import persistent
 
-from .. import freshness, memory, prediction
+from .. import freshness, memory, place, prediction
 from ..blender import Answer, Context, Object, current_context
 from ..errors import JobError
 from ..job import Job
@@ -79,6 +79,7 @@ class StandIn:
             mesh.name = f"{job.name} Fair"
             target = new_object(context, source, mesh)
             memory.remember(target, source, job.settings, {})
+            place.note(source, target)
             memory.keep(target, "carried", carried_names(job.data, job.keys))
             if wants_modifiers(job.settings):
                 self.notes += copy_modifiers(context, source, target, is_limit(job.settings))

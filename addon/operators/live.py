@@ -5,7 +5,7 @@ from typing import cast
 
 import bpy
 
-from .. import core, memory
+from .. import core, memory, place
 from ..blender import Answer, Context, Mesh, Object, registration
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
@@ -71,6 +71,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
             mesh.materials.append(material)
         target = new_object(context, source, mesh)
         memory.remember(target, source, settings, {})
+        place.note(source, target)
         if wants_modifiers(settings):
             for sentence in copy_modifiers(context, source, target, is_limit(settings)):
                 self.report({"INFO"}, sentence)

@@ -273,6 +273,7 @@ def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
+    layout.prop(memory, "follow_transform")
     problem = source_problem(cast(Object, memory.id_data))
     if problem:
         draw_notice(layout, problem)

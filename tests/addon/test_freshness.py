@@ -71,7 +71,6 @@ def test_what_else_counts(way):
 def test_what_does_not_count():
     source = add("Box", *CUBE)
     target = fair(levels=1)
-    source.location.x = 3.0
     source.data.materials.append(bpy.data.materials.new("Paint"))
     target.discrete_fairing.hide_source = False
     bpy.ops.object.fairing_show_source()

@@ -72,7 +72,7 @@ ROOMS = (
     {"records"},
     {"memory"},
     {"mesh"},
-    {"curve_cage"},
+    {"curve_cage", "place"},
     {"check", "freshness", "inspection", "measured"},
     {"in_place", "holes", "job"},
     {"live"},

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a surface stands: where its source does, until somebody moves the surface itself.
+
+What the source's place was is kept with the surface: a part of it, location, rotation or scale, goes on
+following as long as the surface has that part as it got it.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from . import memory
+from .blender import Context, Object
+from .mesh.object import PARENT, PLACE, TURN, copy_place
+
+_PARTS = (("location", "delta_location"), TURN, ("scale", "delta_scale"))
+
+
+def note(source: Object, target: Object) -> None:
+    """Of a surface that has just got the place of its source."""
+    _keep(source, target, PLACE)
+
+
+def moved(target: Object) -> bool:
+    """Whether the source of a surface has moved since, and the surface is to follow."""
+    return bool(_due(target))
+
+
+def follow(context: Context | None, target: Object) -> bool:
+    """Lets the surface stand where its source does, as far as it follows; whether it had moved.
+    `context`: as `copy_place` takes it.
+    """
+    source, due = memory.source_of(target), _due(target)
+    if source is None:
+        return False
+    follows = _following(target, memory.recall(target, "stood") or {})
+    if due:
+        own = {name: _copied(getattr(target, name)) for name in PLACE if name not in follows}
+        copy_place(context, source, target)
+        for name, value in own.items():
+            setattr(target, name, value)
+    if due or not memory.recall(target, "stood"):
+        _keep(source, target, follows)
+    return bool(due)
+
+
+def _keep(source: Object, target: Object, follows: Any) -> None:
+    """What constraints do is no value of the source's own: there the surface's are kept."""
+    if source.constraints:
+        known = _values(target)
+        stood = {name: known[name] if name in follows else None for name in PLACE}
+        stood |= {name: known[name] for name in PARENT}
+    else:
+        stood = _values(source)
+    memory.keep(target, "stood", stood | {"seen": _seen(source)})
+
+
+def _seen(source: Object) -> dict[str, Any]:
+    world = {"world": _plain(source.matrix_world)} if source.constraints else {}
+    return _values(source) | world
+
+
+def _due(target: Object) -> bool:
+    source, stood = memory.source_of(target), memory.recall(target, "stood")
+    if source is None or not stood or not target.discrete_fairing.follow_transform:
+        return False
+    before, now = stood.get("seen"), _seen(source)
+    if before == now or not isinstance(before, dict):
+        return False
+    follows = _following(target, stood)
+    if source.constraints or any(before.get(name) != now[name] for name in PARENT):
+        return bool(follows)
+    return any(before.get(name) != now[name] for name in follows)
+
+
+def _following(target: Object, stood: Mapping[str, Any]) -> set[str]:
+    """Names of what the surface still has as its source had it; none where its parent is another."""
+    now = _values(target)
+    if any(now[name] != stood.get(name) for name in PARENT):
+        return set()
+    kept = [part for part in _PARTS if all(now[name] == stood.get(name) for name in part)]
+    return {name for part in kept for name in part}
+
+
+def _values(one: Object) -> dict[str, Any]:
+    return {name: _plain(getattr(one, name)) for name in (*PARENT, *PLACE)}
+
+
+def _plain(value: Any) -> Any:
+    """As JSON has it."""
+    if value is None or isinstance(value, (str, int, float)):
+        return value
+    return value.name_full if hasattr(value, "name_full") else [_plain(part) for part in value]
+
+
+def _copied(value: Any) -> Any:
+    return (
+        value
+        if isinstance(value, str)
+        else value.copy()
+        if hasattr(value, "copy")
+        else tuple(value)
+    )

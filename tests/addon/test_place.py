@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The source moves in Object Mode: the surface follows, as far as nobody has moved it by itself."""
+
+import bpy
+import pytest
+from fake_layout import draw
+from live_scenes import follow, live
+from scenes import CUBE, activate, add, fair
+
+from addon.freshness import SOURCE_CHANGED, SOURCE_MOVED, why_stale
+from addon.live import handlers
+from addon.ui import main
+
+
+def pair(**settings):
+    source = add("Box", *CUBE)
+    return source, fair(levels=1, **settings)
+
+
+def height(target):
+    bpy.context.view_layer.update()
+    return target.dimensions.z
+
+
+def move(source):
+    source.location.x, source.rotation_euler.z = 5.0, 0.5
+    follow()
+
+
+def recompute(target):
+    activate(target)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    follow()
+
+
+def test_a_source_that_has_moved_is_told_and_followed():
+    source, target = pair()
+    assert why_stale(target) == ""
+    move(source)
+    assert why_stale(target) == SOURCE_MOVED and target.location.x == 0.0
+    activate(target)
+    assert "Out of date: source moved" in draw(main.VIEW3D_PT_fairing)
+    recompute(target)
+    assert why_stale(target) == ""
+    assert target.matrix_world == source.matrix_world
+
+
+def test_a_surface_that_was_put_elsewhere_stays_there_and_still_takes_the_scale():
+    source, target = pair()
+    target.location.y = 4.0
+    move(source)
+    assert why_stale(target) == SOURCE_MOVED, "its rotation follows"
+    recompute(target)
+    assert target.location[:] == (0.0, 4.0, 0.0)
+    assert target.rotation_euler.z == source.rotation_euler.z
+    source.location.x = 9.0
+    follow()
+    assert why_stale(target) == ""
+    source.scale.z = 3.0
+    follow()
+    assert why_stale(target) in (SOURCE_MOVED, SOURCE_CHANGED)
+    recompute(target)
+    assert target.location[:] == (0.0, 4.0, 0.0) and target.scale.z == 3.0
+    assert height(target) > source.dimensions.z - 1e-5, "it passes through the vertices"
+
+
+def test_it_can_be_left_where_it_is():
+    source, target = pair()
+    target.discrete_fairing.follow_transform = False
+    move(source)
+    assert why_stale(target) == ""
+    recompute(target)
+    assert target.location.x == 0.0
+    target.discrete_fairing.follow_transform = True
+    assert why_stale(target) == SOURCE_MOVED
+
+
+@pytest.mark.parametrize("parent", [False, True])
+def test_live_follows_at_once(parent):
+    source, target = pair()
+    above = bpy.data.objects.new("Above", None)
+    bpy.context.collection.objects.link(above)
+    live(target)
+    if parent:
+        source.parent = above
+        follow()
+        above.location.z = 2.0
+    move(source)
+    source.scale.z = 3.0
+    follow()
+    follow()
+    assert target.matrix_world == source.matrix_world and target.parent == source.parent
+    assert height(target) > source.dimensions.z - 1e-5, "it passes through the vertices"
+    target.location.x = -1.0
+    source.location.x = 7.0
+    follow()
+    handlers.on_timer()
+    assert target.location.x == -1.0
+
+
+def test_what_constraints_do_is_followed():
+    other = add("Other", *CUBE)
+    source, target = pair()
+    recompute(target)
+    source.constraints.new("COPY_LOCATION").target = other
+    other.location.x = 2.0
+    follow()
+    assert why_stale(target) == SOURCE_MOVED
+    recompute(target)
+    assert target.matrix_world.translation.x == 2.0 and why_stale(target) == ""
+    other.location.x = 3.0
+    follow()
+    recompute(target)
+    assert target.matrix_world.translation.x == 3.0
+
+
+def test_a_surface_with_another_parent_goes_its_own_way():
+    source, target = pair()
+    target.parent = source
+    move(source)
+    assert why_stale(target) == ""
+    recompute(target)
+    assert target.location.x == 0.0 and target.parent == source
+
+
+def test_an_animated_surface_is_left_to_its_animation():
+    source, target = pair()
+    target.location.x = 1.0
+    target.keyframe_insert("location", frame=1)
+    move(source)
+    recompute(target)
+    assert target.location.x == 1.0
+
+
+@pytest.mark.parametrize(
+    "text", ["", "[]", "{}", '{"seen": 3}', '{"seen": {"location": "x"}}', "nan"]
+)
+def test_records_of_any_kind_do_no_harm(text):
+    source, target = pair()
+    target.discrete_fairing.stood = text
+    move(source)
+    recompute(target)
+    assert why_stale(target) == ""
+
+
+def test_undo_brings_both_back():
+    bpy.context.preferences.edit.use_global_undo = True
+    source, target = pair()
+    live(target)
+    bpy.ops.ed.undo_push(message="live")
+    move(source)
+    follow()
+    bpy.ops.ed.undo_push(message="moved")
+    bpy.ops.ed.undo()
+    handlers.on_timer()
+    follow()
+    source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
+    assert source.location.x == target.location.x == 0.0
