@@ -25,7 +25,7 @@ from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..settings import halves, is_evaluated, snapshot
-from .full_level import FullLevel, Schedule
+from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Clock, Deadline, Pace
 from .registry import why_gone
 
@@ -141,8 +141,9 @@ class Session:
             self._shape = world_shape(source)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
-            self._shares = tolerance_shares(source, mesh, self._settings)
-            self._pulls = vertex_pulls(source, mesh, self._settings)
+            if not self._has_values_of(arrays):
+                self._shares = tolerance_shares(source, mesh, self._settings)
+                self._pulls = vertex_pulls(source, mesh, self._settings)
         clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
@@ -265,6 +266,17 @@ class Session:
             self._settings == snapshot(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
             and self._shape == world_shape(source)
+        )
+
+    def _has_values_of(self, arrays: ControlArrays) -> bool:
+        """Whether vertices have in groups what they had: a mouse that drags changes places alone, and
+        Blender gives weights one by one, which takes long.
+        """
+        return (
+            self._arrays is not None
+            and not is_evaluated(self._settings)
+            and is_dragging(current_context())
+            and core.same_faces(arrays, self._arrays)
         )
 
     # --- the full level

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..blender import Mesh, Object
 from ..choices import EDGE_BOUNDARIES
+from .mesh_changes import shown
 
 BOUNDARY = "fair_boundary"
 
@@ -57,7 +58,8 @@ def select_marked(mesh: Mesh, boundary: str) -> int:
 
 def summary(sources: Iterable[Object]) -> str:
     """`Edges: 8 Straight, 4 Free`; empty where no border edge has a boundary of its own."""
-    total = sum((_counts(source.data) for source in sources), np.zeros(len(_NUMBERS), int))
+    none = np.zeros(len(_NUMBERS), int)
+    total = sum((shown(source.data, BOUNDARY, _counts, none) for source in sources), none)
     parts = [
         f"{total[number]} {name}"
         for _, name, _, number in EDGE_BOUNDARIES

@@ -12,6 +12,7 @@ from mathutils import Vector
 
 from ..blender import Mesh, Object
 from .layers import find_layer, layer_values
+from .mesh_changes import shown
 from .world_shape import world_matrix
 
 NORMAL = "fair_normal"
@@ -68,7 +69,7 @@ def free(mesh: Mesh) -> int:
 
 def count(sources: Iterable[Object]) -> int:
     """How many normals are fixed, of vertices with faces or without."""
-    return sum(_count(source.data) for source in sources)
+    return sum(shown(source.data, NORMAL, _count, 0) for source in sources)
 
 
 def _count(mesh: Mesh) -> int:

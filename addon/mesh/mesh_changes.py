@@ -5,7 +5,7 @@ Drawing only looks it up; the work is done when a mesh changes.
 """
 
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any, cast
 
 import bpy
@@ -13,7 +13,8 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from .. import size
-from ..blender import Context, Mesh, Scene
+from ..blender import Context, Mesh, Scene, current_context
+from ..redraw import INTERVAL, tag_sidebars
 from .object import session_key
 
 _watched: dict[
@@ -21,6 +22,13 @@ _watched: dict[
 ] = {}  # mesh key: checksum of its positions when it was measured
 _triangles: dict[int | str, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
 _changed: set[int | str] = set()  # keys of meshes that have changed since
+_seen: dict[int | str, dict[Hashable, Any]] = {}  # mesh key: what panels show of it, by name
+_unseen: dict[
+    tuple[int | str, Hashable], Callable[[Mesh], Any]
+] = {}  # what is still to be measured
+
+# edges; what is shown of larger meshes is measured once changes pause
+MEASURED_WHILE_DRAWING = 10_000
 
 
 def watch(context: Context, mesh: Mesh) -> list[int]:
@@ -46,6 +54,34 @@ def coarse_triangles(mesh: Mesh) -> int:
     return known[1]
 
 
+def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: Any) -> Any:
+    """What `measure(mesh)` gives, for drawing: as of the last change, and of a large mesh `nothing` until
+    that has been measured. Without a window it is measured each time, as nobody waits for drawing.
+    """
+    key = session_key(mesh)
+    known = _seen.setdefault(key, {})
+    if bpy.app.background:
+        return measure(mesh)
+    if name not in known:
+        if len(mesh.edges) > MEASURED_WHILE_DRAWING:
+            _unseen[key, name] = measure
+            if not bpy.app.timers.is_registered(measure_unseen):
+                bpy.app.timers.register(measure_unseen, first_interval=INTERVAL)
+            return nothing
+        known[name] = measure(mesh)
+    return known[name]
+
+
+def measure_unseen() -> None:
+    """What panels have asked for in vain."""
+    meshes = {session_key(mesh): mesh for mesh in bpy.data.meshes}
+    for (key, name), measure in list(_unseen.items()):
+        if key in meshes:
+            _seen.setdefault(key, {})[name] = measure(cast(Mesh, meshes[key]))
+    _unseen.clear()
+    tag_sidebars(current_context())
+
+
 def counts(mesh: Mesh) -> list[int]:
     """Vertices, edges, faces, as plain ints; in Edit Mode as of the last update."""
     return [len(mesh.vertices), len(mesh.edges), len(mesh.polygons)]
@@ -63,13 +99,14 @@ def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
 
 @persistent
 def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if not _watched:
+    if not (_watched or _seen):
         return
     for update in depsgraph.updates:
         if not isinstance(update.id, Mesh) or not update.is_updated_geometry:
             continue
         mesh = cast(Mesh, update.id.original)
         key = session_key(mesh)
+        _seen.pop(key, None)
         if key not in _watched:
             continue
         # new attributes are no change of shape, and leaving Edit Mode is none either
@@ -84,6 +121,14 @@ def _forget(*_: Any) -> None:
     _watched.clear()
     _triangles.clear()
     _changed.clear()
+    _look_again()
+
+
+@persistent
+def _look_again(*_: Any) -> None:
+    """After undo any mesh may be another."""
+    _seen.clear()
+    _unseen.clear()
 
 
 def _checksum(mesh: Mesh) -> int:
@@ -96,10 +141,16 @@ def _checksum(mesh: Mesh) -> int:
 
 def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_note_changes)
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.append(_look_again)
     bpy.app.handlers.load_post.append(_forget)
 
 
 def unregister() -> None:
     bpy.app.handlers.load_post.remove(_forget)
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(_look_again)
+    if bpy.app.timers.is_registered(measure_unseen):
+        bpy.app.timers.unregister(measure_unseen)
     bpy.app.handlers.depsgraph_update_post.remove(_note_changes)
     _forget()

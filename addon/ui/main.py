@@ -7,12 +7,12 @@ import bpy
 from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
-from ..blender import Context, Object, registration
+from ..blender import Context, Mesh, Object, registration
 from ..core import mean_edge_length, takes_normals, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
 from ..mesh import boundary_marks, fixed_normals
-from ..mesh.mesh_changes import coarse_triangles
+from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.read_curves import has_curves
@@ -35,7 +35,7 @@ from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import PRESETS, draw_pictures, draw_purposes
 
-_MEASURED_WHILE_DRAWING = 100_000  # edges: a few milliseconds
+_MEASURED = 100_000  # edges: some 30 ms
 
 
 class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
@@ -90,9 +90,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             tolerance_text(context, settings, sources),
             "" if memory is None else _held_text(memory),
             missing_groups(settings, sources),
-            boundary_marks.summary(
-                o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING
-            ),
+            boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
             normals_text(settings, sources),
             vertices_text(settings, sources),
             follows(settings, sources),
@@ -201,11 +199,15 @@ def tolerance_text(context: Context, settings: Settings, sources: list[Object]) 
     if not is_near(settings) or is_evaluated(settings) or len(sources) != 1:
         return ""
     mesh = sources[0].data
-    if len(mesh.edges) > _MEASURED_WHILE_DRAWING or sources[0].mode == "EDIT":
+    if len(mesh.edges) > _MEASURED or sources[0].mode == "EDIT":
         return ""
-    world = world_shape(sources[0]).of_arrays(read_mesh(mesh))
-    length = tolerance(settings, mean_edge_length(world))
-    return "= " + length_text(context.scene, length, digits=4)
+    shape = world_shape(sources[0])
+
+    def mean(mesh: Mesh) -> float:
+        return mean_edge_length(shape.of_arrays(read_mesh(mesh)))
+
+    length = tolerance(settings, shown(mesh, ("mean edge", shape.rows), mean, 0.0))
+    return "= " + length_text(context.scene, length, digits=4) if length else ""
 
 
 def _held_text(memory: FAIRING_PG_surface) -> str:
@@ -218,7 +220,7 @@ def _held_text(memory: FAIRING_PG_surface) -> str:
 
 def normals_text(settings: Settings, sources: list[Object]) -> str:
     """`Normals: 3 fixed`; empty where none is."""
-    small = (o for o in sources if len(o.data.edges) <= _MEASURED_WHILE_DRAWING)
+    small = (o for o in sources if len(o.data.edges) <= _MEASURED)
     count = fixed_normals.count(small)
     if not count:
         return ""

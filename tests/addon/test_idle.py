@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the add-on does while nothing is asked of it: next to nothing."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -81,3 +83,36 @@ def weights(target, name):
             if element.group == group:
                 found[vertex.index] = element.weight
     return found
+
+
+def test_panels_measure_a_mesh_once_for_each_change(monkeypatch):
+    """In a window, where panels are drawn all the time; large meshes wait for a pause."""
+    timers, drawn = SimpleNamespace(is_registered=lambda _: bool(waiting)), []
+    waiting = []
+    timers.register = lambda timer, **_: waiting.append(timer)
+    window = SimpleNamespace(background=False, timers=timers)
+    monkeypatch.setattr(mesh_changes, "bpy", SimpleNamespace(app=window, data=bpy.data))
+    read = main.read_mesh
+    monkeypatch.setattr(main, "read_mesh", lambda mesh: drawn.append(mesh) or read(mesh))
+    settings = bpy.context.scene.discrete_fairing
+    settings.interpolation, settings.relative_tolerance = "APPROXIMATE", 0.25
+
+    def said():
+        return [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("= ")]
+
+    source = add("Box", *CUBE)
+    follow()
+    assert said() == said() == ["= 50 cm"] and len(drawn) == 1
+    source.scale = (2.0, 2.0, 2.0)
+    assert said() == said() == ["= 1 m"] and len(drawn) == 2
+    source.data.vertices[0].co.x -= 6.0
+    source.data.update()
+    follow()
+    assert said() == said() != ["= 1 m"] and len(drawn) == 3
+    monkeypatch.setattr(mesh_changes, "MEASURED_WHILE_DRAWING", 3)
+    source.data.vertices[0].co.x += 6.0
+    source.data.update()
+    follow()
+    assert said() == said() == [] and len(drawn) == 3, "not while it is drawn"
+    waiting.pop()()
+    assert not waiting and said() == ["= 1 m"] and len(drawn) == 4

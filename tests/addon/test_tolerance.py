@@ -12,6 +12,7 @@ from scenes import CUBE, activate, add, add_attribute, fair, positions
 from addon import vertex_values
 from addon.errors import JobError
 from addon.job import Job
+from addon.live import session as live_session
 from addon.memory import recall
 from addon.mesh.read import control_mesh, tolerance_shares
 from addon.settings import FairingSettings, _vertex_values
@@ -274,3 +275,26 @@ def test_the_last_tolerance_is_not_given_again():
         add("Box", *CUBE)
         assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=1, **given) == {"FINISHED"}
     assert bpy.context.active_object.discrete_fairing.interpolation == "EXACT"
+
+
+def test_live_reads_no_group_while_a_mouse_drags(monkeypatch):
+    source = add("Box", *CUBE)
+    group = source.vertex_groups.new(name="Loose")
+    group.add(range(8), 0.5, "REPLACE")
+    target = fair(levels=1, tolerance=0.1, tolerance_group="Loose")
+    live(target)
+    read, asked = vertex_values.shares, []
+    monkeypatch.setattr(vertex_values, "shares", lambda *of: asked.append(of) or read(*of))
+    monkeypatch.setattr(live_session, "is_dragging", lambda _: True)
+    for _ in range(3):
+        move(source, by=0.1)
+        follow()
+    assert session(target).updates > 3 and asked == []
+    dragged = positions(target.data)
+    monkeypatch.setattr(live_session, "is_dragging", lambda _: False)
+    group.add([0], 0.0, "REPLACE")
+    move(source, by=0.1)
+    follow()
+    assert len(asked) == 1
+    assert positions(target.data)[0].tolist() == list(source.data.vertices[0].co)
+    assert not np.array_equal(dragged, positions(target.data))
