@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Undo beside runs that write outside of any step, and what else a run must leave alone in a window."""
+
+import importlib
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import bpy
+import harness
+
+PATIENCE = 120.0  # seconds until a surface must be there
+SUZANNE = 500  # faces that she has at least
+
+
+def module(name):
+    return importlib.import_module(f"{harness.EXTENSION}.{name}")
+
+
+def until(done):
+    """Waits; a generator."""
+    begun = perf_counter()
+    while not done():
+        assert perf_counter() - begun < PATIENCE, "it does not come"
+        yield 0.05
+
+
+def surface():
+    return bpy.data.objects.get("Suzanne Fair")
+
+
+def undo():
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.ed.undo()
+
+
+def move_apart(name):
+    """A step of undo that has nothing to do with surfaces."""
+    bpy.ops.object.empty_add()
+    bpy.context.object.name = name
+    bpy.ops.ed.undo_push(message=name)
+
+
+def press(operator, **properties):
+    """As a button does it."""
+    with bpy.context.temp_override(**harness.view()):
+        return operator("INVOKE_DEFAULT", True, **properties)
+
+
+def test_fair_for_is_undone_alone():
+    for purpose in ("PANEL", "POINTS"):
+        source = harness.add_suzanne()
+        source.location.x = 3.0
+        bpy.ops.ed.undo_push(message="moved")
+        bpy.context.scene.discrete_fairing.levels = 1
+        press(bpy.ops.object.fairing_for, purpose=purpose)
+        yield from until(surface)
+        yield 1.0
+        undo()
+        yield 0.5
+        assert surface() is None and bpy.data.objects["Suzanne"].location.x == 3.0, purpose
+
+
+def test_the_last_full_level_of_live_outlives_undo():
+    harness.add_suzanne()
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_surface(levels=3)
+    surface().discrete_fairing_live.levels = 1
+    bpy.ops.ed.undo_push(message="made")
+    press(bpy.ops.object.fairing_live, state="ON")
+    yield 0.5
+    press(bpy.ops.object.fairing_live, state="OFF")
+    yield from until(lambda: not module("live.registry").sessions())
+    whole = len(surface().data.polygons)
+    assert whole >= SUZANNE * 4**3 and not surface().discrete_fairing.unfinished
+    with bpy.context.temp_override(**harness.view()):
+        move_apart("Later")
+        undo()
+    assert "Later" not in bpy.data.objects
+    yield from until(lambda: len(surface().data.polygons) == whole)
+    assert not surface().discrete_fairing.unfinished
+
+
+def test_a_run_that_ends_while_another_mesh_is_sculpted():
+    harness.add_suzanne()
+    yield from begun_run()
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.primitive_uv_sphere_add()
+        bpy.ops.object.mode_set(mode="SCULPT")
+    yield from until(surface)
+    yield 0.5
+    assert bpy.context.mode == "SCULPT" and bpy.context.active_object.name == "Sphere"
+
+
+def begun_run():
+    """A long one, in the background; a generator."""
+    settings = bpy.context.scene.discrete_fairing
+    settings.levels, settings.energy = 4, "TOTAL_CURVATURE"
+    press(bpy.ops.object.fairing_surface)
+    yield 0.3
+    assert module("queue").running() is not None, "it was too quick to see"
+
+
+def test_a_run_over_two_workspaces():
+    harness.add_suzanne()
+    yield from begun_run()
+    window = bpy.context.window_manager.windows[0]
+    window.workspace = bpy.data.workspaces["Modeling"]
+    yield from until(surface)
+    yield 0.5
+    harness.photograph("status_of_the_other_workspace")
+    window.workspace = bpy.data.workspaces["Layout"]
+    yield 1.0
+    harness.photograph("status_of_the_first_workspace")
+    assert module("queue").running() is None
+
+
+def test_overlays_begin_where_blender_opens_with_a_file():
+    overlays = [module("inspection.overlay"), module("strain.overlay")]
+    assert all(overlay.is_on() for overlay in overlays)
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "start.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        for overlay in overlays:
+            overlay.unregister()
+            overlay.register()
+        bpy.ops.wm.open_mainfile(filepath=path)
+        yield 1.0
+    assert all(overlay.is_on() for overlay in overlays)
+
+
+harness.run_in_window(globals())
