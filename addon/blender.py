@@ -77,6 +77,14 @@ def all_scenes() -> Iterable[Scene]:
     return cast(Iterable[Scene], bpy.data.scenes)
 
 
+def scene_of(target: Object) -> Scene:
+    """The scene whose settings count for `target`: that of the window at hand if it has the object, else
+    another one that has. Handlers and timers may be called with any window's.
+    """
+    here, owners = current_context().scene, cast(Any, target).users_scene
+    return here if here in owners or not owners else owners[0]
+
+
 def attach(owner: type, name: str, group: type) -> None:
     """Registers the property group `group` and gives all data-blocks of the type `owner` one by
     that name.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import core, errors, freshness, memory, place, prediction, size
-from .blender import Context, Object
+from .blender import Context, Object, scene_of
 from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
@@ -217,7 +217,7 @@ class Job:
         else:
             place.follow(context, target)
         freshness.note(target, self._made)
-        display.refresh(target, context.scene.discrete_fairing_inspection)
+        display.refresh(target, scene_of(target).discrete_fairing_inspection)
         work = self._work(settings.levels)
         prediction.note(settings.energy, work, self._taken, self._source.key)
         return target

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from ..blender import Context, Mesh, attach, detach
+from ..blender import Context, Mesh, attach, detach, scene_of
 from . import display, overlay
 
 MODES = (
@@ -66,10 +66,10 @@ MODES = (
 )
 
 
-def _mode_changed(group: Any, context: Context) -> None:
+def _mode_changed(group: Any, _context: Context) -> None:
     target = group.id_data
     if isinstance(target.data, Mesh):
-        display.show(target, group.mode, context.scene.discrete_fairing_inspection)
+        display.show(target, group.mode, scene_of(target).discrete_fairing_inspection)
     overlay.shown_changed()
 
 
@@ -77,8 +77,8 @@ def _sections_changed(_group: Any, _context: Context) -> None:
     overlay.shown_changed()
 
 
-def _deviation_changed(group: Any, context: Context) -> None:
-    for target in context.scene.objects:
+def _deviation_changed(group: Any, _context: Context) -> None:
+    for target in group.id_data.objects:
         if target.type == "MESH" and target.discrete_fairing_inspection.mode == "DEVIATION":
             display.refresh(target, group)
 
@@ -87,8 +87,8 @@ def _is_mesh(_group: Any, target: Any) -> bool:
     return target.type == "MESH"
 
 
-def _range_changed(group: Any, context: Context) -> None:
-    for target in context.scene.objects:
+def _range_changed(group: Any, _context: Context) -> None:
+    for target in group.id_data.objects:
         if target.type == "MESH":
             display.recolour(target, group)
 

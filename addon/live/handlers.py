@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 INTERVAL = 0.1  # seconds between two looks at what waits
 
 _rendering = False
+_locked = False  # whether no window draws meanwhile
 _progress = Progress()
 
 
@@ -138,9 +139,12 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _is_awake(session: Session) -> bool:
-    """During a render only those are that the user wants there."""
+    """During a render only those are that the user wants there, and only where no window draws: it may
+    crash over a mesh that is being written.
+    """
     target = session.objects()[1]
-    return not _rendering or (target is not None and target.discrete_fairing_live.in_renders)
+    wanted = target is not None and target.discrete_fairing_live.in_renders
+    return not _rendering or (_locked and wanted)
 
 
 @persistent
@@ -156,8 +160,9 @@ def _distrust_all(*_: Any) -> None:
 
 
 @persistent
-def _render_begins(*_: Any) -> None:
-    global _rendering
+def _render_begins(scene: Scene | None = None, *_: Any) -> None:
+    global _rendering, _locked
+    _locked = bpy.app.background or (scene is not None and scene.render.use_lock_interface)
     _rendering = True
 
 

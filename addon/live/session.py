@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from .. import core, errors, memory, place, size
-from ..blender import Context, Mesh, Object, current_context
+from ..blender import Context, Mesh, Object, current_context, scene_of
 from ..core import ControlArrays
 from ..errors import JobError
 from ..inspection import display, overlay
@@ -244,7 +244,7 @@ class Session:
         else:
             write_positions(target.data, result.vertices)
         overlay.moved(target)
-        display.remeasure(target, current_context().scene.discrete_fairing_inspection)
+        display.remeasure(target, scene_of(target).discrete_fairing_inspection)
         self.level = self._level
         self.triangles = len(result.faces[0]) + 2 * len(result.faces[1])
         self._stale = False

@@ -157,6 +157,13 @@ def _cage_changed(group: Any, _context: Context) -> None:
         cage.restore(target)
 
 
+def _in_renders_changed(group: Any, _context: Context) -> None:
+    """A window that draws a mesh while a render writes it may crash: it is to wait meanwhile."""
+    for scene in group.id_data.users_scene if group.in_renders else ():
+        if scene.library is None and not scene.render.use_lock_interface:
+            scene.render.use_lock_interface = True
+
+
 def _milliseconds(group: Any) -> float:
     session = registry.session_of(group.id_data)
     return sum(session.parts.values()) if session is not None else 0.0
@@ -186,8 +193,9 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
     in_renders: BoolProperty(
         name="Live in Renders",
-        description="The surface follows frame by frame in renders too, at its Live Levels",
+        description="The surface follows frame by frame in renders too, at its Live Levels, and the window waits meanwhile",
         default=False,
+        update=_in_renders_changed,
     )
     cage_as_wire: BoolProperty(
         name="Cage as Wire",

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import core, errors, prediction, size, vertex_values
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
 from ..mesh.object import Reference
 from ..mesh.read import control_mesh, read_mesh
@@ -28,7 +28,7 @@ def settings_for(context: Context, source: Object) -> Settings:
     next one: its borders, creases and symmetry plane.
     """
     made = live_surfaces_of(source) or surfaces_of(source)[-1:]
-    return made[-1].discrete_fairing if made else context.scene.discrete_fairing
+    return made[-1].discrete_fairing if made else scene_of(source).discrete_fairing
 
 
 def plate_settings(settings: Settings) -> SimpleNamespace:

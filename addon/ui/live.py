@@ -21,7 +21,7 @@ def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
     row = layout.row()
     row.operator("object.fairing_live", icon="REC" if on else "RADIOBUT_OFF", depress=on)
     for target in targets:
-        _draw_target(layout, target)
+        _draw_target(layout, context, target)
 
 
 def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
@@ -46,13 +46,17 @@ def draw_stale_surfaces(layout: bpy.types.UILayout, source: Object | None) -> No
         layout.operator("object.fairing_recompute_stale", icon="FILE_REFRESH")
 
 
-def _draw_target(layout: bpy.types.UILayout, target: Object) -> None:
+def _draw_target(layout: bpy.types.UILayout, context: Context, target: Object) -> None:
     live = target.discrete_fairing_live
     layout.prop(live, "levels")
     if live.on:
         switches = layout.column(align=True, heading="Options")
         for name in ("cage_as_wire", "keep_on", "in_renders"):
             switches.prop(live, name)
+        render = context.scene.render
+        if live.in_renders and not render.use_lock_interface:
+            switches.prop(render, "use_lock_interface")
+            draw_notice(layout, "Live in Renders needs Lock Interface")
     column = layout.column(align=True)
     for line in switch.lines(target):
         column.label(text=line)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live and everything that ends or interrupts it: undo, files, deleting, rendering, disabling."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from scenes import CUBE, activate, add, fair, positions
 
 import addon
 from addon import core
+from addon.blender import scene_of
 from addon.freshness import UNFINISHED, why_stale
 from addon.live import handlers, registry, switch, undo
 from addon.live import session as session_module
@@ -309,3 +312,47 @@ def test_undo_while_live_leaves_the_surface_to_it():
     assert target.discrete_fairing.unfinished and not badges(target)
     fill.resume()
     assert fill.due_jobs(bpy.context) == []
+
+
+def in_a_window(monkeypatch):
+    monkeypatch.setattr(
+        handlers, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), data=bpy.data)
+    )
+
+
+@pytest.mark.parametrize("locked", [True, False])
+def test_renders_write_only_while_no_window_draws(monkeypatch, locked):
+    source, target = box()
+    scene = bpy.context.scene
+    assert not scene.render.use_lock_interface
+    target.discrete_fairing_live.in_renders = True
+    assert scene.render.use_lock_interface, "switched on with it"
+    scene.render.use_lock_interface = locked
+    shown = draw(main.VIEW3D_PT_fairing)
+    assert ("use_lock_interface" in shown) != locked
+    in_a_window(monkeypatch)
+    before = positions(target.data)
+    handlers._render_begins(scene)
+    move(source)
+    follow()
+    assert np.array_equal(positions(target.data), before) != locked
+    handlers._render_ends()
+
+
+def test_each_surface_is_shown_as_its_own_scene_says():
+    """Two windows, two scenes: handlers are called with either."""
+    source, target = box()
+    first = bpy.context.scene
+    target.discrete_fairing_inspection.mode = "MEAN"
+    first.discrete_fairing_inspection.use_fixed_range = True
+    first.discrete_fairing_inspection.fixed_range = 5.0
+    other = bpy.data.scenes.new("Other")
+    bpy.context.window.scene = other
+    assert bpy.context.scene == other and scene_of(target) == first
+    move(source)
+    first.view_layers[0].update()
+    handlers.on_timer()
+    assert tuple(target.data.discrete_fairing.curvature_range) == (-5.0, 5.0)
+    target.discrete_fairing_live.on = False
+    assert tuple(target.data.discrete_fairing.curvature_range) == (-5.0, 5.0)
+    assert len(target.data.polygons) == 6 * 4**2
