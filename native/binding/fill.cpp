@@ -10,6 +10,7 @@
 #include "binding/report.h"
 #include "binding/runner.h"
 #include "mesh/fill/crossings.h"
+#include "mesh/fill/islands.h"
 #include "mesh/validate/check.h"
 
 namespace py = pybind11;
@@ -32,15 +33,28 @@ class Filler {
     return py::make_tuple(std::move(found.loops), unclear);
   }
 
+  // The loops as holes with their islands. Throws FairingError for what is no loop of this mesh.
+  std::vector<Hole> with_islands(const std::vector<HoleLoop>& loops, Monitor& monitor,
+                                 const py::object& progress) {
+    std::vector<Hole> holes;
+    run_once(monitor, progress, [&] {
+      for (const HoleLoop& loop : loops) holes.push_back({loop});
+      for (const std::optional<FairingError>& why : check_holes(mesh_.view(), half_edges(), holes))
+        if (why) throw FairingError(*why);
+      holes = fairing::with_islands(mesh_.view(), half_edges(), holes);
+    });
+    return holes;
+  }
+
   // What fills the holes, but for those that cannot be filled, and of each hole why it is not filled,
   // a dict, or None.
-  py::tuple fill(std::vector<Hole> holes, double density, Monitor& monitor,
+  py::tuple fill(std::vector<Hole> holes, double density, bool bends, Monitor& monitor,
                  const py::object& progress) {
     Refusals refusals;
     run_once(monitor, progress, [&] {
       holes_ = std::move(holes);
       refusals = check_holes(mesh_.view(), half_edges(), holes_);
-      options_ = {.density = density};
+      options_ = {.density = density, .bends = bends};
       filled_ = fairing::fill(mesh_.view(), half_edges(), holes_, options_, refusals);
     });
     py::list why;
@@ -124,8 +138,10 @@ void bind_fill(py::module_& m) {
   define_constructor<const Numbers&, const Ids&, const Ids&>(filler, exact("vertices"),
                                                              exact("corners"), exact("offsets"));
   filler.def("find", &Filler::find, py::arg("monitor"), py::arg("progress"))
-      .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("monitor"),
+      .def("with_islands", &Filler::with_islands, py::arg("loops"), py::arg("monitor"),
            py::arg("progress"))
+      .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("bends"),
+           py::arg("monitor"), py::arg("progress"))
       .def("refine", &Filler::refine, exact("points"), py::arg("chosen"), py::arg("monitor"),
            py::arg("progress"));
   m.def("_crossings", &crossings, exact("points"), exact("triangles"), py::arg("first"),

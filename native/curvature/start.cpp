@@ -49,6 +49,13 @@ class Candidates {
     take_if_lower();
   }
 
+  void try_given(std::span<const Vec3> given) {
+    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
+      trial()[i] = is_unknown(i / 3) ? given[i / 3][Eigen::Index(i % 3)] : plate_[i];
+    });
+    take_if_lower();
+  }
+
  private:
   const GridLevel& coarse() const { return it_.system.grid(it_.level - 1); }
   Array<double>& trial() { return it_.trial.points; }
@@ -82,14 +89,19 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 }
 
 void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
-                  const Array<double>& plate_below, CurvatureLevelReport& report) {
+                  const Array<double>& plate_below, std::span<const Vec3> given,
+                  CurvatureLevelReport& report) {
   const LinearizedSurface below = std::exchange(iterate.current, {});
   start_at_plate(iterate, level, plate);
   iterate.linearize({CurvatureEnergy::total_curvature, pads});
   report.plate_energy = report.start_energy = iterate.op().fairness();
   // Among flat surfaces rounding would choose.
-  if (below.points.empty() || report.start_energy < flat_energy) return;
+  if (report.start_energy < flat_energy) return;
   Candidates candidates(iterate, plate, report);
+  if (below.points.empty()) {
+    if (given.size() == iterate.grid().size()) candidates.try_given(given);
+    return;
+  }
   candidates.try_change(below, plate_below);
   if (report.start_energy > unlike_energy * below.energy)
     candidates.try_refined(below.points, below.linearization.normal);

@@ -14,7 +14,8 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 // iterate.current and plate_below are empty. Candidates, of which each has to have less energy than
 // those before:
 //
-//   1. the thin plate's surface;
+//   1. the thin plate's surface; on the coarsest level the control vertices as they are, `given`, which
+//      differ where they may move: what fills a long tube is one, and the plate a thread;
 //   2. the same plus the prolongated change (solution minus plate) of the level below;
 //   3. where that is not near the level below's energy: its surface with new midpoints bulged along
 //      its normals (transfer/point_normal.h), exact to fourth order;
@@ -25,6 +26,7 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 //
 // Sets plate_energy and start_energy of `report`.
 void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
-                  const Array<double>& plate_below, CurvatureLevelReport& report);
+                  const Array<double>& plate_below, std::span<const Vec3> given,
+                  CurvatureLevelReport& report);
 
 }  // namespace fairing

@@ -182,7 +182,7 @@ TEST(Start, IsThePlateOnTheCoarsestLevel) {
   SurfaceIterate iterate{*levels.system};
   CurvatureLevelReport report;
   const Array<double> plate = levels.sphere(2);
-  choose_start(iterate, 2, nullptr, plate, {}, report);
+  choose_start(iterate, 2, nullptr, plate, {}, {}, report);
   EXPECT_EQ(iterate.current.points, plate);
   EXPECT_EQ(iterate.current.number, iterate.op().linearizations());
   EXPECT_EQ(report.start_energy, report.plate_energy);
@@ -195,9 +195,9 @@ TEST(Start, FollowsTheSolutionBelowWhereThePlateIsWorse) {
   Levels levels;
   SurfaceIterate iterate{*levels.system};
   CurvatureLevelReport below, report;
-  choose_start(iterate, 2, nullptr, levels.sphere(2), {}, below);
+  choose_start(iterate, 2, nullptr, levels.sphere(2), {}, {}, below);
   const Array<double> bad_below = levels.polyhedron(2), bad = levels.polyhedron(3);
-  choose_start(iterate, 3, nullptr, bad, bad_below, report);
+  choose_start(iterate, 3, nullptr, bad, bad_below, {}, report);
   EXPECT_LT(report.start_energy, 0.7 * report.plate_energy);
   double worst = 0;
   for (std::size_t i = 0; i < bad.size(); i += 3)
@@ -210,9 +210,9 @@ TEST(Start, StaysThePlateWhereTheSolutionBelowIsWorse) {
   Levels levels;
   SurfaceIterate iterate{*levels.system};
   CurvatureLevelReport below, report;
-  choose_start(iterate, 2, nullptr, levels.polyhedron(2), {}, below);
+  choose_start(iterate, 2, nullptr, levels.polyhedron(2), {}, {}, below);
   const Array<double> plate = levels.sphere(3);
-  choose_start(iterate, 3, nullptr, plate, levels.sphere(2), report);
+  choose_start(iterate, 3, nullptr, plate, levels.sphere(2), {}, report);
   EXPECT_EQ(iterate.current.points, plate);
   EXPECT_NE(iterate.current.number,
             iterate.op().linearizations());  // the other candidate's is later

@@ -208,6 +208,133 @@ def test_three_islands_in_a_hole():
     assert len(filled.vertices) - edges + len(filled.faces) == 1  # a disc
 
 
+def test_a_rim_inside_another_one_is_an_island():
+    """Of a ball, of a flat sheet with a hole, whose border is none, and at the ends of a pipe."""
+    whole, all_faces = sphere(5)
+    away = np.linalg.norm(whole[all_faces].mean(1) - [0, 0, 1], axis=1)
+    vertices, faces = cut(whole, all_faces, (away > 0.12) & (away < 0.75))
+    (hole,) = df.fill_holes(vertices, faces).holes
+    assert [len(loop) for loop in hole.loops] == sorted(map(len, hole.loops), reverse=True)
+    filled = df.fill_holes(vertices, faces)
+    assert not df.find_holes(filled.vertices, filled.faces)
+    assert abs(np.linalg.norm(filled.vertices[len(vertices) :], axis=1) - 1).max() < 1e-3
+
+    vertices, quads = quads_with_a_hole()
+    loops = df.find_holes(vertices, quads)
+    assert [len(hole) for hole in df.with_islands(vertices, quads)] == [1, 1]
+    assert [len(hole) for hole in df.with_islands(vertices, quads, loops[1:])] == [1]
+
+    outer, faces = tube(0.0, 2.0, 24)
+    vertices = np.concatenate([outer, outer * [0.7, 0.7, 1]])
+    pipe = np.concatenate([faces, faces[:, ::-1] + len(outer)])
+    filled = df.fill_holes(vertices, pipe)
+    assert [len(hole.loops) for hole in filled.holes] == [2, 2]
+    assert uses(filled.faces)[0] == 0 and not df.check(filled.vertices, filled.faces)
+    # an open vessel with a hole in its foot has two holes
+    height = outer[:, 2:] / 2
+    vessel = outer * np.hstack([0.2 + 0.8 * height, 0.2 + 0.8 * height, 4 + 0 * height])
+    assert [len(hole) for hole in df.with_islands(vessel, faces)] == [1, 1]
+    assert refused_islands(outer, faces, [[0, 1, 30]]).code == "BAD_OPTION"
+
+
+def refused_islands(*arguments):
+    with pytest.raises(df.FairingError) as caught:
+        df.with_islands(*arguments)
+    return caught.value
+
+
+def tube(low, high, n, rings=9):
+    """Of radius 1 along z, open at both ends."""
+    i, k = np.meshgrid(np.arange(n), np.arange(rings), indexing="ij")
+    angle, z = 2 * np.pi * i.T.ravel() / n, np.linspace(low, high, rings)[k.T.ravel()]
+    first = np.arange(n * (rings - 1))
+    beside = first // n * n + (first + 1) % n
+    faces = [[first, beside, beside + n], [first, beside + n, first + n]]
+    vertices = np.stack([np.cos(angle), np.sin(angle), z], 1)
+    return vertices, np.concatenate([np.stack(f, 1) for f in faces])
+
+
+@pytest.mark.parametrize("gap", [1.0, 3.0, 5.0])
+def test_a_bridge_between_tubes_has_no_waist(gap):
+    below, faces = tube(-4.0, 0.0, 24)
+    above, _ = tube(gap, gap + 4.0, 24)
+    vertices = np.concatenate([below, above])
+    faces = np.concatenate([faces, faces + len(below)])
+    loops = df.find_holes(vertices, faces)
+    assert [len(hole) for hole in df.with_islands(vertices, faces)] == [1] * 4
+    rims = sorted(loops, key=lambda loop: abs(vertices[loop][:, 2].mean() - gap / 2))[:2]
+    one, other = (df.fill_holes(vertices, faces, holes=[r]) for r in (rims, rims[::-1]))
+    assert one.vertices.tobytes() == other.vertices.tobytes()
+    assert np.array_equal(one.faces, other.faces)
+    (hole,) = one.holes
+    assert (hole.energy, hole.converged, hole.folds) == ("total_curvature", True, 0)
+    middles = one.vertices[one.faces[one.new_faces]].mean(axis=1)
+    assert np.hypot(*middles[:, :2].T).min() > 0.97
+
+
+@pytest.mark.parametrize(("n", "m"), [(24, 9), (32, 13), (96, 25)])
+def test_half_a_torus_gets_a_ring(n, m):
+    """No two discs on one another, whichever rim comes first."""
+    whole, all_faces = mapped(lambda a, b: torus_of(a, b), n, 2 * m - 2, (True, True))
+    vertices, faces = cut(whole, all_faces, whole[all_faces].mean(1)[:, 2] < 0)
+    loops = df.find_holes(vertices, faces)
+    assert [len(hole) for hole in df.with_islands(vertices, faces)] == [2]
+    for joint in ("position", "curvature"):
+        one, other = (
+            df.fill_holes(vertices, faces, holes=[order], joint=joint)
+            for order in (loops, loops[::-1])
+        )
+        assert one.vertices.tobytes() == other.vertices.tobytes()
+        assert one.holes[0].crossings == 0
+        edges = uses(one.faces)
+        assert edges[0] == 0 and len(one.vertices) - edges.sum() + len(one.faces) == 0  # a torus
+        new = one.vertices[one.faces[one.new_faces]]
+        radius = np.hypot(*one.vertices[len(vertices) :, :2].T)
+        if joint == "position":
+            area = (
+                np.linalg.norm(np.cross(new[:, 1] - new[:, 0], new[:, 2] - new[:, 0]), axis=1).sum()
+                / 2
+            )
+            assert abs(area / (12 * np.pi) - 1) < 0.02 and radius.min() > 2
+        elif n > 24:  # of revolution the least one goes down to -1.456, from 1.998 to 4
+            assert radius.min() > 1.8 and radius.max() < 4.2
+            assert -2 < one.vertices[:, 2].min() < -1.3 and one.holes[0].energy == "total_curvature"
+
+
+def torus_of(a, b):
+    distance = 3 + np.cos(2 * np.pi * b)
+    x, y = distance * np.cos(2 * np.pi * a), distance * np.sin(2 * np.pi * a)
+    return x, y, np.sin(2 * np.pi * b)
+
+
+@pytest.mark.parametrize("bend", [0.0, -0.05])
+def test_hanging_nodes_are_holes_of_three(bend):
+    """A sheet of 8 by 8 squares whose middle is twice as fine: each gap is a hole, or a vertex on an edge."""
+    corners, ids = [], {}
+    for x in range(8):
+        for y in range(8):
+            step = 0.5 if 2 <= x < 6 and 2 <= y < 6 else 1.0
+            for a in np.arange(x, x + 1, step):
+                for b in np.arange(y, y + 1, step):
+                    around = [(a, b), (a + step, b), (a + step, b + step), (a, b + step)]
+                    corners.append([ids.setdefault(p, len(ids)) for p in around])
+    vertices = np.array([(x, y, bend * ((x - 4) ** 2 + (y - 4) ** 2 / 2)) for x, y in ids])
+    quads = np.array(corners)
+    loops = df.find_holes(vertices, quads)
+    assert sorted(map(len, loops)) == [3] * 16 + [32]
+    gaps = [loop for loop in loops if len(loop) == 3]
+    filled = df.fill_holes(vertices, quads, holes=gaps)
+    if bend:
+        assert len(filled.holes) == 16 and not filled.skipped
+        assert len(df.find_holes(filled.vertices, filled.faces)) == 1
+        assert not df.check(filled.vertices, filled.faces)
+    else:
+        hanging = [v for p, v in ids.items() if sum(c % 1 for c in p) == 0.5]
+        on_gaps = {v for v in hanging if any(v in gap for gap in gaps)}
+        assert {s.elements[0] for s in filled.skipped} == on_gaps and not filled.holes
+        assert {s.cure for s in filled.skipped} == {"cut"}
+
+
 def test_a_hole_that_winds_by_more_than_half_a_turn():
     whole, all_faces = mapped(cylinder, 72, 24, (True, False))
     c = whole[all_faces].mean(1)

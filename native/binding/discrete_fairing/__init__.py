@@ -13,7 +13,7 @@ from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
-from .filling import fill_holes, find_holes
+from .filling import fill_holes, find_holes, with_islands
 from .fitting import fit_patches
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces
@@ -50,5 +50,6 @@ __all__ = [
     "predicted_size",
     "spline_knots",
     "strain",
+    "with_islands",
     "write_step",
 ]

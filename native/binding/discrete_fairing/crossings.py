@@ -24,7 +24,7 @@ def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> li
 
 def crossing_faces(whole: MeshPart, fillings: Sequence[Filling], watched: SeveralRuns) -> list[int]:
     """How many faces of each filling, with ids as in_whole() has them, pass through a face of the mesh
-    or of a filling. Faces that share a vertex, or lie in one plane, do not.
+    or of a filling. Faces that share a vertex do not.
     """
     points = np.concatenate([whole.points, *(f.own for f in fillings)])
     split = [_split(f.faces) for f in fillings]

@@ -36,6 +36,27 @@ def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) 
     return [np.array(loop, np.int64) for loop in loops]
 
 
+def with_islands(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    loops: Sequence[ArrayLike] | None = None,
+) -> list[list[np.ndarray]]:
+    """Which of these `loops` of find_holes(), or of all, are one hole: of each its rim, and the rims of
+    islands in it.
+
+    A loop that lies inside another one, seen along its normal, is the rim of an island if it runs the
+    other way round, is farther from the rim in its plane than along its normal, and the faces at both go
+    on towards the ring between. So the walls of a pipe with an inside are joined at its ends, and the
+    border of a sheet is not joined to the holes in it. Raises FairingError for arrays that make no mesh,
+    and loops that are none of it.
+    """
+    filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
+    watchers = _native.Monitor(), None
+    asked = filler.find(*watchers)[0] if loops is None else [hole[0] for hole in _asked(loops)]
+    found = filler.with_islands(asked, *watchers)
+    return [[np.array(loop, np.int64) for loop in hole] for hole in found]
+
+
 def fill_holes(
     vertices: ArrayLike,
     faces: ArrayLike | Sequence[Sequence[int]],
@@ -65,14 +86,14 @@ def fill_holes(
         All looking the same way.
     holes : sequence
         Each a loop of vertex ids, as find_holes() gives them, in either direction; or a sequence of
-        such loops, the rim first, then those of islands in the hole. None: all holes, each loop by
-        itself.
+        such loops, in any order: the rim of the hole, and those of islands in it. None: all holes, as
+        with_islands() has them.
     joint : "position", "tangent" or "curvature"
         What the filling takes over at the rim: nothing but the place (the least area), the tangent
         planes (of one ring of faces), or the curvature (of two rings).
     energy : "total_curvature", "thin_plate" or "minimum_variation"
-        As in fair(). Where it does not converge, or folds, it goes on from its own shape on new triangles,
-        four times at most. Where that does not help, or the filling passes through other faces, the thin
+        As in fair(). Where it folds, or grows, it goes on from its own shape on new triangles, four times
+        at most. Where it still folds, or passes through other faces, the thin
         plate takes its place, then the thin plate with the tangent alone, then the triangulation spread
         as a membrane, and where all fold that without new vertices (FilledHole.energy,
         FilledHole.joint).
@@ -128,22 +149,23 @@ def fill_holes(
     watchers = quiet["monitor"], quiet["progress"]
     skipped = []
     if holes is None:
-        known, unclear = _native.Filler(points, corners, offsets).find(*watchers)
-        asked = [[h] for h in known]
+        finder = _native.Filler(points, corners, offsets)
+        known, unclear = finder.find(*watchers)
+        asked = finder.with_islands(known, *watchers)
         skipped = [SkippedHole.of([], why, whole.vertex_ids) for why in unclear]
     else:
         asked = _asked(holes)
     mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
-    found, why = _triangulated(filler, loops, float(density), watchers)
+    wanted = Wanted(energy, joint, rim == "noisy", float(density))
+    found, why = _triangulated(filler, loops, wanted.triangles, watchers)
     skipped += [
         SkippedHole.of(list(map(np.array, asked[row])), reason, mesh.vertex_ids)
         for row, reason in why.items()
     ]
     asked, loops = ([all_[row] for row in found] for all_ in (asked, loops))
     found = list(found.values())
-    wanted = Wanted(energy, joint, rim == "noisy", float(density))
     grids: list[Filling | str] = [""] * len(found)
     if quads:
         for row, (hole, (_, triangles)) in enumerate(zip(loops, found, strict=True)):
@@ -164,10 +186,13 @@ _Triangulated = tuple[np.ndarray, np.ndarray]  # own vertices, triangles
 
 
 def _triangulated(
-    filler: _native.Filler, holes: list[list[list[int]]], density: float, watchers: Sequence[Any]
+    filler: _native.Filler,
+    holes: list[list[list[int]]],
+    triangles: tuple[float, bool],
+    watchers: Sequence[Any],
 ) -> tuple[dict[int, _Triangulated], dict[int, dict[str, Any]]]:
     """By the number of each hole what fills it, or why nothing does."""
-    found, why = filler.fill(holes, density, *watchers)
+    found, why = filler.fill(holes, *triangles, *watchers)
     filled = [row for row, reason in enumerate(why) if reason is None]
     refused = {row: reason for row, reason in enumerate(why) if reason is not None}
     return dict(zip(filled, found, strict=True)), refused
@@ -199,7 +224,7 @@ def _with_triangles(
         quiet = watched.run(1.0, 1.0)
         watchers = quiet["monitor"], quiet["progress"]
         if wanted.density > 0.0 and any(f.made.folds for f in fillings.values()):
-            bare, _ = _triangulated(filler, loops, 0.0, watchers)
+            bare, _ = _triangulated(filler, loops, (0.0, False), watchers)
             fillings = without_folds(mesh, fillings, bare)
         doubled = []
         for row, grid in enumerate(grids):
@@ -214,7 +239,7 @@ def _with_triangles(
             return [fillings[row] for row in range(len(grids))]
         for row in doubled:
             grids[row] = "a grid would have an edge of another filling"
-        found, _ = filler.fill(loops, wanted.density, *watchers)
+        found, _ = filler.fill(loops, *wanted.triangles, *watchers)
 
 
 def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:

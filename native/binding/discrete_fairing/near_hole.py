@@ -55,8 +55,7 @@ class NearHole:
         """The places of its own vertices, how these were found, and the places to go on from on better
         triangles: what was asked for has made them, even where it folds. `noisy`: whether more of the
         faces around say how it goes on, and none of them exactly. `stands_in`: whether another way is
-        tried where this folds or does not converge: the first that does both, else that with the
-        fewest folds.
+        tried where this folds: the first that does not, else that with the fewest folds.
         """
         if not len(self._own):
             return self._own, self.as_triangulated(), self._own
@@ -67,13 +66,13 @@ class NearHole:
             if found is not None:
                 onward = found[0] if onward is None else onward
                 tries.append(found)
-            if not stands_in or (found and found[1].converged and not found[1].folds):
+            if not stands_in or (found and not found[1].folds):
                 break
         else:
             tries.append((self._own, self.as_triangulated(joint != "position")))
         if not tries:
             tries.append((self._own, self.as_triangulated(True)))
-        moved, made = min(tries, key=lambda t: (t[1].folds, not t[1].converged))
+        moved, made = min(tries, key=lambda t: t[1].folds)
         return moved, made, moved if onward is None else onward
 
     def other_ways(

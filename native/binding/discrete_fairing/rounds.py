@@ -41,6 +41,11 @@ class Wanted:
     noisy: bool
     density: float
 
+    @property
+    def triangles(self) -> tuple[float, bool]:
+        """Their density, and whether they bend as the faces around do."""
+        return self.density, self.joint != "position"
+
 
 @dataclass(frozen=True, slots=True)
 class Filling:
@@ -78,8 +83,9 @@ def faired_in_rounds(
                 moved, made, onward[row] = near.faired(
                     wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
                 )
+                start = near.area(own)
                 if turn == 0:
-                    flat[row] = near.area(own)
+                    flat[row] = start
                 last[row] = Filling(moved, triangles, first, made)
                 rank = _rank(made, near.corners(moved), wanted)
                 better = turn == 0 or rank < ranks[row]
@@ -87,8 +93,9 @@ def faired_in_rounds(
                     best[row], ranks[row] = last[row], rank
                 area = near.area(onward[row])
                 more = (
-                    rank[:3] > (0, False, False)
-                    or (turn == 0 and area > _GROWN * flat[row])
+                    rank[:2] > (0, False)
+                    or (turn == 0 and not made.converged)
+                    or area > _GROWN * start
                     or (rank[3] > 0 and better)
                 )
                 if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
@@ -121,7 +128,7 @@ def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
     """The less the better; of triangles with these `corners` (t, 3, 3)."""
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     slivers = (angles_between(after, before).min(axis=1) < np.radians(_SLIVER)).sum()
-    return made.folds, not made.converged, made.energy != wanted.energy, int(slivers)
+    return made.folds, made.energy != wanted.energy, not made.converged, int(slivers)
 
 
 def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:

@@ -37,17 +37,19 @@ void require_simple(const Hole& hole) {
     throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
 }
 
-// The first side that is on no border in this direction, as its two ends; empty: all are.
-std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims) {
+// The first side that is on no border in this direction, or in none, as its two ends; empty: all are.
+std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims, bool in_any) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
-    if (!rims.is_border(b, a)) return {a, b};
+    if (!rims.is_border(b, a) && !(in_any && rims.is_border(a, b))) return {a, b};
   }
   return {};
 }
 
-[[noreturn]] void refuse(const std::vector<std::int64_t>& edge, const Rims& rims) {
-  if (rims.is_border(edge[0], edge[1]) || rims.is_border(edge[1], edge[0]))
+[[noreturn]] void refuse(const HoleLoop& loop, const Rims& rims) {
+  std::vector<std::int64_t> edge = first_missing(loop, rims, true);
+  if (edge.empty()) edge = first_missing(loop, rims, false);
+  if (rims.is_border(edge[0], edge[1]))
     throw FairingError(ErrorCode::inconsistent_orientation,
                        "Faces at the rim look different ways. Recalculate their normals.", edge,
                        ElementKind::edge);
@@ -78,10 +80,12 @@ using Used = std::unordered_set<std::uint64_t>;
 
 void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, const Used& used) {
   require_manifold(loop, half_edges);
-  const std::vector<std::int64_t> missing = first_missing(loop, rims);
-  if (!missing.empty()) {
+  if (!first_missing(loop, rims, false).empty()) {
     std::reverse(loop.begin() + 1, loop.end());
-    if (!first_missing(loop, rims).empty()) refuse(missing, rims);
+    if (!first_missing(loop, rims, false).empty()) {
+      std::reverse(loop.begin() + 1, loop.end());
+      refuse(loop, rims);
+    }
   }
   std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -104,6 +108,7 @@ Refusals check_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,
   for (std::size_t h = 0; h < holes.size(); ++h) try {
       require_simple(holes[h]);
       for (HoleLoop& loop : holes[h]) check_loop(loop, half_edges, rims, used);
+      std::sort(holes[h].begin(), holes[h].end());
       for (const HoleLoop& loop : holes[h])
         for (std::size_t i = 0; i < loop.size(); ++i)
           used.insert(Rims::side(loop[i], loop[(i + 1) % loop.size()]));

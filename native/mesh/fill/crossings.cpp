@@ -86,11 +86,36 @@ class Cells {
       if (std::find(triangles_[b].begin(), triangles_[b].end(), v) != triangles_[b].end())
         return false;
     if (!box_of(a).intersects(box_of(b))) return false;
+    if (lie_on_one_another(a, b)) return true;
     for (std::size_t i = 0; i < 3; ++i)
       if (passes(corner(a, i), corner(a, (i + 1) % 3), b) ||
           passes(corner(b, i), corner(b, (i + 1) % 3), a))
         return true;
     return false;
+  }
+
+  // Whether two triangles of one plane share a part of it: no side of either has the other one beyond.
+  bool lie_on_one_another(std::size_t a, std::size_t b) const {
+    for (const auto& [t, other] : {std::pair(a, b), std::pair(b, a)}) {
+      const Vec3 normal = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+      const double size = normal.norm(), thin = rounding * size;
+      if (size == 0) return false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 way = corner(other, i) - corner(t, 0);
+        if (std::abs(normal.dot(way)) > thin * (way.norm() + std::sqrt(size))) return false;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& from = corner(t, i);
+        const Vec3 inwards = normal.cross(corner(t, (i + 1) % 3) - from);
+        bool beyond = true;
+        for (std::size_t k = 0; k < 3 && beyond; ++k) {
+          const Vec3 way = corner(other, k) - from;
+          beyond = inwards.dot(way) <= rounding * inwards.norm() * way.norm();
+        }
+        if (beyond) return false;
+      }
+    }
+    return true;
   }
 
   // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997]. What is no

@@ -10,7 +10,7 @@
 namespace fairing {
 
 // Those of `triangles` (of indices in `points`) from the `first` on that meet another one in more than
-// a point, ascending. Of two that share a vertex, or lie in one plane, nothing is asked.
+// a point, or lie on one another, ascending. Of two that share a vertex nothing is asked.
 std::vector<std::size_t> crossing(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                   std::size_t first);
 

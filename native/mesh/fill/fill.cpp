@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/rounding.h"
 #include "mesh/fill/rims.h"
+#include "mesh/fill/ruled.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -50,7 +51,21 @@ class OneHole {
     return patch;
   }
 
-  void triangulate_into(Patch& patch) {
+  // Whether the triangles are not to be drawn tight: a ring would close.
+  Relaxation triangulate_into(Patch& patch, bool bends) {
+    const auto may_join = [&](std::size_t a, std::size_t b) { return !joined(Index(a), Index(b)); };
+    if (begin_.size() == 3 && fill_ring(patch, begin_[1], bends, may_join))
+      return Relaxation::sliding;
+    triangulate_walk_into(patch);
+    return Relaxation::taut;
+  }
+
+  bool joined(Index a, Index b) const {
+    return rims_.are_joined(ids_[std::size_t(a)], ids_[std::size_t(b)]);
+  }
+
+ private:
+  void triangulate_walk_into(Patch& patch) {
     walk_all(patch.points);
     // again and again without the edges that were there twice, at most once a corner
     std::set<std::pair<std::size_t, std::size_t>> forbidden;
@@ -67,11 +82,6 @@ class OneHole {
     fan_into(patch);
   }
 
-  bool joined(Index a, Index b) const {
-    return rims_.are_joined(ids_[std::size_t(a)], ids_[std::size_t(b)]);
-  }
-
- private:
   std::size_t after(std::size_t i, std::size_t l) const {
     return i + 1 == begin_[l + 1] ? begin_[l] : i + 1;
   }
@@ -258,8 +268,8 @@ void require_areas(const Patch& patch, const OneHole& hole) {
 FilledHole fill_one(const Hole& hole, Rims& rims, const FillOptions& options, std::int64_t first) {
   OneHole one(hole, rims);
   Patch patch = one.rim(options.density);
-  one.triangulate_into(patch);
-  refine_patch(patch, one, options, Relaxation::taut);
+  const Relaxation relaxation = one.triangulate_into(patch, options.bends && options.density > 0);
+  refine_patch(patch, one, options, relaxation);
   require_areas(patch, one);
   return numbered(patch, one, first);
 }

@@ -18,9 +18,12 @@ struct FillOptions {
   // New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no new
   // vertices, where the hole can do without.
   double density = 1;
+  // Whether a filling goes on from the faces around, or only from the rim.
+  bool bends = true;
 };
 
-// The loop around a hole and those of islands in it, each running as find_holes() has them.
+// The loop around a hole and those of islands in it, in any order, each running as find_holes() has
+// them.
 using Hole = std::vector<HoleLoop>;
 
 // The new faces of one hole: triangles of vertex ids, of which those from the mesh's number of
@@ -34,8 +37,8 @@ struct FilledHole {
 // Why a hole is not filled, if so. The message names no ids.
 using Refusals = std::vector<std::optional<FairingError>>;
 
-// Turns the loops as find_holes() has them, in whatever direction and from wherever they were given,
-// and says of each hole why it is none of this mesh: repeated_vertex, nonmanifold_edge,
+// Turns the loops as find_holes() has them, in whatever direction, order and from wherever they were
+// given, and says of each hole why it is none of this mesh: repeated_vertex, nonmanifold_edge,
 // inconsistent_orientation, too_large, bad_option. Throws FairingError for loops of fewer than three
 // vertices (bad_option) and for ids of no vertex (index_out_of_range).
 Refusals check_holes(const PolygonMesh& mesh, const HalfEdges& half_edges,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/fill/holes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "base/points.h"
 #include "mesh/groups.h"
 #include "mesh/mend/loops.h"
 #include "parallel/cancel.h"
@@ -22,6 +25,7 @@ class Walks {
     for (const std::int64_t v : edges) torn_[std::size_t(v)] = 1;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2)
       crowded_.insert(std::minmax(edges[i], edges[i + 1]));
+    pair_across_gaps(mesh);
   }
 
   // An edge of one face. At the ends of edges with more faces nobody could say what a hole is.
@@ -40,9 +44,16 @@ class Walks {
                std::minmax(half_edges_.from(k), half_edges_.from(half_edges_.next(k))));
   }
 
-  // The border's half-edge that ends where k begins, across the faces between; none where these
-  // disagree, or the border ends.
+  // The border's half-edge that ends where k begins, on the other side of the gap there; none where
+  // the faces around disagree, or the border ends.
   std::int32_t onward(std::int32_t k) const {
+    const auto across = across_.find(k);
+    return across == across_.end() ? last_of_fan(k) : across->second;
+  }
+
+ private:
+  // The border's half-edge that ends where k begins, across the faces between.
+  std::int32_t last_of_fan(std::int32_t k) const {
     std::int32_t at = half_edges_.previous(k);
     while (half_edges_.twin(at) >= 0) {
       if (half_edges_.runs_as_twin(at)) return none;
@@ -51,8 +62,52 @@ class Walks {
     return is_border(at) ? at : none;
   }
 
- private:
+  // Where several fans meet in a vertex, a gap is between one and the next around it.
+  void pair_across_gaps(const PolygonMesh& mesh) {
+    std::vector<std::uint8_t> fans(std::size_t(mesh.vertex_count()), 0);
+    const auto count_at = [&](std::int32_t k) -> std::uint8_t& {
+      return fans[std::size_t(half_edges_.from(k))];
+    };
+    for (std::int32_t k = 0; k < half_edges_.count(); ++k)
+      if (is_border(k) && count_at(k) < 2) ++count_at(k);
+    std::map<std::int64_t, std::vector<std::int32_t>> firsts;  // of each such vertex
+    for (std::int32_t k = 0; k < half_edges_.count(); ++k)
+      if (is_border(k) && count_at(k) == 2) firsts[half_edges_.from(k)].push_back(k);
+    for (const auto& [v, fans_there] : firsts) pair_at(mesh, v, fans_there);
+  }
+
+  // By the angle at which each fan begins; not where they look to different sides.
+  void pair_at(const PolygonMesh& mesh, std::int64_t v, const std::vector<std::int32_t>& firsts) {
+    std::vector<Vec3> normals, ways;
+    Vec3 sum = Vec3::Zero();
+    const auto way_to = [&](std::int64_t other) {
+      return Vec3(point_at(mesh.coordinates, other) - point_at(mesh.coordinates, v));
+    };
+    for (const std::int32_t first : firsts) {
+      const std::int32_t last = last_of_fan(first);
+      if (last == none) return;
+      Vec3 normal = Vec3::Zero();
+      for (std::int32_t k = first;; k = half_edges_.twin(half_edges_.previous(k))) {
+        normal += unit_or_zero(way_to(half_edges_.from(half_edges_.next(k)))
+                                   .cross(way_to(half_edges_.from(half_edges_.previous(k)))));
+        if (half_edges_.previous(k) == last) break;
+      }
+      normals.push_back(normal), sum += normal;
+      ways.push_back(way_to(half_edges_.from(half_edges_.next(first))));
+    }
+    for (const Vec3& normal : normals)
+      if (normal.dot(sum) <= 0) return;
+    const Vec3 axis = sum.normalized(), x = axis.cross(ways[0].cross(axis)), y = axis.cross(x);
+    std::vector<std::pair<double, std::int32_t>> around;
+    for (std::size_t i = 0; i < firsts.size(); ++i)
+      around.emplace_back(std::atan2(ways[i].dot(y), ways[i].dot(x)), firsts[i]);
+    std::sort(around.begin(), around.end());
+    for (std::size_t i = 0; i < around.size(); ++i)
+      across_[around[(i + 1) % around.size()].second] = last_of_fan(around[i].second);
+  }
+
   const HalfEdges& half_edges_;
+  std::map<std::int32_t, std::int32_t> across_;
   std::vector<std::uint8_t> torn_;
   std::set<std::pair<std::int64_t, std::int64_t>> crowded_;  // edges of more than two faces
 };

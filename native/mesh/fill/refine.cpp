@@ -28,8 +28,6 @@ constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
 // which the first one_percent find the number of points.
 constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
-constexpr std::size_t largest_filling = 100'000'000;  // as the message has it
-
 class Refinement {
  public:
   Refinement(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation)
@@ -104,10 +102,7 @@ class Refinement {
       if (length > too_long) longest.push_back({-length, e});
     }
     std::sort(longest.begin(), longest.end());
-    if (patch_.points.size() + longest.size() > largest_filling)
-      throw FairingError(ErrorCode::too_large,
-                         "The filling would have more than a hundred million vertices. Lower the "
-                         "density.");
+    if (patch_.points.size() + longest.size() > largest_filling) too_dense();
     for (std::size_t i = 0; i < longest.size(); ++i) {
       stop_if_cancelled(i);
       split(EdgeHandle(longest[i].second));
@@ -327,6 +322,12 @@ class Refinement {
 };
 
 }  // namespace
+
+void too_dense() {
+  throw FairingError(ErrorCode::too_large,
+                     "The filling would have more than a hundred million vertices. Lower the "
+                     "density.");
+}
 
 void refine(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation) {
   Refinement(patch, joined, relaxation).run();

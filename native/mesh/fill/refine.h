@@ -21,6 +21,11 @@ struct Patch {
   std::vector<Vec3> rim_normals;
 };
 
+constexpr std::size_t largest_filling = 100'000'000;  // vertices, as the message has it
+
+// Throws FairingError(too_large): more than those.
+[[noreturn]] void too_dense();
+
 enum class Relaxation {
   taut,    // as a membrane over the rim: for the flat pieces of a first triangulation
   sliding  // along the surface, which keeps its shape
