@@ -210,7 +210,7 @@ def test_levels_that_are_no_whole_number(levels):
         {"corner_angle": INF},
         {"smoother_degree": -2},
         {"sweeps": -1},
-        {"weights": np.ones(12)},
+        {"weights": np.ones(12), "interpolation": "exact"},
     ],
     ids=str,
 )

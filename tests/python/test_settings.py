@@ -4,6 +4,7 @@
 import inspect
 
 import discrete_fairing as df
+import pytest
 from discrete_fairing import _native
 from discrete_fairing.options import OPTIONAL, SETTINGS, native_options
 
@@ -28,3 +29,20 @@ def test_defaults_are_those_of_the_core():
     passed, core = native_options(**ours), _native.Options()
     for name in SETTINGS:
         assert getattr(passed, name) == getattr(core, name), name
+
+
+@pytest.mark.parametrize(
+    "given, interpolation",
+    [
+        ({}, "exact"),
+        ({"tolerance": 0.0}, "exact"),
+        ({"tolerance": 0.05}, "approximate"),
+        ({"tolerance": [0.0, 0.05, 0.0]}, "approximate"),
+        ({"weights": [1.0, 2.0, 3.0]}, "approximate"),
+        ({"tolerance": 0.05, "interpolation": "exact"}, "exact"),
+        ({"tolerance": 0.05, "interpolation": None}, "approximate"),
+        ({"interpolation": "limit"}, "limit"),
+    ],
+)
+def test_a_tolerance_that_is_given_says_that_vertices_may_be_missed(given, interpolation):
+    assert native_options(**given).interpolation.name == interpolation

@@ -26,7 +26,7 @@ def fair(
     metric_exponent: float = 0.5,
     chart_blend: float = 1.0,
     chart: str = "exponential",
-    interpolation: str = "exact",
+    interpolation: str | None = None,
     tolerance: float | ArrayLike = 0.0,
     weights: ArrayLike | None = None,
     limit: float = 1.0,
@@ -90,8 +90,8 @@ def fair(
         The paper's linear blend of charts: 0 uniform, 1 the chart itself.
     chart : "exponential" or "tangent"
         Exponential map of the control metric, or projection to its tangent planes.
-    interpolation : "exact", "approximate" or "limit"
-        Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
+    interpolation : "exact", "approximate", "limit" or None
+        None: approximate where there is a tolerance or weights, else exact. Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or
         against `weights`. Vertices on curves always stay. Limit: the surface passes exactly through
         the vertices' limit positions, where Catmull-Clark subdivision would take them, and
         charts are made of the surface through these, level by level: for cages drawn to look right

@@ -21,15 +21,20 @@ from .errors import fairing_error
 def native_options(**settings: object) -> _native.Options:
     """The core's options; settings that are not given keep their defaults.
 
-    Those of OPTIONAL may be None, which means the default too. Raises FairingError BAD_OPTION and
-    BAD_SHAPE, and TypeError for a name that is no setting.
+    Those of OPTIONAL may be None, which means the default too; of `interpolation` it is "approximate"
+    where there is a tolerance or weights. Raises FairingError BAD_OPTION and BAD_SHAPE, and TypeError
+    for a name that is no setting.
     """
-    options = _native.Options()
+    options, given = _native.Options(), {}
     for name, value in settings.items():
         if name not in SETTINGS:
             raise TypeError(f"{name!r} is no setting; there are {', '.join(SETTINGS)}")
         if value is not None or name not in OPTIONAL:
-            setattr(options, name, SETTINGS[name](name, value))
+            given[name] = SETTINGS[name](name, value)
+    if "interpolation" not in given and ("weights" in given or np.any(given.get("tolerance", 0))):
+        given["interpolation"] = _native.Interpolation.approximate
+    for name, value in given.items():
+        setattr(options, name, value)
     return options
 
 
@@ -225,6 +230,7 @@ SETTINGS = {
     "measure": switch,
 }
 OPTIONAL = (
+    "interpolation",
     "weights",
     "edge_sharpness",
     "vertex_sharpness",
