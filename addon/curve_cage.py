@@ -19,7 +19,7 @@ from .blender import Context, Mesh, Object, attach, current_context, detach
 from .curves.cubics import Curve
 from .curves.settle import Covered, Wish, covered
 from .errors import JobError
-from .mesh.object import session_key
+from .mesh.object import collections_for, session_key
 from .mesh.read_curves import read_curves
 from .units import length_text
 
@@ -128,7 +128,8 @@ def new_cage(
     """
     found = covered(_read(sources), _wish(settings), text=_text)
     cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
-    context.collection.objects.link(cage)
+    for collection in collections_for(context):
+        collection.objects.link(cage)
     group = cage.discrete_fairing_curves
     for setting in CageSettings.__annotations__:
         setattr(group, setting, getattr(settings, setting))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The new object beside its source: same place, same collections, same materials."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -47,7 +47,7 @@ class Reference:
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
     target = cast(Object, bpy.data.objects.new(mesh.name, mesh))
-    for collection in _collections(context, source):
+    for collection in collections_for(context, source):
         collection.objects.link(target)
     copy_place(context, source, target)
     _copy_object_materials(source, target)
@@ -75,6 +75,12 @@ def is_in_view_layer(context: Context, target: Object) -> bool:
     return objects.get(target.name) == target
 
 
+def why_not_here(context: Context, targets: Iterable[Object]) -> str:
+    """Why some of the `targets` cannot be shown and selected, in one sentence; empty if they can."""
+    away = next((one.name for one in targets if not is_in_view_layer(context, one)), "")
+    return f"Link '{away}' to this scene first: it is not in this view layer" if away else ""
+
+
 def select_only(context: Context, objects: list[Object]) -> None:
     """Selects `objects` and nothing else; the last one becomes active. Those that are not in the view
     layer, as in an excluded collection, stay as they are.
@@ -89,9 +95,10 @@ def select_only(context: Context, objects: list[Object]) -> None:
     context.view_layer.objects.active = here[-1]
 
 
-def _collections(context: Context, source: Object) -> list[bpy.types.Collection]:
-    """Of the source those that take objects; linked and overridden ones do not."""
-    for found in (source.users_collection, [context.collection], [context.scene.collection]):
+def collections_for(context: Context, source: Object | None = None) -> list[bpy.types.Collection]:
+    """Those for a new object, beside its `source` if there is one; linked and overridden ones take none."""
+    beside = [] if source is None else source.users_collection
+    for found in (beside, [context.collection], [context.scene.collection]):
         own = [each for each in found if not (each.library or each.override_library)]
         if own:
             return own

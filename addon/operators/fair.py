@@ -17,7 +17,7 @@ from ..job import Job
 from ..live import switch
 from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
-from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only
+from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, running
@@ -283,9 +283,7 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         source = source_of(active) if active is not None else None
         if source is None:
             return no_source_reason(active)
-        if not is_in_view_layer(context, source):
-            return f"Link '{source.name}' to this scene first: it is not in this view layer"
-        return ""
+        return why_not_here(context, [source])
 
     def execute(self, context: Context) -> Answer:
         source = source_of(cast(Object, context.active_object))

@@ -185,7 +185,7 @@ class OBJECT_OT_fairing_complete(ModalRun, bpy.types.Operator):
         try:
             jobs = due_jobs(context)
         except JobError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"WARNING"}, str(error))  # nobody has asked just now
             return {"CANCELLED"}
         return self.start(context, jobs) if jobs else {"CANCELLED"}
 

@@ -13,6 +13,7 @@ from .. import core
 from ..blender import Answer, Context, Object, registration
 from ..check.defects import select_defects, select_in_all
 from ..memory import source_at_hand
+from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import world_matrix
 from ..poll import ExplainedPoll, mesh_poll_reason
@@ -74,12 +75,20 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _reason_to_select(context: Context) -> str:
+    return _Straining.poll_reason(context) or why_not_here(context, sources_at_hand(context))
+
+
 class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
     """Select in Edit Mode the vertices that spoil the surface, the most strained ones"""
 
     bl_idname = "object.fairing_select_strained"
     bl_label = "Select Strained"
     bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return _reason_to_select(context)
 
     by: EnumProperty(
         name="Which",
@@ -148,7 +157,7 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
 
     vertex: IntProperty(name="Vertex", description="Which vertex of the control mesh", min=0)
 
-    poll_reason = staticmethod(_Straining.poll_reason)
+    poll_reason = staticmethod(_reason_to_select)
 
     def execute(self, context: Context) -> Answer:
         source = cast(Object, source_at_hand(context))

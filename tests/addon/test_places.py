@@ -43,6 +43,16 @@ def test_what_is_out_of_date_in_an_excluded_collection_is_made_again():
     assert bpy.context.selected_objects == [here] and bpy.context.active_object == here
 
 
+def test_vertices_of_a_source_that_is_excluded_cannot_be_selected():
+    box = add("Box", *CUBE)
+    fair(levels=1)
+    exclude(box)
+    for name in ("fairing_select_strained", "fairing_go_to_strained", "fairing_show_source"):
+        assert not getattr(bpy.ops.object, name).poll(), name
+    with pytest.raises(RuntimeError, match="Link 'Box' to this scene first"):
+        bpy.ops.object.fairing_select_strained()
+
+
 def overridden(tmp_path):
     """A mesh object of a library override, active."""
     box = add("Box", *CUBE)
