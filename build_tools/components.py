@@ -73,13 +73,6 @@ def libraries() -> list[Component]:
             "https://github.com/pybind/pybind11",
             "pypi/pybind11",
         ),
-        library(
-            "musl's mathematical functions",
-            version_in("native/third_party/musl_libm/README.md", r"musl's, ([\d.]+) "),
-            "MIT",
-            "https://musl.libc.org",
-            "generic/musl",
-        ),
         # of the two that zig brings, the version is zig's
         library(
             "LLVM's C++ library and compiler support",

@@ -141,7 +141,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "names",
         nargs="*",
-        help="bench, demo, test: only these; test blender:TEXT or windows:TEXT: its parts named so",
+        help="bench, demo, test: only these; test blender:TEXT: its parts named so",
     )
     parser.add_argument(
         "--wheels",

@@ -130,11 +130,11 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 }
 
 
-def windows_suite(wanted: str = "") -> dict[str, Tally]:
-    """The tests as programs for Windows, under Wine, or the parts whose names contain `wanted`."""
+def windows_suite() -> dict[str, Tally]:
+    """The native tests as programs for Windows, under Wine."""
     from cross import windows_suite as wine
 
-    return wine.run_suite(wanted)
+    return wine.run_suite()
 
 
 def arm_suite() -> Tally:
@@ -203,12 +203,11 @@ def attempt(suite: Callable[[], Tally | dict[str, Tally]]) -> Tally | dict[str, 
 
 
 def suite_named(name: str) -> Callable[[], Tally | dict[str, Tally]]:
-    """A suite; `blender:TEXT` and `windows:TEXT` are of the parts alone whose names contain TEXT."""
-    in_parts = {"blender": blender_suite.run_suite, "windows": windows_suite}
+    """A suite; `blender:TEXT` is of the parts alone whose names contain TEXT."""
     suite, _, part = name.partition(":")
-    if part and suite not in in_parts:
-        raise DevError(f"only parts of {' and '.join(in_parts)} can be named, not of {suite}.")
-    return partial(in_parts[suite], part) if part else {**SUITES, **LONG_SUITES}[suite]
+    if part and suite != "blender":
+        raise DevError(f"only parts of blender can be named, not of {suite}.")
+    return partial(blender_suite.run_suite, part) if part else {**SUITES, **LONG_SUITES}[suite]
 
 
 def run_all(names: list[str]) -> int:

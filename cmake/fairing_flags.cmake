@@ -7,8 +7,7 @@ if(WIN32 AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   message(FATAL_ERROR "GCC spills packs of 32 bytes to a stack of 16 on Windows (its bug 54412): compile with Clang.")
 endif()
 
-# Baseline instructions and no fused multiply-add: the same bits on every machine, for any thread count; the
-# mathematical library that this takes too is third_party/musl_libm.
+# Baseline instructions and no fused multiply-add: the two instruction sets of an inner loop give the same bits.
 if(MSVC) # its Clang, which takes the options in Microsoft's spelling
   target_compile_options(fairing_flags INTERFACE /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8 /bigobj)
 else()
@@ -22,17 +21,11 @@ endif()
 target_compile_definitions(
   fairing_flags INTERFACE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768 EIGEN_DEFAULT_L2_CACHE_SIZE=262144
                           EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$" AND NOT MSVC) # fused operations and larger blocks otherwise
-  target_compile_options(fairing_flags INTERFACE "SHELL:-include \"${CMAKE_CURRENT_LIST_DIR}/unfused_neon.h\"")
-  target_compile_definitions(fairing_flags INTERFACE EIGEN_DENSEBASE_PLUGIN="${CMAKE_CURRENT_LIST_DIR}/eigen_blocks.h")
-endif()
 if(WIN32) # whatever the compiler: M_PI, and std::min beside Windows' own headers
   target_compile_definitions(fairing_flags INTERFACE _USE_MATH_DEFINES NOMINMAX)
 endif()
 if(APPLE) # whose threads have stacks of 512 KB: what Eigen would lay there goes to the heap sooner than by default
   target_compile_definitions(fairing_flags INTERFACE EIGEN_STACK_ALLOCATION_LIMIT=32768)
-  # or Clang makes of a sine and a cosine of one angle a call of a function that only Apple has
-  target_compile_options(fairing_flags INTERFACE -fno-builtin-sin -fno-builtin-cos)
 endif()
 # these look into inlined library code, and GCC 12 to 14 find there what cannot happen
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -9,7 +9,7 @@ from pathlib import Path
 from shell import DevError, output
 
 # load commands of Mach-O
-SYMBOLS, LOAD_DYLIB, LOAD_WEAK_DYLIB, REEXPORT_DYLIB = 0x2, 0xC, 0x80000018, 0x8000001F
+LOAD_DYLIB, LOAD_WEAK_DYLIB, REEXPORT_DYLIB = 0xC, 0x80000018, 0x8000001F
 CODE_SIGNATURE, VERSION_MIN, BUILD_VERSION = 0x1D, 0x24, 0x32
 PROCESSORS = {0x01000007: "x86_64", 0x0100000C: "arm64"}
 
@@ -22,7 +22,6 @@ class Binary:
     libraries: list[str] = field(default_factory=list)
     least_system: tuple[int, ...] = ()  # glibc's or macOS's version
     exports: list[str] | None = None  # None: not read
-    taken: list[str] = field(default_factory=list)  # functions and objects of others
     signed: bool = False
     for_debuggers: bool = (
         False  # has data for them; not read on Windows, where they are a file apart
@@ -67,7 +66,6 @@ def read_elf(path: Path) -> Binary:
         re.findall(r"\(NEEDED\).*\[(.+?)\]", text),
         max(versions, default=()),
         exports,
-        re.findall(r" UND ([^\s@]+)", symbols),
         for_debuggers=".debug_info" in text,
     )
 
@@ -78,21 +76,12 @@ def read_pe(path: Path) -> Binary:
     machine = "x86_64" if "pei-x86-64" in text else "unknown"
     table = text.partition("[Ordinal/Name Pointer] Table")[2].partition("\n\n")[0]
     exports = re.findall(r"^\s*\[\s*\d+\].*?(\S+)$", table, re.MULTILINE)
-    taken = re.findall(r"^\t[0-9a-f]+\t\s+\d+  (\S+)$", text, re.MULTILINE)
-    return Binary(machine, re.findall(r"DLL Name: (\S+)", text), exports=exports, taken=taken)
+    return Binary(machine, re.findall(r"DLL Name: (\S+)", text), exports=exports)
 
 
 def unpacked_version(packed: int) -> tuple[int, int]:
     """A version of macOS."""
     return packed >> 16, packed >> 8 & 0xFF
-
-
-def undefined(data: bytes, table: int, count: int, texts: int, size: int) -> list[str]:
-    """The names in a table of symbols of macOS that other libraries have to define."""
-    external, kind, names = 0x01, 0x0E, data[texts : texts + size]
-    entries = struct.iter_unpack("<IB11x", data[table : table + 16 * count])
-    wanted = [name for name, flags in entries if flags & external and not flags & kind]
-    return [names[at:].partition(b"\0")[0].decode().removeprefix("_") for at in wanted]
 
 
 def read_macho(data: bytes) -> Binary:
@@ -111,7 +100,5 @@ def read_macho(data: bytes) -> Binary:
             found.least_system = unpacked_version(struct.unpack_from("<I", data, at + 8)[0])
         elif command == CODE_SIGNATURE:
             found.signed = True
-        elif command == SYMBOLS:
-            found.taken = undefined(data, *struct.unpack_from("<4I", data, at + 8))
         at += size
     return found

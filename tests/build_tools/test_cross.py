@@ -41,8 +41,7 @@ def test_a_module_is_called_as_its_python_looks_for_it(name, suffix):
 
 
 def all_sources():
-    pythons = [*sources.PYTHON_SOURCES.values(), *sources.WINDOWS_PYTHONS.values()]
-    return [sources.ZIG, sources.OPENMESH, *pythons]
+    return [sources.ZIG, sources.OPENMESH, *sources.PYTHON_SOURCES.values()]
 
 
 @pytest.mark.parametrize("source", all_sources(), ids=lambda source: source.name)
@@ -52,7 +51,7 @@ def test_sources_are_pinned(source):
 
 
 def test_every_python_has_its_sources():
-    assert set(PYTHONS) == set(sources.PYTHON_SOURCES) == set(sources.WINDOWS_PYTHONS)
+    assert set(PYTHONS) == set(sources.PYTHON_SOURCES)
 
 
 def source_of(path):
