@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import inf
 
 import numpy as np
@@ -151,6 +152,13 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
                 run.refuse(sharp)
             break
         part = 1.0 if last else done + 0.5 * (1 - done)
+        # a whole fit is worth its time only if the faces that had no patches have some now
+        if best is not None and best.unresolved.size and not run.insist:
+            if run.still_folded(result, at, best.unresolved, runs.run(done, part)):
+                done = part
+                if last:
+                    break
+                continue
         found = run.fitted(result, at, error, runs.run(done, part))
         done = part
         if best is None or _faults(found, serves) <= _faults(best, serves):
@@ -188,28 +196,12 @@ class _Run:
     def fitted(
         self, result: Result, level: int, lattice_error: np.ndarray, watched
     ) -> SplinePatches:
-        triangles, quads = result.faces
         # however soon it is done, whoever watches hears of it
         if watched["progress"](0.0, "patches") is False:
             watched["monitor"].cancel()
-        arrays = _native.fit_splines(
-            result.vertices,
-            triangles,
-            quads,
-            result.crease_edges,
-            level,
-            self.tolerance,
-            self.normal_tolerance,
-            watched["threads"],
-            watched["monitor"],
-            watched["progress"],
+        arrays, bad = self._fit(
+            result.vertices, *result.faces, result.crease_edges, level, **watched
         )
-        bad = arrays["lattice_turn"] > TURN_LIMIT
-        folded = ~(arrays["turned"] <= FOLD_LIMIT)
-        sharp = np.nan_to_num(arrays["angles"]).max(axis=1, initial=0) > TURN_LIMIT
-        patch = np.repeat(np.arange(len(folded)), np.diff(arrays["loop_offsets"]))
-        folded[patch[sharp[arrays["loop_edges"]]]] = True
-        bad[arrays["patch_face"][folded]] = True
         arrays.update(
             tolerance=self.tolerance,
             normal_tolerance=self.normal_tolerance,
@@ -217,6 +209,36 @@ class _Run:
             unresolved=np.unique(control_polygons(result, level)[bad]).astype(np.int64),
         )
         return SplinePatches(arrays, result, level)
+
+    def _fit(self, vertices, triangles, quads, creases, level, threads, monitor, progress):
+        """The core's arrays, and (F,) bool: the control faces whose patches or surface fold."""
+        arrays = _native.fit_splines(
+            vertices,
+            triangles,
+            quads,
+            creases,
+            level,
+            self.tolerance,
+            self.normal_tolerance,
+            threads,
+            monitor,
+            progress,
+        )
+        bad = arrays["lattice_turn"] > TURN_LIMIT
+        folded = ~(arrays["turned"] <= FOLD_LIMIT)
+        sharp = np.nan_to_num(arrays["angles"]).max(axis=1, initial=0) > TURN_LIMIT
+        patch = np.repeat(np.arange(len(folded)), np.diff(arrays["loop_offsets"]))
+        folded[patch[sharp[arrays["loop_edges"]]]] = True
+        bad[arrays["patch_face"][folded]] = True
+        return arrays, bad
+
+    def still_folded(self, result: Result, level: int, faces: np.ndarray, watched) -> bool:
+        """Whether patches of the input `faces`, fitted with their neighbours alone, still fold."""
+        chosen = np.isin(control_polygons(result, level), faces)
+        part = around(result, level, chosen)
+        chosen_of_part = chosen[part.control_faces]
+        _, bad = self._fit(*part.arrays, level, **watched)
+        return bool(bad[chosen_of_part].any())
 
     def stays_folded(self, result: Result, level: int, finer: int, threads: int) -> bool:
         """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
@@ -269,6 +291,39 @@ class _Run:
                 faces,
                 "face",
             )
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Some control faces of a refined surface, as a surface of its own."""
+
+    control_faces: np.ndarray  # (K,) their numbers in the whole
+    arrays: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # as fit_splines() takes them
+
+
+def around(result: Result, level: int, chosen: np.ndarray) -> _Part:
+    """The control faces of the mask `chosen` (F,) and all that share a vertex with them."""
+    cells = 4**level
+    blocks = [faces.reshape(-1, cells * faces.shape[1]) for faces in result.faces]
+    masks = chosen[: len(blocks[0])], chosen[len(blocks[0]) :]
+    touched = np.zeros(len(result.vertices), bool)
+    for block, mask in zip(blocks, masks):
+        touched[block[mask]] = True
+    kept = [touched[block].any(axis=1) for block in blocks]
+    used = np.zeros_like(touched)
+    for block, keep in zip(blocks, kept):
+        used[block[keep]] = True
+    number = np.cumsum(used, dtype=np.int32) - 1
+    triangles, quads = (
+        number[block[keep]].reshape(-1, corners)
+        for block, keep, corners in zip(blocks, kept, (3, 4))
+    )
+    creases = result.crease_edges
+    creases = number[creases[used[creases].all(axis=1)]]
+    return _Part(
+        np.flatnonzero(np.concatenate(kept)),
+        (result.vertices[used], triangles, quads, creases),
+    )
 
 
 def change_between(coarse: Result, fine: Result, levels: int) -> np.ndarray:
