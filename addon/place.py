@@ -64,12 +64,19 @@ def _due(target: Object) -> bool:
     if source is None or not stood or not target.discrete_fairing.follow_transform:
         return False
     before, now = stood.get("seen"), _seen(source)
-    if before == now or not isinstance(before, dict):
+    if before == now or not isinstance(before, dict) or _hangs_on(source, target):
         return False
     follows = _following(target, stood)
     if source.constraints or any(before.get(name) != now[name] for name in PARENT):
         return bool(follows)
     return any(before.get(name) != now[name] for name in follows)
+
+
+def _hangs_on(source: Any, target: Object) -> bool:
+    """Whether the source moves with the surface itself, as its child."""
+    while source is not None and source != target:
+        source = source.parent
+    return source is not None
 
 
 def _following(target: Object, stood: Mapping[str, Any]) -> set[str]:

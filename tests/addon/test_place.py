@@ -156,3 +156,13 @@ def test_undo_brings_both_back():
     follow()
     source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
     assert source.location.x == target.location.x == 0.0
+
+
+def test_a_source_that_is_a_child_of_its_surface():
+    source, target = pair()
+    source.parent = target
+    target.location.x = 2.0
+    move(source)
+    assert why_stale(target) == ""
+    recompute(target)
+    assert target.parent is None and target.location.x == 2.0
