@@ -224,6 +224,16 @@ def test_a_rim_inside_another_one_is_an_island():
     assert [len(hole) for hole in df.with_islands(vertices, quads)] == [1, 1]
     assert [len(hole) for hole in df.with_islands(vertices, quads, loops[1:])] == [1]
 
+    # an island that touches the rim in a vertex is a hole of its own
+    vertices, quads, kept = open_grid(12, [(k, row) for k in range(2, 8) for row in range(2, 8)])
+    kept[2, 2] = kept[3, 3] = kept[3, 4] = True
+    touching = df.fill_holes(vertices, quads[kept], holes=None)
+    assert not touching.skipped and all(len(hole.loops) == 1 for hole in touching.holes)
+    assert len(touching.holes) == 3
+    kept[2, 2] = False
+    holes = df.with_islands(vertices, quads[kept])
+    assert sorted(map(len, holes)) == [1, 2]
+
     outer, faces = tube(0.0, 2.0, 24)
     vertices = np.concatenate([outer, outer * [0.7, 0.7, 1]])
     pipe = np.concatenate([faces, faces[:, ::-1] + len(outer)])

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "base/points.h"
 #include "mesh/fill/rims.h"
@@ -94,13 +96,23 @@ std::vector<Hole> with_islands(const PolygonMesh& mesh, const HalfEdges& half_ed
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return flat[a].area < flat[b].area; });
+  std::map<std::size_t, std::set<std::int64_t>> taken;  // vertices of a rim and its islands
+  const auto touches = [&](std::size_t loop, std::size_t rim) {
+    std::set<std::int64_t>& known = taken[rim];
+    known.insert(single[rim][0].begin(), single[rim][0].end());
+    const HoleLoop& ids = single[loop][0];
+    return std::any_of(ids.begin(), ids.end(), [&](std::int64_t v) { return known.contains(v); });
+  };
   constexpr std::size_t none = std::size_t(-1);
   std::vector<std::size_t> rim_of(single.size(), none);
   for (std::size_t at = order.size(); at-- > 0;) {
     stop_if_cancelled();
     for (std::size_t k = at + 1; k < order.size() && rim_of[order[at]] == none; ++k)
-      if (rim_of[order[k]] == none && is_island(flat[order[at]], flat[order[k]]))
-        rim_of[order[at]] = order[k];
+      if (const std::size_t loop = order[at], rim = order[k];
+          rim_of[rim] == none && is_island(flat[loop], flat[rim]) && !touches(loop, rim)) {
+        rim_of[loop] = rim;
+        taken[rim].insert(single[loop][0].begin(), single[loop][0].end());
+      }
   }
   std::vector<Hole> found;
   for (std::size_t l = 0; l < single.size(); ++l) {
