@@ -23,6 +23,7 @@ from .errors import JobError
 from .job import run_warnings
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
+from .mesh.shape_keys import dependent_keys
 from .mesh.world_shape import world_shape
 from .preferences import of_runs
 from .settings import Settings, snapshot
@@ -309,7 +310,7 @@ def apply(source: Object, faired: Faired) -> None:
         return
     with _edited(source) as edited:
         if faired.levels:
-            _refine(edited, faired)
+            _refine(edited, faired, dependent_keys(source))
         else:
             edited.verts.ensure_lookup_table()
             for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
@@ -348,9 +349,9 @@ def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -
             bmesh.utils.face_split(face, *(known[row] for row in common))
 
 
-def _refine(edited: bmesh.types.BMesh, faired: Faired) -> None:
+def _refine(edited: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) -> None:
     """Blender's own subdivision makes the faces, with all that lies on them, and mixes the labels of
-    the vertices; these say which point each new vertex is.
+    the vertices; these say which point each new vertex is. `keys`: as `dependent_keys` has them.
     """
     of_vertices: Any = edited.verts.layers.float_vector
     of_faces: Any = edited.faces.layers.int
@@ -358,6 +359,7 @@ def _refine(edited: bmesh.types.BMesh, faired: Faired) -> None:
     edited.verts.ensure_lookup_table()
     for row, index in enumerate(faired.part.vertices.tolist()):
         edited.verts[index][label] = faired.labels[row].tolist()
+    old = set(edited.verts)
     edited.faces.ensure_lookup_table()
     for index in faired.chosen.tolist():
         edited.faces[index][chosen] = 1
@@ -371,9 +373,16 @@ def _refine(edited: bmesh.types.BMesh, faired: Faired) -> None:
     for row, place in enumerate(faired.labels.tolist()):
         tree.insert(place, row)
     tree.balance()
+    edited_key, following = edited.verts.layers.shape.get(keys[0]), keys[1]
+    layers: Any = edited.verts.layers.shape
+    others = [layers[name] for name in following]
     for vertex in {v for face in edited.faces if face[chosen] for v in face.verts}:
         row = tree.find(vertex[label])[1]
         vertex.co = faired.points[row].tolist()
+        if vertex in old:  # whose move Blender itself hands on
+            continue
+        for other in others:
+            vertex[other] += vertex.co - vertex[edited_key]
     for face in edited.faces:
         face.select_set(face.select or bool(face[chosen]))
     of_vertices.remove(label)

@@ -354,3 +354,45 @@ def test_corners_of_the_mesh_stay(slant, scale):
     after[:, 0] += slant * after[:, 1]
     border = after[(after[:, :2] < 0.1).any(axis=1)]
     assert len(border) > 16 and np.abs(border[:, :2].min(axis=1)).max() < 1e-6
+
+
+def keys_of(target):
+    bpy.ops.object.mode_set(mode="OBJECT")
+    keys = target.data.shape_keys.key_blocks
+    return {key.name: np.array([point.co[:] for point in key.data]) for key in keys}
+
+
+@pytest.mark.parametrize("release", [False, True])
+@pytest.mark.parametrize("levels", [0, 1, 2])
+def test_shape_keys_follow_what_is_faired(levels, release):
+    target, middle = cap()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    target.shape_key_add(name="Basis")
+    for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
+        key = target.shape_key_add(name=name)
+        for point in key.data:
+            point.co.x += shift
+    keys = target.data.shape_keys.key_blocks
+    keys["Twice"].relative_key = keys["Shift"]
+    target.active_shape_key_index = 0
+    select(target, lambda ids: middle[ids].any())
+    fair(target, levels=levels, release=release)
+    found = keys_of(target)
+    assert len(found["Basis"]) == len(target.data.vertices)
+    for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
+        assert np.abs(found[name] - found["Basis"] - [shift, 0, 0]).max() < 1e-5, name
+
+
+def test_fairing_one_shape_key_leaves_its_basis():
+    target, middle = cap()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    target.shape_key_add(name="Basis")
+    target.shape_key_add(name="Other")
+    target.active_shape_key_index = 1
+    select(target, lambda ids: middle[ids].any())
+    before = positions(target)
+    fair(target, levels=1, release=True)
+    found = keys_of(target)
+    assert np.abs(found["Basis"][: len(before)] - before).max() < 1e-6
+    moved = np.abs(found["Other"][: len(before)] - before).max(axis=1) > 1e-3
+    assert moved[middle].any() and not moved[~middle].any()
