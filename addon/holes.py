@@ -13,7 +13,6 @@ from . import core, errors, prediction
 from .blender import Context, Object
 from .check.defects import check_object
 from .errors import JobCancelled, JobError
-from .mesh.append_filling import append_holes, can_append
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import WorldShape, world_shape
@@ -216,8 +215,6 @@ class HoleJob:
             bm = bmesh.from_edit_mesh(target.data)
             _write(bm, np.flatnonzero(self._gone), patches, places)
             bmesh.update_edit_mesh(target.data)
-        elif can_append(target):
-            append_holes(target, self._arrays, patches, places)
         else:
             self._rebuild(target, patches, places)
         prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
@@ -240,6 +237,7 @@ class HoleJob:
 
     @staticmethod
     def _rebuild(target: Object, patches: list[Patch], places: np.ndarray) -> None:
+        """By BMesh: to lengthen the arrays of a mesh that has elements crashes Blender 5.2."""
         mesh = target.data
         for elements in (mesh.vertices, mesh.edges, mesh.polygons):
             elements.foreach_set("select", np.zeros(len(elements), bool))

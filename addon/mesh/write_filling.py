@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces that fill a hole, made by BMesh, in Edit Mode and where keys need it: with what the rim has,
-blended over the filling.
-"""
+"""The faces that fill a hole, made by BMesh: with what the rim has, blended over the filling."""
 
 from collections.abc import Callable, Collection, Iterator
 from typing import Any

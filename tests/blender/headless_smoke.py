@@ -10,6 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import bmesh
 import bpy
 import harness
 import numpy as np
@@ -127,6 +128,32 @@ def test_bad_mesh_is_refused_and_nothing_changes():
     else:
         raise AssertionError("a face that looks the other way has to be refused")
     assert set(bpy.data.objects.keys()) == before
+
+
+def open_ball(subdivisions):
+    """A triangulated sphere without its top."""
+    ball = active_mesh_object(bpy.ops.mesh.primitive_ico_sphere_add, subdivisions=subdivisions)
+    top = 1.0 - 0.64 / 4.0 ** (subdivisions - 4)
+    bm = bmesh.new()
+    bm.from_mesh(ball.data)
+    gone = [face for face in bm.faces if face.calc_center_median().z > top]
+    bmesh.ops.delete(bm, geom=gone, context="FACES")
+    bm.to_mesh(ball.data)
+    bm.free()
+    return ball
+
+
+def test_a_hole_in_a_large_mesh_is_filled():
+    """To lengthen the arrays of a mesh of 10,000 vertices crashed Blender 5.2."""
+    for subdivisions in (6, 8):  # 10,000 and 160,000 vertices
+        ball = open_ball(subdivisions)
+        faces = len(ball.data.polygons)
+        assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+        mesh = ball.data
+        assert len(mesh.polygons) > faces
+        assert len(mesh.vertices) - len(mesh.edges) + len(mesh.polygons) == 2
+        assert not mesh.validate()
+        bpy.data.meshes.remove(mesh)
 
 
 def test_disable_and_enable_again():
