@@ -226,7 +226,7 @@ def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and what is
     `wanted` of the patches (cad/settings.py). What is shown and not written is never refused.
     """
-    left_out = ("levels", "shapes", "tolerance", "measure")
+    left_out = ("levels", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "fair_tolerance": fairing["tolerance"],
         "tolerance": wanted.fit_tolerance,

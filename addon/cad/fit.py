@@ -2,6 +2,7 @@
 """A job whose outcome is spline patches in the place of a surface's mesh."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -18,6 +19,7 @@ from ..mesh.world_shape import world_matrix
 from ..settings import Settings, is_evaluated, snapshot
 from . import colours, words
 from .nurbs import surface_of
+from .shown import Blend, distance, shares_of, shown_mesh
 
 _USUAL_LEVELS = 5  # those of the lattice that patches are fitted to, for predictions
 _KINDS = (
@@ -40,8 +42,7 @@ class PatchJob(Job):
         if source is not None:
             settings = shown.discrete_fairing
         fairing = vars(snapshot(settings or context.scene.discrete_fairing))
-        # the lattice has its own levels, and shape keys do not become patches
-        one = SimpleNamespace(**{**fairing, "levels": 1, "use_shape_keys": False})
+        one = SimpleNamespace(**{**fairing, "levels": 1})  # the lattice has its own
         super().__init__(context, source or shown, one)
         self.name = shown.name
         self._shown = Reference(shown)
@@ -52,7 +53,21 @@ class PatchJob(Job):
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, wanted)
+        self._blend(shown)
+        self._mesh = None if source is None else shown_mesh(context, shown)
+        self._stands = np.array(world_matrix(shown), float)
+        self.apart: float | None = None  # as `distance` says, in Blender units of the world
         self.refused: list[int] = []  # faces because of which no patches are fitted
+
+    def _blend(self, shown: Object) -> None:
+        """Has patches fitted to what the sliders of `shown` make of the shape keys."""
+        used: dict[int, Any] = {}
+        if self.keys is not None:
+            used = shares_of(shown, self.keys, self.data.groups, len(self.arrays.positions))
+        given = self.arguments.pop("shapes", ())
+        if used:
+            self.arguments["shapes"] = np.stack([given[place - 1] for place in used])
+            self.arguments["blend"] = Blend(self.arrays, list(used.values()))
 
     def compute(self, **watchers: Any) -> None:
         with errors.explained(self.name):
@@ -67,6 +82,10 @@ class PatchJob(Job):
         mended = errors.repairs_text(self.result.report["repairs"])
         if mended:
             self.notes.append(mended)
+        if self._mesh is not None:
+            vertices = _moved(self.result.vertices, self.placement)
+            shown = replace(self._mesh, positions=_moved(self._mesh.positions, self._stands))
+            self.apart = distance(self.result, self.arrays, self.patches.levels, vertices, shown)
 
     def predict(self, energy: str, levels: int) -> float:
         finest = max(levels, self.arguments["levels"] or _USUAL_LEVELS)
@@ -136,6 +155,10 @@ class PatchJob(Job):
         source = self.source
         if source is not None and self.defects and not is_evaluated(self.settings):
             store_defects(context, source, self.defects)
+
+
+def _moved(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:

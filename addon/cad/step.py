@@ -25,11 +25,16 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
-    """`96 patches, 0.008 mm off, 0.02° at edges`, of all jobs, the worst of them."""
+    """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`, of all jobs, the worst of
+    them; the last where a surface is fitted.
+    """
     told, each = _TOLD.get(unit, ("mm", "MM"))
+    factor = scale * METRES[unit] / METRES[each]
+    apart = [job.apart for job in jobs if job.apart is not None]
     return words.summary(
         sum(len(job.patches) for job in jobs),
-        max(job.off for job in jobs) * scale * METRES[unit] / METRES[each],
+        max(job.off for job in jobs) * factor,
         told,
         max(job.angle for job in jobs),
+        max(apart) * factor if apart else None,
     )

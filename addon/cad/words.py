@@ -7,10 +7,13 @@ from math import degrees
 _LISTED = 8  # faces
 
 
-def summary(patches: int, off: float, unit: str, angle: float) -> str:
-    """`96 patches, 0.008 mm off, 0.02° at edges`; `off` in `unit`, `angle` in radians."""
+def summary(patches: int, off: float, unit: str, angle: float, apart: float | None = None) -> str:
+    """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`; `off` and `apart`, which
+    may be unknown, in `unit`, `angle` in radians.
+    """
     noun = "patch" if patches == 1 else "patches"
-    return f"{patches:,} {noun}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
+    text = f"{patches:,} {noun}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
+    return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 
 def short(value: float) -> str:

@@ -85,19 +85,31 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
     return values.reshape(-1, 3).astype(np.float64)
 
 
-def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
-    """(n, 3): the shape that the sliders make of `keys`; `weights`: (n,) of a vertex group by its
-    name.
+def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, float | np.ndarray]:
+    """How much of each key but the first, by its place, the sliders mix: the shape is the first key
+    plus so much of what the others differ from it, a number or one a vertex. `weights`: (n,) of a
+    vertex group by its name.
     """
     if keys.show_only or not keys.use_relative:
-        return keys.positions[keys.active if keys.show_only else 0]
-    shape = keys.positions[0].copy()
-    for key, positions in zip(keys.keys[1:], keys.positions[1:], strict=True):
+        return {keys.active: 1.0} if keys.show_only and keys.active else {}
+    found: dict[int, float | np.ndarray] = {}
+    for place, key in enumerate(keys.keys):
         value = 0.0 if key.settings["mute"] else key.settings["value"]
-        if value:
-            group = key.settings["vertex_group"]
-            share = weights(group)[:, None] if group else 1.0
-            shape += value * share * (positions - keys.positions[key.relative_key])
+        if not (place and value) or place == key.relative_key:
+            continue
+        group = key.settings["vertex_group"]
+        share = value * weights(group) if group else value
+        for at, part in ((place, share), (key.relative_key, -share)):
+            if at:
+                found[at] = found.get(at, 0.0) + part
+    return found
+
+
+def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
+    """(n, 3): the shape that the sliders make of `keys`; `weights` as of `shares`."""
+    first, shape = keys.positions[0], keys.positions[0].copy()
+    for place, share in shares(keys, weights).items():
+        shape += np.reshape(share, (-1, 1)) * (keys.positions[place] - first)
     return shape
 
 

@@ -110,6 +110,9 @@ class OBJECT_OT_fairing_show_patches(_Fitting, PatchSettings, bpy.types.Operator
     def after(self, context: Context, jobs: Any) -> None:
         for job in jobs:
             job.note_defects(context)
+        fitted = [job for job in jobs if not job.refused]
+        if fitted:
+            self.report({"INFO"}, summary(fitted, "MM", scale_to("MM", context.scene)))
 
 
 CLASSES = (EXPORT_SCENE_OT_fairing_step, OBJECT_OT_fairing_show_patches)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 import numpy as np
+import pytest
 from scenes import CUBE, activate, add
 
 from addon.cad.fit import PatchJob
@@ -84,3 +85,60 @@ def test_nothing_else_is_left():
     surface = shown(box)
     assert set(bpy.data.objects) - before == {surface}
     assert bpy.context.mode == "OBJECT" and len(bpy.data.curves) == 1
+
+
+def with_keys():
+    """A box with two keys, one relative to the other and with a vertex group, and its surface."""
+    box = add("Box", *CUBE)
+    group = box.vertex_groups.new(name="Upper")
+    group.add([v for v in range(8) if CUBE[0][v][2] > 0], 0.5, "REPLACE")
+    for name in ("Basis", "Tall", "Wide"):
+        key = box.shape_key_add(name=name, from_mix=False)
+        for vertex, point in enumerate(key.data):
+            x, y, z = CUBE[0][vertex]
+            point.co = {"Basis": (x, y, z), "Tall": (x, y, 1.5 * z), "Wide": (2 * x, y, 1.5 * z)}[
+                name
+            ]
+    keys = box.data.shape_keys.key_blocks
+    keys["Tall"].vertex_group = "Upper"
+    keys["Wide"].relative_key = keys["Tall"]
+    keys["Tall"].value, keys["Wide"].value = 0.8, 0.6
+    assert bpy.ops.object.fairing_surface(energy="TOTAL_CURVATURE", levels=3) == {"FINISHED"}
+    return box, bpy.context.active_object
+
+
+@pytest.mark.parametrize("of_source", [False, True])
+def test_patches_pass_where_shape_keys_have_the_surface(of_source):
+    box, surface = with_keys()
+    shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    wanted = np.array([vertex.co[:] for vertex in shown.vertices[:8]])
+    corners = np.array(CUBE[0], float)
+    assert np.abs(wanted - corners).max() > 0.3
+    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
+    job = PatchJob(bpy.context, box if of_source else surface, WANTED)
+    job.compute()
+    found = job.patches.vertices
+    apart = np.linalg.norm(found[:, None] - wanted, axis=2).min(axis=1)
+    assert len(found) == 8 and apart.max() < 1e-3
+    if of_source:
+        assert job.apart is None
+    else:
+        assert job.apart < 0.02
+
+
+def test_the_largest_distance_from_the_mesh_shown_is_told(capfd):
+    box = add("Box", *CUBE)
+    assert bpy.ops.object.fairing_surface(energy="TOTAL_CURVATURE", levels=2) == {"FINISHED"}
+    surface = bpy.context.active_object
+    surface.scale = (3, 3, 3)
+    surface.data.vertices[20].co *= 1.1  # no control vertex
+    shown(surface)
+    told = capfd.readouterr().out
+    job = PatchJob(bpy.context, surface, WANTED)
+    job.compute()
+    assert job.apart == pytest.approx(3 * 0.1 * np.sqrt(3), rel=0.02)
+    assert "5e+02" not in told and "520 mm from the mesh shown" in told
+    box.data.vertices[0].co *= 2  # the surface is that of the mesh before
+    job = PatchJob(bpy.context, surface, WANTED)
+    job.compute()
+    assert job.apart > 1

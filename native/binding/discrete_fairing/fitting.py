@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -44,6 +44,7 @@ def fit_patches(
     levels: int | None = None,
     insist: bool = False,
     fair_tolerance: float | ArrayLike | None = None,
+    blend: Callable[[Result, int], np.ndarray] | None = None,
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -69,6 +70,9 @@ def fit_patches(
         are in patches.unresolved then.
     fair_tolerance : float or (n,) float, mesh units
         fair()'s own tolerance, with interpolation="approximate".
+    blend : callable (Result, level) -> (N, 3) float64
+        What patches are fitted to in place of the result's vertices, such as a mix of them with its
+        shapes. Called for each surface, at each level; patches.result has the outcome.
     threads, progress, monitor, **options
         As those of fair(): energy, creases, boundary and so on.
 
@@ -90,14 +94,27 @@ def fit_patches(
     runs = SeveralRuns(progress, monitor, whole("threads", threads))
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
+
+    def surface(level: int, **watchers: object) -> Result:
+        result = fair(points, polygons, level, **options, **watchers)
+        if blend is not None:
+            result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
+        return result
+
     if levels is None:
-        found = _at_own_level(run, points, polygons, options, runs)
+        halves = 1 if options.get("symmetry_plane") is None else 2
+        energy = options.get("energy", "thin_plate")
+
+        def count(level: int) -> int:
+            return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
+
+        found = _at_own_level(run, surface, count, runs)
     else:
         level = whole("levels", levels)
         if level < 2:
             raise fairing_error("BAD_OPTION", f"levels is {level}; it must be 2 or more, or None.")
-        coarser = fair(points, polygons, level - 1, **options, **runs.run(0.0, 0.1))
-        result = fair(points, polygons, level, **options, **runs.run(0.1, 0.6))
+        coarser = surface(level - 1, **runs.run(0.0, 0.1))
+        result = surface(level, **runs.run(0.1, 0.6))
         run.refuse(run.sharp_faces(result, level, runs.threads))
         error = change_between(coarser, result, level) / ORDER
         found = run.checked(run.fitted(result, level, error, runs.run(0.6, 1.0)))
@@ -105,14 +122,10 @@ def fit_patches(
     return found
 
 
-def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
-    """Finer and finer surfaces, until one serves or the next is too large."""
-    energy = options.get("energy", "thin_plate")
-    halves = 1 if options.get("symmetry_plane") is None else 2
-
-    def count(level):
-        return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
-
+def _at_own_level(run, surface, count, runs) -> SplinePatches:
+    """Finer and finer surfaces, until one serves or the next is too large. `surface`: one of a level;
+    `count`: how many points it has.
+    """
     level = FIRST_LEVEL
     turns, missing = None, 0.0
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:
@@ -122,7 +135,7 @@ def _at_own_level(run, points, polygons, options, runs) -> SplinePatches:
     finest = _finest(count, level)
     for at in range(level - 1, LAST_LEVEL + 1):
         part = done + 0.4 * (1 - done)
-        result = fair(points, polygons, at, **options, **runs.run(done, part))
+        result = surface(at, **runs.run(done, part))
         done = part
         if at < level:
             coarser = result

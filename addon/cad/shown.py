@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface as the window shows it, beside that which becomes patches: the same mix of shape keys, and
+how far the two are apart.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from .. import core, vertex_values
+from ..blender import Context, Object
+from ..inspection.curvature import cross, unit
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.shape_keys import ShapeKeys, mixed, read_shape_keys, shares
+from ..transfer.carrier import Carrier
+from ..transfer.lattice import Cells, make_cells
+
+Share = float | np.ndarray  # of a shape: one number, or one a control vertex
+
+
+def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
+    """The mesh of `shown` as its shape keys mix it, without modifiers, in its own coordinates."""
+    with control_mesh(context, shown) as mesh:
+        arrays = read_mesh(mesh)
+        keys = read_shape_keys(shown, len(arrays.positions))
+        if keys is None:
+            return arrays
+        count = len(arrays.positions)
+        positions = mixed(
+            keys,
+            lambda group: (
+                vertex_values.shares(shown, mesh, group)
+                if group in shown.vertex_groups
+                else np.ones(count)
+            ),
+        )
+    return replace(arrays, positions=positions)
+
+
+def shares_of(
+    shown: Object, keys: ShapeKeys, groups: Sequence[Any], vertex_count: int
+) -> dict[int, Share]:
+    """As `shares` has them: how much of each of the source's `keys` the sliders of `shown`, by the same
+    names, mix. `groups`: the vertex groups of the source.
+    """
+    owner: Any = shown.data.shape_keys
+    blocks = {} if owner is None else {block.name: block for block in owner.key_blocks}
+    names = [key.name for key in keys.keys]
+    set_up = []
+    for key in keys.keys:
+        block = blocks.get(key.name)
+        its = {"mute": block is None, "value": 0.0, "vertex_group": ""}
+        if block is not None:
+            its = {name: getattr(block, name) for name in its}
+        set_up.append(replace(key, settings={**key.settings, **its}))
+    active = getattr(shown.active_shape_key, "name", "")
+    mixing = replace(
+        keys,
+        keys=tuple(set_up),
+        active=names.index(active) if active in names else 0,
+        show_only=shown.show_only_shape_key,
+    )
+    dense = {group.name: group.dense(vertex_count) for group in groups}
+    return shares(mixing, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
+
+
+class Blend:
+    """For `discrete_fairing.fit_patches`: the surface and its shapes, mixed by `of_shapes`, one for each
+    shape; `arrays`: the control mesh.
+    """
+
+    def __init__(self, arrays: core.ControlArrays, of_shapes: Sequence[Share]) -> None:
+        self._arrays, self._shares = arrays, of_shapes
+
+    def __call__(self, result: Any, levels: int) -> np.ndarray:
+        found = result.vertices.copy()
+        for share, shape in zip(self._shares, result.shapes, strict=True):
+            if np.ndim(share):
+                share = Carrier(result, self._arrays, levels).point(np.asarray(share))
+            found += share * (shape - result.vertices)
+        return found
+
+
+def distance(
+    result: Any,
+    control: core.ControlArrays,
+    levels: int,
+    vertices: np.ndarray,
+    mesh: core.ControlArrays,
+) -> float | None:
+    """The largest distance, along normals, between the surface `result` of `levels` for the mesh
+    `control`, with its `vertices` (N, 3), and the `mesh` shown, in the same coordinates, at the points
+    of both. None where the mesh has other faces than such a surface.
+    """
+    carrier = Carrier(result, control, levels)
+    pairs = _same_points(carrier, levels, mesh.corners)
+    if pairs is None:
+        return None
+    there, here = pairs
+    normals = _normals(vertices, result.triangles)[here]
+    gap = np.einsum("ij,ij->i", mesh.positions[there] - vertices[here], normals)
+    return float(np.abs(gap).max(initial=0.0))
+
+
+def _same_points(
+    carrier: Carrier, levels: int, corners: np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Ids of the vertices of a refined mesh with the `corners` (c,), of any level, and of the vertices
+    of `carrier` at the same places of the control mesh; None where it has other faces.
+    """
+    at_level_0 = sum(patch.fine.size for patch in carrier.patches) >> 2 * levels
+    own = next((k for k in range(levels + 9) if at_level_0 << 2 * k == len(corners)), None)
+    if own is None or not at_level_0:
+        return None
+    common, first, pairs = min(own, levels), 0, []
+    for patch in carrier.patches:
+        faces, size = len(patch.faces.polygon), patch.faces.size
+        last = first + (faces * size << 2 * own)
+        cells = make_cells(size, own)
+        there = corners[first:last].reshape(faces, -1)[:, cells.first_corner]
+        here = patch.fine.reshape(faces, -1)[:, patch.cells.first_corner]
+        pairs.append(
+            (
+                there[:, _points_of(cells, own - common)].ravel(),
+                here[:, _points_of(patch.cells, levels - common)].ravel(),
+            )
+        )
+        first = last
+    ids, vertices = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
+    return ids, vertices
+
+
+def _points_of(cells: Cells, finer: int) -> np.ndarray:
+    """Those of the points that a face has with so many levels less, in their order."""
+    return np.flatnonzero((cells.points % 2**finer == 0).all(axis=1))
+
+
+def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(N, 3) unit normals, by the areas around."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    across = np.repeat(cross(b - a, c - a), 3, axis=0)
+    ids = triangles.ravel()
+    sums = [np.bincount(ids, across[:, axis], len(vertices)) for axis in range(3)]
+    return unit(np.stack(sums, axis=1))
