@@ -31,6 +31,7 @@ from .settings import Settings, for_source, halves, is_evaluated, is_limit, want
 from .transfer.carrier import Carrier
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
+from .transfer.seams import seam_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
 
@@ -117,6 +118,7 @@ class Job:
             self.notes.append(given_way)
         if self.settings.keep_symmetry:
             self._symmetrize()
+        self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
         self._taken = perf_counter() - begun
 
     @property
@@ -186,7 +188,8 @@ class Job:
         result, settings, source = self.result, self.settings, self.source
         old = self.target
         assert source is not None  # as is_writable has seen
-        sharp_pairs = fine_edges(result.faces, result.crease_edges, settings.levels)
+        creases = fine_edges(result.faces, result.crease_edges, settings.levels)
+        sharp_pairs = np.concatenate([creases, self._seams])
         carried = carried_names(self.data, self.keys)
         if old is None:
             materials = source.data.materials

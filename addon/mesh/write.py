@@ -12,6 +12,7 @@ from ..core import ControlArrays
 from ..settings import Settings
 from ..transfer.carrier import Carrier
 from ..transfer.lattice import fine_edges, mark_pairs
+from ..transfer.seams import seam_pairs
 from .boundary_marks import BOUNDARY
 from .fixed_normals import NORMAL
 from .layers import SurfaceData, fill_layer, make_layer, write_data
@@ -71,7 +72,8 @@ def rebuild_mesh(
 
     The mesh, its materials and the object's modifiers stay.
     """
-    refill_mesh(target, result, fine_edges(result.faces, result.crease_edges, level))
+    creases = fine_edges(result.faces, result.crease_edges, level)
+    refill_mesh(target, result, np.concatenate([creases, seam_pairs(result, arrays, settings)]))
     carrier = Carrier(result, arrays, level)
     write_data(target, data, carrier, attributes_left_out(settings), operators=False)
     write_pad_sizes(target.data, result, carrier)

@@ -132,3 +132,57 @@ def test_live_counts_both_halves(monkeypatch):
     session.follow(bpy.context.evaluated_depsgraph_get())
     assert session.level == 3
     half.discrete_fairing_live.on = False
+
+
+def half_boat():
+    """Half a hull: stem and keel in the plane y = 0, where the sides meet at an angle."""
+    stations, levels = np.meshgrid(np.linspace(0, 6, 7), np.linspace(0, 1, 4), indexing="ij")
+    breadth = np.sqrt(stations / 6) * (0.15 + 0.85 * levels)
+    breadth[0] = breadth[:, 0] = 0.0
+    points = np.stack([stations, breadth, levels + 0.02 * (6 - stations)], axis=-1)
+    faces = [
+        (4 * i + j, 4 * i + 4 + j, 4 * i + 5 + j, 4 * i + 1 + j) for i in range(6) for j in range(3)
+    ]
+    return add("Boat", points.reshape(-1, 3).tolist(), faces)
+
+
+def seam(target, axis):
+    """Sharp and all edges of the border that lie in the plane of that axis."""
+    mesh = target.data
+    uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
+    flat = np.abs(positions(target)[:, axis]) < 1e-6
+    edges = [e for e in mesh.edges if uses[e.index] == 1 and flat[list(e.vertices)].all()]
+    others = [e for e in mesh.edges if e not in edges]
+    assert not any(e.use_edge_sharp for e in others)
+    return sum(e.use_edge_sharp for e in edges), len(edges)
+
+
+def test_stem_and_keel_of_half_a_hull_are_sharp():
+    source = half_boat()
+    half = fair(source, levels=3)
+    assert seam(half, 1) == (72, 72)
+    half.discrete_fairing_live.on = True
+    source.data.vertices[9].co.y += 0.1
+    source.data.update()
+    bpy.context.view_layer.update()
+    assert seam(half, 1) == (72, 72)
+    half.discrete_fairing_live.on = False
+
+
+def test_a_creased_seam_that_was_faired_across_is_sharp():
+    source = half_boat()
+    crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE")
+    for edge in source.data.edges:
+        if all(abs(source.data.vertices[v].co.y) < 1e-6 for v in edge.vertices):
+            crease.data[edge.index].value = 1.0
+    assert seam(fair(source, symmetry_plane="Y"), 1) == (72, 72)
+
+
+def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
+    assert seam(fair(half_bowl(), symmetry_plane="X"), 0) == (0, 48)
+    x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")
+    points = np.stack([x, y, 0.3 * (x**2 + y**2)], axis=-1).reshape(-1, 3)
+    faces = [
+        (5 * i + j, 5 * i + 5 + j, 5 * i + 6 + j, 5 * i + 1 + j) for i in range(4) for j in range(4)
+    ]
+    assert seam(fair(add("Dish", points.tolist(), faces)), 0) == (0, 32)

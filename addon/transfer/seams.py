@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams of half a mesh: where its border lies in a coordinate plane, and a Mirror modifier would join it
+to its image.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from .. import core
+from ..core import ControlArrays
+from .lattice import edge_table
+from .mirror import AXES
+
+
+def seam_pairs(
+    result: Any,
+    arrays: ControlArrays,
+    settings: Any,
+    edges: tuple[np.ndarray, np.ndarray] | None = None,
+) -> np.ndarray:
+    """(k, 2) refined edges of the core's `result` for the mesh `arrays`, both in the coordinates of the
+    object, on seams that are a fold: where a connected seam turns somewhere by more than the crease
+    angle of the `settings`, all of it, so that the fold does not end where it gets flat. A surface
+    that was faired across its symmetry plane has none there. `edges`: as `edge_table` has them.
+    """
+    axes = [axis for axis in _half_axes(arrays) if AXES[axis] != settings.symmetry_plane]
+    found = [np.empty((0, 2), np.int32)]
+    if axes:
+        table, corner_edges = edges or edge_table(result.faces)
+        border = np.flatnonzero(np.bincount(corner_edges, minlength=len(table)) == 1)
+        normals = _normals_beside(result, border, corner_edges)
+        near = _reach(result.vertices)
+    for axis in axes:
+        flat = (np.abs(result.vertices[table[border], axis]) <= near).all(axis=1)
+        pairs, along = table[border[flat]], normals[flat, axis]
+        part = core.module().patches.connected_parts(len(result.vertices), pairs)[pairs[:, 0]]
+        # from the normal of a face to that of its image
+        turns = np.arccos(np.clip(1.0 - 2.0 * along**2, -1.0, 1.0))
+        found.append(pairs[np.isin(part, part[turns > settings.crease_angle])])
+    return np.concatenate(found)
+
+
+def _reach(points: np.ndarray) -> float:
+    """How far from a plane points may be and lie in it."""
+    return float(core.module().halves.SNAP * np.ptp(points, axis=0).max(initial=0.0))
+
+
+def _half_axes(arrays: ControlArrays) -> list[int]:
+    """The axes on one side of whose plane the whole mesh lies, with border edges in it."""
+    ends = arrays.positions[arrays.edges[arrays.edge_uses == 1]]
+    used = arrays.positions[arrays.corners]
+    if not len(ends):
+        return []
+    near = _reach(used)
+    low, high = used.min(axis=0), used.max(axis=0)
+    one_side = ((low >= -near) != (high <= near)) & (np.abs(ends) <= near).all(axis=1).any(axis=0)
+    return [int(axis) for axis in np.flatnonzero(one_side)]
+
+
+def _normals_beside(result: Any, border: np.ndarray, corner_edges: np.ndarray) -> np.ndarray:
+    """(b, 3): the unit normal of the one face at each of the edges `border` (b,), rising."""
+    corner = np.flatnonzero(np.isin(corner_edges, border))
+    corner = corner[np.argsort(corner_edges[corner])]
+    triangles, quads = result.faces
+    out = np.empty((len(border), 3))
+    of_quad = corner >= triangles.size
+    for faces, chosen, first in ((triangles, ~of_quad, 0), (quads, of_quad, triangles.size)):
+        size = faces.shape[1]
+        points = result.vertices[faces[(corner[chosen] - first) // size]]
+        # the diagonals of a quad, two sides of a triangle
+        out[chosen] = np.cross(points[:, 2] - points[:, 0], points[:, -1] - points[:, 1])
+    length = np.linalg.norm(out, axis=1, keepdims=True)
+    return out / np.where(length > 0.0, length, 1.0)
