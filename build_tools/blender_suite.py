@@ -124,8 +124,8 @@ def left_to_others(place: str) -> set[str]:
 def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     """Every script whose name contains `wanted`, but for some, in one Blender that has the extension."""
     folder = blender.exchange / SCRIPTS.name
-    for scripts in (SCRIPTS, EXAMPLES):  # whose models are tried
-        ignored = shutil.ignore_patterns("__pycache__")
+    ignored = shutil.ignore_patterns("__pycache__", "images", "notes")
+    for scripts in (SCRIPTS, EXAMPLES, ROOT / "docs"):  # whose models and calls are tried
         shutil.copytree(scripts, blender.exchange / scripts.name, ignore=ignored)
     (blender.exchange / "screenshots").mkdir()
     kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
