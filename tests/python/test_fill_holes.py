@@ -443,6 +443,19 @@ def test_a_noisy_rim_is_not_carried_on():
     assert refused(vertices, faces, rim="rough").code == "BAD_OPTION"
 
 
+def test_a_filling_that_crosses_somewhere_is_fair_elsewhere():
+    """At a ragged rim with noise of half an edge: only faces in the way stay as they were triangulated."""
+    whole, all_faces = sphere(4)
+    noise = np.random.default_rng(4).standard_normal((len(whole), 1))
+    gone = ragged(all_faces, 200, random.Random(4))
+    vertices, faces = cut(whole * (1 + 0.05 * noise), all_faces, gone)
+    filled = df.fill_holes(vertices, faces)
+    (hole,) = filled.holes
+    assert (hole.energy, hole.folds, hole.crossings) == ("total_curvature", 0, 0)
+    radii = np.linalg.norm(filled.vertices[len(vertices) :], axis=1)
+    assert np.sqrt(((radii - 1) ** 2).mean()) < 0.05  # 0.086 all over as it was triangulated
+
+
 def refused(*arguments, **settings):
     with pytest.raises(df.FairingError) as caught:
         df.fill_holes(*arguments, **settings)

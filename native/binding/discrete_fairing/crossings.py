@@ -22,15 +22,22 @@ def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> li
     return [Filling(f.own, places[f.faces], f.first + shift, f.made) for f in numbered]
 
 
-def crossing_faces(whole: MeshPart, fillings: Sequence[Filling], watched: SeveralRuns) -> list[int]:
-    """How many faces of each filling, with ids as in_whole() has them, pass through a face of the mesh
-    or of a filling. Faces that share a vertex do not.
+def crossing_faces(
+    whole: MeshPart,
+    fillings: Sequence[Filling],
+    watched: SeveralRuns,
+    rows: Sequence[int] | None = None,
+) -> list[np.ndarray]:
+    """Which faces of each filling, or of these `rows`, with ids as in_whole() has them, pass through a face
+    of the mesh or of a filling. Faces that share a vertex do not.
     """
+    rows = range(len(fillings)) if rows is None else rows
     points = np.concatenate([whole.points, *(f.own for f in fillings)])
     split = [_split(f.faces) for f in fillings]
-    new = np.concatenate(split)
+    new = np.concatenate([split[row] for row in rows])
     around = points[np.unique(new)]
     near = whole.corner_fans(_overlapping(whole, around.min(axis=0), around.max(axis=0)))
+    near = np.concatenate([near, *(s for row, s in enumerate(split) if row not in rows)])
     quiet = watched.run(1.0, 1.0)
     found = _native._crossings(
         points,
@@ -39,13 +46,10 @@ def crossing_faces(whole: MeshPart, fillings: Sequence[Filling], watched: Severa
         quiet["monitor"],
         quiet["progress"],
     )
-    faces = [
-        np.arange(len(s)) // (f.faces.shape[1] - 2) for s, f in zip(split, fillings, strict=True)
-    ]
-    ends = np.cumsum([len(near), *map(len, split)])
+    ends = np.cumsum([len(near), *(len(split[row]) for row in rows)])
     return [
-        len(np.unique(of_face[found[(found >= a) & (found < b)] - a]))
-        for of_face, a, b in zip(faces, ends[:-1], ends[1:], strict=True)
+        np.unique((found[(found >= a) & (found < b)] - a) // (fillings[row].faces.shape[1] - 2))
+        for row, a, b in zip(rows, ends[:-1], ends[1:], strict=True)
     ]
 
 
@@ -72,33 +76,41 @@ def with_less_crossing(
     watched: SeveralRuns,
 ) -> tuple[list[Filling], list[int]]:
     """`fillings`, with ids of `part`, and how many faces of each cross. In the place of what crosses the
-    first other way that neither crosses nor folds, or that with the fewest faces and edges that do: flatter
-    ones, on the triangles of the first round.
+    first other way that neither crosses nor folds, or that with the fewest faces and edges that do, on the
+    triangles of the first round: what was wanted, but for the places where it crosses or folds, which
+    stay as they were triangulated; and flatter ones.
     """
     chosen = list(fillings)
 
-    def crossing() -> list[int]:
-        return crossing_faces(whole, in_whole(whole, part, chosen), watched)
+    def crossing(rows: Sequence[int] | None = None) -> list[np.ndarray]:
+        return crossing_faces(whole, in_whole(whole, part, chosen), watched, rows)
 
-    counts = crossing() if chosen else []
+    counts = list(map(len, crossing())) if chosen else []
     first = len(part.points)
+    tried = False
     for row, (own, triangles) in enumerate(triangulated):
         others = [f.faces for k, f in enumerate(chosen) if k != row]
         if (
-            counts[row]
+            (counts[row] or chosen[row].made.stands_in)
             and chosen[row].faces.shape[1] == 3
             and not share_edges(triangles, others, len(part.points))
         ):
+            tried = True
             near = NearHole(part, own, triangles, first)
-            for moved, made in near.other_ways(
-                wanted.energy, wanted.joint, wanted.noisy, watched.run(1.0, 1.0)
-            ):
-                before, was = chosen[row], counts
+            run = watched.run(1.0, 1.0)
+            best, least = chosen[row], (counts[row], chosen[row].made.folds)
+            ways = near.other_ways(wanted.energy, wanted.joint, wanted.noisy, run)
+            for moved, made in ways:
                 chosen[row] = Filling(moved, triangles, first, made)
-                counts = crossing()
-                if counts[row] + made.folds >= was[row] + before.made.folds:
-                    chosen[row], counts = before, was
-                elif not counts[row] and not made.folds:
+                (faces,) = crossing([row])
+                near.hold(faces, moved)
+                now = len(faces), made.folds
+                if sum(now) < sum(least) or (best.made.stands_in and now <= least):
+                    best, least = chosen[row], now
+                if not any(now):
                     break
+            chosen[row] = best
         first += len(own)
+    if tried:
+        counts = list(map(len, crossing()))
     return chosen, counts

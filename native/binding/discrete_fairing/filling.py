@@ -93,10 +93,10 @@ def fill_holes(
         planes (of one ring of faces), or the curvature (of two rings).
     energy : "total_curvature", "thin_plate" or "minimum_variation"
         As in fair(). Where it folds, or grows, it goes on from its own shape on new triangles, four times
-        at most. Where it still folds, or passes through other faces, the thin
-        plate takes its place, then the thin plate with the tangent alone, then the triangulation spread
-        as a membrane, and where all fold that without new vertices (FilledHole.energy,
-        FilledHole.joint).
+        at most. Where it still folds, or passes through other faces, the vertices there stay as they were
+        triangulated. Where that does not help, the thin plate takes its place, then the thin plate with
+        the tangent alone, then the triangulation spread as a membrane, and where all fold that without
+        new vertices (FilledHole.energy, FilledHole.joint).
     density : float
         New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
         new vertices, but where the mesh would get an edge twice.

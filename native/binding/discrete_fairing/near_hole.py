@@ -33,6 +33,11 @@ class Made:
     folds: int
     ignored: tuple[int, ...] = ()  # faces around, of the whole mesh
 
+    @property
+    def stands_in(self) -> bool:
+        """Whether it is the triangulation, for a surface that was asked for."""
+        return self.energy == "none" and not self.converged
+
 
 # Codes of fair() that say nothing of a hole.
 _NOT_OF_A_HOLE = ("CANCELLED", "OUT_OF_MEMORY", "FORKED")
@@ -48,6 +53,7 @@ class NearHole:
         self._rim = np.unique(faces[faces < len(mesh.points)])
         self._beside = _SidesBehind(mesh, self._rim, faces)
         self._ignored = np.empty(0, np.int64)  # faces around that fair() has refused
+        self._held = np.zeros(len(own), bool)  # which of its own vertices stay
 
     def faired(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
@@ -78,13 +84,32 @@ class NearHole:
     def other_ways(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> Iterator[tuple[np.ndarray, Made]]:
-        """The places of its own vertices by each way but the one that was asked for, if it is faired."""
+        """The places of its own vertices by the way that was asked for, again and again while hold() gets
+        more of them, and by each other way, if it is faired.
+        """
+        for functional, meeting in list(_ways(energy, joint))[: 1 if len(self._own) else 0]:
+            known = -1
+            while self._held.sum() > known:
+                known = int(self._held.sum())
+                found = self._solved(functional, meeting, noisy, watchers)
+                if found is None:
+                    break
+                yield found
+        self._held[:] = False
         for functional, meeting in list(_ways(energy, joint))[1:]:
             found = self._solved(functional, meeting, noisy, watchers)
             if found is not None:
                 yield found
         if joint != "position":
             yield self._own, self.as_triangulated(True)
+
+    def hold(self, faces: np.ndarray, own: np.ndarray) -> None:
+        """Keeps the vertices of these faces, and of those that fold with its vertices at `own`, and of all
+        faces beside, where they are."""
+        bad = np.union1d(faces, self._beside.folding(self._normals(own)))
+        beside = np.isin(self._faces, self._faces[bad]).any(axis=1)
+        mine = self._faces[beside] - self._first
+        self._held[mine[mine >= 0]] = True
 
     def as_triangulated(self, stands_in: bool = False) -> Made:
         """Not faired; `stands_in`: for a surface that was asked for."""
@@ -144,7 +169,7 @@ class NearHole:
             levels=0,
             energy=energy,
             interpolation="approximate",
-            weights=np.concatenate([weights, np.zeros(len(self._own))]),
+            weights=np.concatenate([weights, np.where(self._held, np.inf, 0.0)]),
             **watchers,
         )
         levels = result.report.get("curvature") or [{"converged": True}]
@@ -215,6 +240,12 @@ class _SidesBehind:
         at = rows[np.searchsorted(keys[rows], wanted)]
         self._at_rim = owner[alone]
         self._behind = normals[np.repeat(np.arange(len(faces)), sizes)[at]]
+
+    def folding(self, normals: np.ndarray) -> np.ndarray:
+        """Faces with an edge that turns by more than a right angle, of faces with these `normals`."""
+        inside = (normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0
+        at_rim = (normals[self._at_rim] * self._behind).sum(axis=1) < 0.0
+        return np.union1d(self._pairs[:, inside], self._at_rim[at_rim])
 
     def folds(self, normals: np.ndarray) -> int:
         """How many edges turn by more than a right angle, of faces with these `normals` (t, 3)."""
