@@ -22,6 +22,8 @@ REMEDIES = {
     "DEGENERATE_FACE": "Run Mesh > Clean Up > Degenerate Dissolve",
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
+    "OPEN_HOLE": "Fill them with Fill Hole Fair, unless the surface is meant to be open there",
+    "CROSSING_FACES": "Select these and the faces around (Ctrl Numpad +), and replace them with Fill Hole Fair",
     "UNDERDETERMINED": "Set Vertices to Through, or a smaller tolerance",
     "TOO_EXTREME": "Move far vertices back to the others or delete them, and even out very thin faces",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
@@ -63,6 +65,8 @@ _WHAT = {
         "vertices lie on others without being joined",
     ),
     "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
+    "OPEN_HOLE": ("edge is at a hole", "edges are at holes"),
+    "CROSSING_FACES": ("face passes through others", "faces pass through others"),
     "UNRESOLVED": (
         "face has a surface that folds or turns too sharply for patches",
         "faces have a surface that folds or turns too sharply for patches",

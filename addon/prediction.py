@@ -19,6 +19,7 @@ _AT_FIRST = {
     "MINIMUM_VARIATION": 1e-3,
     "STRAIN": 6e-5,  # some eight thin plates
     "EASE": 1.2e-4,
+    "CLEAN": 4e-5,
 }
 
 _of_mesh: dict[tuple[Hashable, str], float] = {}  # (mesh, energy): seconds a triangle

@@ -124,6 +124,6 @@ _FORMS = {
     "made": _dict({"settings": _any_dict, "source": _whole}),
     "defects": _dict(
         {"defects": _all(_defect), "counts": _all(_whole)},
-        {"holes": _all(_dict({"edges": _id, "at": _pair}))},
+        {"holes": _all(_dict({"edges": _id, "at": _pair})), "cleaned": _all(_text)},
     ),
 }

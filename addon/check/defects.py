@@ -25,7 +25,14 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
     with control_mesh(context, target) as mesh:
         arrays = read_mesh(mesh)
     found = core.module().check(arrays.positions, (arrays.corners, arrays.offsets))
-    defects = [
+    defects = as_dicts(found)
+    store_defects(context, target, defects, listed(arrays))
+    return defects
+
+
+def as_dicts(found: Sequence[Any]) -> list[dict[str, Any]]:
+    """The core's defects as they are remembered."""
+    return [
         {
             "code": defect.code,
             "message": defect.message,
@@ -35,8 +42,6 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
         }
         for defect in found
     ]
-    store_defects(context, target, defects, listed(arrays))
-    return defects
 
 
 def store_defects(
@@ -44,17 +49,26 @@ def store_defects(
     target: Object,
     defects: list[dict[str, Any]],
     holes: list[dict[str, Any]] | None = None,
+    cleaned: Sequence[str] = (),
 ) -> None:
-    """Remembers what a check of `target`, as it is now, has found. `holes`: None: those known."""
+    """Remembers what a check of `target`, as it is now, has found. `holes`: None: those known.
+    `cleaned`: what Clean Scan has done to it just before, a sentence each.
+    """
     if holes is None:
-        holes = recall_holes(target)
+        holes, cleaned = recall_holes(target), recall_cleaned(target)
     counts = mesh_changes.watch(context, target.data)
-    memory.keep(target, "defects", {"defects": defects, "holes": holes, "counts": counts})
+    record = {"defects": defects, "holes": holes, "cleaned": list(cleaned), "counts": counts}
+    memory.keep(target, "defects", record)
 
 
 def recall_holes(target: Object) -> list[dict[str, Any]]:
     """The holes that the last check listed: for each how many `edges`, and one of them, `at`."""
     return (memory.recall(target, "defects") or {}).get("holes", [])
+
+
+def recall_cleaned(target: Object) -> list[str]:
+    """What Clean Scan has done since the last check, a sentence each."""
+    return (memory.recall(target, "defects") or {}).get("cleaned", [])
 
 
 def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:

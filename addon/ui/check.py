@@ -8,7 +8,7 @@ import bpy
 from .. import errors
 from ..blender import Context, registration
 from ..check import repair
-from ..check.defects import recall_defects, recall_holes
+from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from .layout import Folded
 from .notice import draw_notice
 
@@ -21,6 +21,7 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
     def draw(self, context: Context) -> None:
         layout = self.layout
         layout.operator("object.fairing_check", icon="CHECKMARK")
+        layout.operator("object.fairing_clean", icon="BRUSH_DATA")
         target = context.active_object
         if target is None or target.type != "MESH":
             return
@@ -28,6 +29,8 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
         if known is None:
             return
         defects, stale = known
+        for sentence in recall_cleaned(target):
+            draw_notice(layout, sentence, icon="DOT")
         if stale:
             draw_notice(layout, "The mesh was changed since: press Check Mesh again", icon="INFO")
         elif not defects:

@@ -37,6 +37,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.menu(VIEW3D_MT_fairing_for.__name__)
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         layout.operator("object.fairing_scan")
+        layout.operator("object.fairing_clean")
         layout.operator("object.fairing_fill")
         layout.operator("object.fairing_curves", text="Fair Surface from Curves (Loft, Network)")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")

@@ -17,6 +17,9 @@ void bind_solver(pybind11::module_& m);
 // Adds the class Filler, which the package's find_holes() and fill_holes() use.
 void bind_fill(pybind11::module_& m);
 
+// Adds mended(), to_flip() and joined(), which the package's clean() uses.
+void bind_clean(pybind11::module_& m);
+
 // Adds require_strain(), strain() and ease(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 

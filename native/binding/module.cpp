@@ -156,6 +156,7 @@ PYBIND11_MODULE(_native, m) {
   bind_outline(m);
   bind_splines(m);
   bind_fill(m);
+  bind_clean(m);
   bind_end();
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;

@@ -9,6 +9,7 @@
 from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
+from .cleaning import Act, Cleaned, clean
 from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
@@ -23,6 +24,8 @@ from .step import write_step
 from .strain import Strain, strain
 
 __all__ = [
+    "Act",
+    "Cleaned",
     "Defect",
     "Eased",
     "FairingError",
@@ -39,6 +42,7 @@ __all__ = [
     "Strain",
     "__version__",
     "check",
+    "clean",
     "ease",
     "fair",
     "fill_holes",

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scan made into a closed surface, in its own mesh."""
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any, cast
+
+import numpy as np
+
+from . import core, errors, prediction
+from .blender import Context, Object
+from .check.defects import as_dicts, store_defects
+from .check.holes import listed
+from .mesh.object import Reference
+from .mesh.read import control_mesh, read_mesh
+from .mesh.world_shape import world_shape
+from .mesh.write_cleaned import Cleaned, write_cleaned
+
+
+@dataclass(frozen=True)
+class Wish:
+    """Arguments of discrete_fairing.clean."""
+
+    steps: dict[str, bool]
+    islands: float
+    largest: float
+
+
+class CleanJob:
+    """One object: read, cleaned on any thread, then written."""
+
+    def __init__(self, context: Context, target: Object, wish: Wish) -> None:
+        self.name, self._target, self._wish = target.name, Reference(target), wish
+        self._mode, self._shape = target.mode, world_shape(target)
+        self.result: Any = None
+        with control_mesh(context, target) as mesh:
+            self._arrays = read_mesh(mesh)
+        self.triangles = int((self._arrays.face_sizes - 2).sum())
+
+    @property
+    def _key(self) -> Hashable:
+        """For predictions."""
+        return "clean", self._target.key
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return prediction.seconds("CLEAN", self.triangles, self._key)
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core; `watchers` are its `monitor` and `progress`."""
+        begun = perf_counter()
+        arrays = self._arrays
+        with errors.explained(self.name, errors.WITHOUT_MENDING):
+            self.result = core.module().clean(
+                self._shape.of(arrays.positions),
+                (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
+                islands=self._wish.islands,
+                largest=self._wish.largest,
+                fixed=_marked(arrays),
+                **self._wish.steps,
+                **watchers,
+            )
+        self._taken = perf_counter() - begun
+
+    def why_outdated(self, context: Context) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+        target = self._target.find()
+        if target is not None and target.mode == self._mode:
+            with control_mesh(context, target) as mesh:
+                now = read_mesh(mesh)
+            if (
+                core.same_faces(now, self._arrays)
+                and np.array_equal(now.positions, self._arrays.positions)
+                and self._shape == world_shape(target)
+            ):
+                return ""
+        return f"Clean once more: {self.name} was edited during the run, and nothing has changed."
+
+    def apply(self, context: Context) -> list[str]:
+        """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""
+        target, found = cast(Object, self._target.find()), self.result
+        origin = found.vertex_origin[found.vertex_origin >= 0]
+        sent = self._shape.of(self._arrays.positions)[origin]
+        flat = isinstance(found.faces, tuple)
+        corners = found.faces[0] if flat else found.faces.ravel()
+        offsets = found.faces[1] if flat else np.arange(len(found.faces) + 1) * 3
+        made = Cleaned(
+            self._shape.back(found.vertices, sent, self._arrays.positions[origin]),
+            found.vertices,
+            corners,
+            offsets,
+            found.vertex_origin,
+            found.face_origin,
+            found.corner_origin,
+        )
+        said = [act.text[:1].upper() + act.text[1:] for act in found.done] or ["Nothing to do"]
+        said.append(self._end())
+        if found.done:
+            write_cleaned(target, self._arrays, made)
+        with control_mesh(context, target) as mesh:
+            arrays = read_mesh(mesh)
+        store_defects(context, target, self._left(arrays, made), listed(arrays), said)
+        prediction.note("CLEAN", self.triangles, self._taken, self._key)
+        return said
+
+    def _end(self) -> str:
+        found = self.result
+        if found.watertight:
+            begin = f"Watertight: yes; volume {found.volume:.6g} in cubed scene units"
+        else:
+            begin = "Watertight: no"
+        left = "; ".join(errors.what(defect).rstrip(".") for defect in as_dicts(found.left))
+        return f"{begin}; left: {left or 'nothing'}"
+
+    def _left(self, arrays: core.ControlArrays, made: Cleaned) -> list[dict[str, Any]]:
+        """What is left, its elements as the mesh numbers them now."""
+        found = as_dicts(self.result.left)
+        vertex, face = _numbers(arrays, made)
+        for defect in found:
+            if defect["kind"] == "face":
+                ids = [face.get(frozenset(made.corners[made.offsets[f] : made.offsets[f + 1]].tolist())) for f in defect["elements"]]  # fmt: skip
+                defect["elements"] = [i for i in ids if i is not None]
+            elif defect["kind"] == "vertex":
+                defect["elements"] = vertex[defect["elements"]].tolist()
+            elif defect["kind"] == "edge":
+                defect["elements"] = vertex[np.array(defect["elements"])].tolist()
+        return found
+
+
+def _numbers(
+    arrays: core.ControlArrays, made: Cleaned
+) -> tuple[np.ndarray, dict[frozenset[int], int]]:
+    """(N,) the vertex of the mesh now that each is; and by its vertices as they were made the face that
+    it is. Places tell: BMesh numbers what it makes on its own.
+    """
+    order = {tuple(p): i for i, p in enumerate(arrays.positions.astype(np.float32).tolist())}
+    places = made.positions.astype(np.float32).tolist()
+    vertex = np.array([order.get(tuple(p), 0) for p in places], np.int64)
+    back = np.full(len(arrays.positions), -1)
+    back[vertex] = np.arange(len(vertex))
+    named = back[arrays.corners].tolist()
+    ends = arrays.offsets.tolist()
+    faces = {
+        frozenset(named[a:b]): f for f, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True))
+    }
+    return vertex, faces
+
+
+def _marked(arrays: core.ControlArrays) -> np.ndarray:
+    """(n,) vertices with a crease, or on edges with one, or on sharp ones: these are meant."""
+    found = np.zeros(len(arrays.positions), bool)
+    if arrays.vertex_crease is not None:
+        found |= arrays.vertex_crease > 0.0
+    for marks in (arrays.edge_crease, arrays.sharp_edge):
+        if marks is not None:
+            found[arrays.edges[marks > 0]] = True
+    return found

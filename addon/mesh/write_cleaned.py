@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh that Clean Scan has cleaned, written to the mesh that it was: by BMesh, and only where
+something changed, so that all that lies on the rest stays.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bmesh
+import numpy as np
+
+from ..blender import Object
+from ..core import ControlArrays
+from ..transfer.filling import Patch
+from .write_filling import write_hole
+
+
+@dataclass(frozen=True)
+class Cleaned:
+    """As discrete_fairing.Cleaned, with flat faces."""
+
+    positions: np.ndarray  # (N, 3) in the object's coordinates
+    points: np.ndarray  # (N, 3) in the shape that it has in the world
+    corners: np.ndarray
+    offsets: np.ndarray
+    vertex_origin: np.ndarray
+    face_origin: np.ndarray
+    corner_origin: np.ndarray
+
+    @property
+    def known(self) -> int:
+        """How many vertices were there before; all others follow."""
+        return int((self.vertex_origin >= 0).sum())
+
+
+def write_cleaned(target: Object, arrays: ControlArrays, made: Cleaned) -> None:
+    """Makes the mesh of `target`, which is `arrays`, what was `made` of it, in whatever mode."""
+    mesh = target.data
+    if target.mode == "EDIT":
+        _change(bmesh.from_edit_mesh(mesh), arrays, made)
+        bmesh.update_edit_mesh(mesh)
+        return
+    bm = bmesh.new()
+    try:
+        bm.from_mesh(mesh)
+        _change(bm, arrays, made)
+        bm.to_mesh(mesh)
+        mesh.update()
+    finally:
+        bm.free()
+
+
+def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
+    for elements in (bm.verts, bm.edges, bm.faces):
+        elements.ensure_lookup_table()
+    old_verts, old_faces = list(bm.verts), list(bm.faces)
+    with_faces = [bm.edges[e] for e in np.flatnonzero(arrays.edge_uses).tolist()]
+    verts = _vertices(bm, arrays, made, old_verts)
+    state = _states(arrays, made)
+    for row in np.flatnonzero(state == _TURNED).tolist():
+        old_faces[int(made.face_origin[row])].normal_flip()
+    kept = np.zeros(len(old_faces), bool)
+    kept[made.face_origin[(state == _SAME) | (state == _TURNED)]] = True
+    other = np.flatnonzero(state == _OTHER).tolist()
+    dropped = np.flatnonzero(~np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
+    bmesh.ops.delete(bm, geom=[old_faces[f] for f in dropped], context="FACES_ONLY")
+    for row in other:
+        _make_again(bm, arrays, made, row, verts, old_verts, old_faces)
+    again = np.flatnonzero(~kept & np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
+    bmesh.ops.delete(bm, geom=[old_faces[f] for f in again], context="FACES_ONLY")
+    _fill(bm, made, verts)
+    for edge in with_faces:
+        if edge.is_valid and not edge.link_faces:
+            bm.edges.remove(edge)
+    for vertex in old_verts:
+        if vertex.is_valid and not vertex.link_edges:
+            bm.verts.remove(vertex)
+    bm.normal_update()
+
+
+def _vertices(bm: Any, arrays: ControlArrays, made: Cleaned, old: Sequence[Any]) -> list[Any]:
+    """The vertex of each that was there before; copies are made, and those that have moved are moved,
+    by as much in all shape keys.
+    """
+    keys = bm.verts.layers.shape.values()
+    origin = made.vertex_origin[: made.known]
+    first = np.zeros(len(origin), bool)
+    first[np.unique(origin, return_index=True)[1]] = True
+    way = made.positions[: len(origin)] - arrays.positions[origin]
+    moved = (way != 0.0).any(axis=1)
+    verts = [old[o] for o in origin.tolist()]
+    for row in np.flatnonzero(~first).tolist():
+        like = verts[row]
+        verts[row] = bm.verts.new(like.co, like)
+    for row in np.flatnonzero(moved).tolist():
+        vertex, (x, y, z) = verts[row], way[row].tolist()
+        for key in keys:
+            place = vertex[key]
+            vertex[key] = (place[0] + x, place[1] + y, place[2] + z)
+        vertex.co = made.positions[row].tolist()
+    return verts
+
+
+_SAME, _TURNED, _OTHER, _NEW = range(4)
+
+
+def _states(arrays: ControlArrays, made: Cleaned) -> np.ndarray:
+    """(M,) what has become of the old face that each comes from."""
+    origin = made.face_origin
+    sizes = np.diff(made.offsets)
+    old = origin >= 0
+    f = np.where(old, origin, 0)
+    fits = old & (sizes == arrays.face_sizes[f]) & (np.bincount(f[old], minlength=1)[f] == 1)
+    starts = np.repeat(arrays.offsets[f], sizes)
+    place = np.arange(len(made.corners)) - np.repeat(made.offsets[:-1], sizes)
+    turned_place = np.where(place == 0, 0, np.repeat(sizes, sizes) - place)
+    origin_v = made.vertex_origin[made.corners]
+    first = np.zeros(len(made.vertex_origin), bool)
+    known = made.vertex_origin[: made.known]
+    first[np.unique(known, return_index=True)[1]] = True
+    own = first[made.corners]
+    corner = np.where(made.corner_origin >= 0, made.corner_origin, 0)
+    own &= (made.corner_origin >= 0) & (origin_v == arrays.corners[corner])
+
+    def all_of(flags: np.ndarray) -> np.ndarray:
+        return np.logical_and.reduceat(flags, made.offsets[:-1])
+
+    same = fits & all_of(own & (made.corner_origin == starts + place))
+    turned = fits & all_of(own & (made.corner_origin == starts + turned_place))
+    found = np.where(old, _OTHER, _NEW)
+    found[turned] = _TURNED
+    found[same] = _SAME
+    return found
+
+
+def _make_again(
+    bm: Any,
+    arrays: ControlArrays,
+    made: Cleaned,
+    row: int,
+    verts: Sequence[Any],
+    old_verts: Sequence[Any],
+    old_faces: Sequence[Any],
+) -> None:
+    """A face with other vertices than before, in the place of one that goes; corners and edges take
+    what theirs had.
+    """
+    span = slice(int(made.offsets[row]), int(made.offsets[row + 1]))
+    origins = made.corner_origin[span].tolist()
+    face = old_faces[int(made.face_origin[row])]
+    begin = int(arrays.offsets[made.face_origin[row]])
+    end = int(arrays.offsets[made.face_origin[row] + 1])
+    corners = [verts[v] for v in made.corners[span].tolist()]
+    known = [bm.edges.get((a, b)) for a, b in _around(corners)]
+    fresh = bm.faces.new(corners, face)
+    for corner, origin in zip(fresh.loops, origins, strict=True):
+        if begin <= origin < end:
+            corner.copy_from(face.loops[origin - begin])
+    before = [old_verts[v] for v in arrays.corners[origins].tolist()]
+    for corner, there, (a, b) in zip(fresh.loops, known, _around(before), strict=True):
+        edge = bm.edges.get((a, b)) if there is None and a != b else None
+        if edge is not None:
+            corner.edge.copy_from(edge)
+
+
+def _around(items: Sequence[Any]) -> list[tuple[Any, Any]]:
+    return list(zip(items, [*items[1:], items[0]], strict=True))
+
+
+def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
+    """The faces that are new, one filling after another."""
+    for faces in _fillings(made):
+        patch = Patch.of(faces, made.points, made.known)
+        rim = [verts[v] for v in patch.rim.tolist()]
+        write_hole(bm, patch, rim, made.positions[patch.fresh])
+
+
+def _fillings(made: Cleaned) -> list[np.ndarray]:
+    """(t, 3) ids of the new faces that hang together by edges, of each filling."""
+    rows = np.flatnonzero(made.face_origin < 0)
+    faces = [made.corners[made.offsets[r] : made.offsets[r + 1]].tolist() for r in rows.tolist()]
+    lead = list(range(len(faces)))
+
+    def find(i: int) -> int:
+        while lead[i] != i:
+            lead[i] = i = lead[lead[i]]
+        return i
+
+    beside: dict[frozenset[int], int] = {}
+    for number, face in enumerate(faces):
+        for side in map(frozenset, _around(face)):
+            other = beside.setdefault(side, number)
+            a, b = find(number), find(other)
+            lead[max(a, b)] = min(a, b)
+    groups: dict[tuple[int, int], list[list[int]]] = {}
+    for number, face in enumerate(faces):
+        groups.setdefault((find(number), len(face)), []).append(face)
+    return [np.array(found) for found in groups.values()]

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clean Scan: from a scan as it comes to a closed surface, with a list of what was done."""
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty
+
+from ..blender import Answer, Context, registration
+from ..cleaning import CleanJob, Wish
+from ..mesh.read import source_objects
+from ..poll import mesh_poll_reason
+from .fair import WholeFairing, poll_reason
+
+# name, label, what it does
+_STEPS = (
+    (
+        "mend",
+        "Bad Faces",
+        "Duplicate faces go, and faces without area; vertices without a face too",
+    ),
+    ("join", "Join Borders", "Border edges that lie on one another become one"),
+    ("fins", "Fins", "Sheets that hang on an edge of the surface go"),
+    ("normals", "Normals", "Faces that point the wrong way are flipped"),
+    (
+        "inner",
+        "Inner Parts",
+        "Parts inside of others go, but for hollows with a surface of their own",
+    ),
+    ("pinched", "Pinched Vertices", "Parts that touch in a vertex or an edge are separated there"),
+    (
+        "spikes",
+        "Spikes",
+        "Tips higher than 1.6 edges are pressed down; creased and sharp ones stay",
+    ),
+    ("folds", "Folds", "Faces that point away from all faces around are laid flat"),
+    ("fill", "Holes", "Holes are closed by a surface that goes on from the faces around"),
+)
+
+
+class OBJECT_OT_fairing_clean(WholeFairing, bpy.types.Operator):
+    """Make a closed surface of a scan: drop what does not belong to it, mend it, fill its holes, and list what was done"""
+
+    bl_idname = "object.fairing_clean"
+    bl_label = "Clean Scan"
+    bl_options = {"REGISTER", "UNDO"}
+    cancelled_text = "Cleaning was cancelled: nothing has changed"
+
+    mend: BoolProperty(name=_STEPS[0][1], description=_STEPS[0][2], default=True)
+    join: BoolProperty(name=_STEPS[1][1], description=_STEPS[1][2], default=True)
+    fins: BoolProperty(name=_STEPS[2][1], description=_STEPS[2][2], default=True)
+    normals: BoolProperty(name=_STEPS[3][1], description=_STEPS[3][2], default=True)
+    inner: BoolProperty(name=_STEPS[4][1], description=_STEPS[4][2], default=True)
+    pinched: BoolProperty(name=_STEPS[5][1], description=_STEPS[5][2], default=True)
+    spikes: BoolProperty(name=_STEPS[6][1], description=_STEPS[6][2], default=True)
+    folds: BoolProperty(name=_STEPS[7][1], description=_STEPS[7][2], default=True)
+    fill: BoolProperty(name=_STEPS[8][1], description=_STEPS[8][2], default=True)
+    islands: FloatProperty(
+        name="Islands",
+        description="Parts shorter than this share of the longest go, by the diagonals of their boxes",
+        default=0.1,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    largest: FloatProperty(
+        name="Largest Hole",
+        description="Holes of a longer diagonal stay open; 0 fills all but the borders of sheets",
+        default=0.0,
+        min=0.0,
+        subtype="DISTANCE",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        return poll_reason(context) or mesh_poll_reason(source_objects(context))
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        for name, *_ in _STEPS:
+            layout.prop(self, name)
+            if name == "join":
+                layout.prop(self, "islands")
+        if self.fill:
+            layout.prop(self, "largest")
+
+    def make_jobs(self, context: Context) -> list[Any]:
+        steps = {name: bool(getattr(self, name)) for name, *_ in _STEPS}
+        wish = Wish(steps, self.islands, self.largest)
+        targets = {target.data: target for target in source_objects(context)}.values()
+        return [CleanJob(context, target, wish) for target in targets]
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+        """Changes the meshes, if nobody else has meanwhile."""
+        for job in jobs:
+            reason = job.why_outdated(context)
+            if reason:
+                self.report({"ERROR"}, reason)
+                return {"CANCELLED"}
+        for job in jobs:
+            said = job.apply(context)
+            for sentence in said[:-1]:
+                self.report({"INFO"}, f"{job.name}: {sentence}")
+            good = job.result.watertight and not job.result.left
+            self.report({"INFO" if good else "WARNING"}, f"{job.name}: {said[-1]}")
+        return {"FINISHED"}
+
+
+register, unregister = registration(OBJECT_OT_fairing_clean)

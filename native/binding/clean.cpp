@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the package's clean() takes from the core: mending, turning faces over, numbers that become one.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "binding/arrays.h"
+#include "binding/bindings.h"
+#include "binding/report.h"
+#include "binding/runner.h"
+#include "mesh/groups.h"
+#include "mesh/mend/mend.h"
+#include "mesh/orientation.h"
+
+namespace py = pybind11;
+
+namespace fairing {
+namespace {
+
+// As to_python() has it, with "acts": the code of each and how many elements it concerned; None where
+// nothing was wrong.
+py::object mended_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
+                         Monitor& monitor, const py::object& progress) {
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  MendedMesh mended;
+  run_once(monitor, progress, [&] { mended = mend(mesh.view()); });
+  if (!mended.changed()) return py::none();
+  py::dict found = to_python(&mended);
+  py::list acts;
+  for (const Warning& act : mended.acts) acts.append(py::make_tuple(act.code, act.elements.size()));
+  found["acts"] = acts;
+  return found;
+}
+
+// (k,) int64 faces that must turn over for neighbours to agree.
+py::array to_flip(const Numbers& vertices, const Ids& corners, const Ids& offsets, Monitor& monitor,
+                  const py::object& progress) {
+  const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
+  std::vector<std::int64_t> faces;
+  run_once(monitor, progress, [&] {
+    const HalfEdges half_edges(mesh.view());
+    faces = find_orientation(mesh.view(), half_edges).to_flip;
+  });
+  return to_numpy(faces);
+}
+
+// (count,) int32: of 0 … count - 1, joined by `pairs` (k, 2), the least number that each hangs
+// together with.
+py::array joined(std::size_t count, const Ids& pairs) {
+  const std::vector<std::int64_t> ids = copy_of(pairs);
+  Array<std::int32_t> leads(count);
+  {
+    const py::gil_scoped_release release;
+    Groups groups(count);
+    for (std::size_t k = 0; k + 1 < ids.size(); k += 2)
+      groups.unite(Index(ids[k]), Index(ids[k + 1]));
+    for (std::size_t i = 0; i < count; ++i) leads[i] = groups.lead(Index(i));
+  }
+  return to_numpy(std::move(leads), 1);
+}
+
+}  // namespace
+
+void bind_clean(py::module_& m) {
+  m.def("mended", &mended_arrays, exact("vertices"), exact("corners"), exact("offsets"),
+        py::arg("monitor"), py::arg("progress"), "For the package's clean().");
+  m.def("to_flip", &to_flip, exact("vertices"), exact("corners"), exact("offsets"),
+        py::arg("monitor"), py::arg("progress"),
+        "Faces that must turn over for neighbours to agree.");
+  m.def("joined", &joined, py::arg("count"), exact("pairs"),
+        "Of numbers joined by pairs, the least that each hangs together with.");
+}
+
+}  // namespace fairing

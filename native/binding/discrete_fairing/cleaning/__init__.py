@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scan as it comes, made into a closed surface: one step a file."""
+
+from .run import Act, Cleaned, clean
+
+__all__ = ["Act", "Cleaned", "clean"]

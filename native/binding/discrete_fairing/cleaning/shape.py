@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps that move vertices: spikes and faces that are folded over."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .state import State
+
+ROUNDS = 10  # of vertices moved to the middle of their neighbours; a spike of several vertices takes some
+
+
+def flattened(state: State, fixed: np.ndarray, spikes: bool, folds: bool) -> tuple[State, int, int]:
+    """With vertices moved to the middle of their neighbours: tips of spikes, where the faces around
+    have less than half of the angle around a point of a plane, and corners of faces that look away from
+    all that is around. Those that are `fixed`, (n,) bool, stay. Also how many spikes and faces there
+    were.
+    """
+    rim = np.zeros(len(state.points), bool)
+    lone = state.sides.uses[state.sides.edge] != 2
+    rim[state.corners[lone]] = rim[state.corners[state.sides.next[lone]]] = True
+    free = ~rim & ~fixed
+    points = state.points.copy()
+    near = np.arange(len(state.face_origin))
+    tips = np.zeros(len(points), bool)
+    folded: np.ndarray = np.empty(0, np.int64)
+    for turn in range(ROUNDS):
+        fans = _Fans(state, points, near)
+        bad = np.zeros(len(points), bool)
+        if spikes:
+            sharp = fans.sharp(free)
+            tips |= sharp
+            bad |= sharp
+        if folds:
+            over = fans.folded()
+            if turn == 0:
+                folded = over
+            bad[fans.vertices_of(over)] = True
+        bad &= free
+        if not bad.any():
+            break
+        points = _in_the_middle(state, points, bad)
+        near = _around(state, bad)
+    if (points == state.points).all():
+        return state, 0, 0
+    moved = (points != state.points).any(axis=1)
+    mended = sum(
+        bool(moved[state.corners[state.offsets[f] : state.offsets[f + 1]]].any()) for f in folded
+    )
+    return state.replaced(points=points), int((tips & moved).sum()), mended
+
+
+class _Fans:
+    """Angles and normals around vertices, of some faces; of the vertices that have others too nothing
+    is told.
+    """
+
+    def __init__(self, state: State, points: np.ndarray, faces: np.ndarray) -> None:
+        sizes = state.offsets[faces + 1] - state.offsets[faces]
+        self._faces, self._count = faces, len(points)
+        self._starts = np.cumsum(sizes) - sizes
+        self._sizes = sizes
+        rows = np.arange(sizes.sum()) + np.repeat(state.offsets[faces] - self._starts, sizes)
+        self._corner = state.corners[rows]
+        here, after = points[self._corner], points[state.corners[state.sides.next[rows]]]
+        way = after - here
+        before = np.arange(len(rows)) - 1
+        before[self._starts] = self._starts + sizes - 1
+        back = -way[before]
+        first = np.repeat(here[self._starts], sizes, axis=0)
+        self._normals = np.add.reduceat(np.cross(here - first, after - first), self._starts)
+        cross = np.cross(way, back)
+        sine, cosine = np.sqrt((cross * cross).sum(axis=1)), (way * back).sum(axis=1)
+        self._angles = np.arctan2(sine, cosine)
+        whole = len(faces) == len(state.face_origin)
+        if whole:
+            self._complete = np.ones(len(points), bool)
+        else:
+            uses = np.bincount(state.corners, minlength=len(points))
+            self._complete = np.bincount(self._corner, minlength=len(points)) == uses
+
+    def sharp(self, free: np.ndarray) -> np.ndarray:
+        """(n,) which vertices are tips."""
+        total = np.bincount(self._corner, self._angles, self._count)
+        return (total > 0.0) & (total < np.pi) & self._complete & free
+
+    def folded(self) -> np.ndarray:
+        """Ids of the faces that look away from the other faces at each of their corners."""
+        rows = np.repeat(self._normals, self._sizes, axis=0)
+        around = np.stack(
+            [np.bincount(self._corner, rows[:, k], self._count) for k in range(3)], axis=1
+        )
+        others = around[self._corner] - rows
+        away = ((others * rows).sum(axis=1) < 0.0) & self._complete[self._corner]
+        return self._faces[np.logical_and.reduceat(away, self._starts)]
+
+    def vertices_of(self, faces: np.ndarray) -> np.ndarray:
+        chosen = np.isin(self._faces, faces)
+        return self._corner[np.repeat(chosen, self._sizes)]
+
+
+def _around(state: State, vertices: np.ndarray) -> np.ndarray:
+    """Ids of the faces at the neighbours of `vertices`, (n,) bool."""
+    face_of = state.face_of
+    for _ in range(2):
+        faces = np.zeros(len(state.face_origin), bool)
+        faces[face_of[vertices[state.corners]]] = True
+        vertices = np.zeros(len(vertices), bool)
+        vertices[state.corners[faces[face_of]]] = True
+    return np.flatnonzero(faces)
+
+
+def _in_the_middle(state: State, points: np.ndarray, bad: np.ndarray) -> np.ndarray:
+    """`points` with the `bad` ones in the middle of their neighbours: of those that are not bad, if any."""
+    begin, end = state.corners, state.corners[state.sides.next]
+    begin, end = np.concatenate([begin, end]), np.concatenate([end, begin])
+    at = np.flatnonzero(bad[begin])
+    begin, end = begin[at], end[at]
+    good = np.bincount(begin, ~bad[end], len(points))
+    counts = ~bad[end] | (good[begin] == 0)
+    begin, end = begin[counts], end[counts]
+    weight = np.bincount(begin, minlength=len(points))
+    found = points.copy()
+    rows = np.flatnonzero(bad)
+    for axis in range(3):
+        total = np.bincount(begin, points[end, axis], len(points))
+        found[rows, axis] = total[rows] / weight[rows]
+    return found

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh on its way through clean(), and where its elements come from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import _native
+
+
+@dataclass(frozen=True)
+class State:
+    """Steps return a new one; arrays are shared and never written to."""
+
+    points: np.ndarray  # (n, 3)
+    corners: np.ndarray  # (c,) int64
+    offsets: np.ndarray  # (m + 1,) int64
+    vertex_origin: np.ndarray  # (n,) ids in the input; -1: a new one
+    face_origin: np.ndarray  # (m,)
+    corner_origin: np.ndarray  # (c,)
+
+    @classmethod
+    def of(cls, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> State:
+        counts = len(points), len(offsets) - 1, len(corners)
+        return cls(points, corners, offsets, *(np.arange(count) for count in counts))
+
+    @cached_property
+    def sides(self) -> Sides:
+        return Sides(self)
+
+    @property
+    def face_of(self) -> np.ndarray:
+        """(c,) the face of each corner."""
+        return np.repeat(np.arange(len(self.face_origin)), np.diff(self.offsets))
+
+    def without(self, gone: np.ndarray) -> State:
+        """Without the faces that are `gone`, (m,) bool. Vertices stay."""
+        sizes = np.diff(self.offsets)
+        kept = np.repeat(~gone, sizes)
+        return State(
+            self.points,
+            self.corners[kept],
+            np.concatenate([[0], np.cumsum(sizes[~gone])]),
+            self.vertex_origin,
+            self.face_origin[~gone],
+            self.corner_origin[kept],
+        )
+
+    def turned(self, faces: np.ndarray) -> State:
+        """With these faces (ids) turned over; their first corners stay the first."""
+        at = np.arange(len(self.corners))
+        chosen = np.zeros(len(self.face_origin), bool)
+        chosen[faces] = True
+        rows = np.flatnonzero(np.repeat(chosen, np.diff(self.offsets)))
+        face = self.face_of[rows]
+        first, last = self.offsets[face], self.offsets[face + 1]
+        at[rows] = np.where(rows == first, rows, first + last - rows)
+        return self.replaced(corners=self.corners[at], corner_origin=self.corner_origin[at])
+
+    def replaced(self, **arrays: np.ndarray) -> State:
+        names = self.__dataclass_fields__
+        return State(**{name: arrays.get(name, getattr(self, name)) for name in names})
+
+    def with_split(self, corners: np.ndarray, vertices: np.ndarray) -> State:
+        """With vertices added at the places of `vertices` (ids), and `corners` in the place of the old."""
+        return self.replaced(
+            points=np.concatenate([self.points, self.points[vertices]]),
+            corners=corners,
+            vertex_origin=np.concatenate([self.vertex_origin, self.vertex_origin[vertices]]),
+        )
+
+    def extended(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> State:
+        """A filled mesh: all that was there first."""
+
+        def longer(origin: np.ndarray, count: int) -> np.ndarray:
+            return np.concatenate([origin, np.full(count - len(origin), -1)])
+
+        return State(
+            points,
+            corners,
+            offsets,
+            longer(self.vertex_origin, len(points)),
+            longer(self.face_origin, len(offsets) - 1),
+            longer(self.corner_origin, len(corners)),
+        )
+
+    def compact(self) -> State:
+        """Without vertices that have no face; new ones come last."""
+        used = np.zeros(len(self.points), bool)
+        used[self.corners] = True
+        order = np.flatnonzero(used)
+        order = order[np.argsort(self.vertex_origin[order] < 0, kind="stable")]
+        number = np.full(len(self.points), -1)
+        number[order] = np.arange(len(order))
+        return self.replaced(
+            points=self.points[order],
+            corners=number[self.corners],
+            vertex_origin=self.vertex_origin[order],
+        )
+
+    def face_vectors(self) -> np.ndarray:
+        """(m, 3) normals, twice as long as the areas."""
+        first = np.repeat(self.offsets[:-1], np.diff(self.offsets))
+        # from the first corner, so that rounding is that of the face's size
+        points = self.points[self.corners] - self.points[self.corners[first]]
+        return np.add.reduceat(np.cross(points, points[self.sides.next]), self.offsets[:-1])
+
+    def triangles(self) -> np.ndarray:
+        """(t, 3) ids: each face cut from its first corner."""
+        return self.corners[self.triangle_corners]
+
+    @cached_property
+    def triangle_corners(self) -> np.ndarray:
+        """(t, 3) the corners of those."""
+        sizes = np.diff(self.offsets) - 2
+        first = np.repeat(self.offsets[:-1], sizes)
+        second = np.arange(len(first)) - np.repeat(np.cumsum(sizes) - sizes, sizes) + first + 1
+        return np.stack([first, second, second + 1], axis=1)
+
+
+class Sides:
+    """Which faces meet at each edge. Side k runs from corner k to the next of its face."""
+
+    def __init__(self, state: State) -> None:
+        count = len(state.corners)
+        self.next = np.arange(1, count + 1)
+        self.next[state.offsets[1:] - 1] = state.offsets[:-1]
+        begin, end = state.corners, state.corners[self.next]
+        self.forward = begin < end
+        low, high = np.minimum(begin, end), np.maximum(begin, end)
+        keys = low * np.int64(len(state.points)) + high
+        self.order = np.argsort(keys, kind="stable")
+        ranked = keys[self.order]
+        first = np.ones(count, bool)
+        first[1:] = ranked[1:] != ranked[:-1]
+        self.starts = np.flatnonzero(first)  # of each edge, in `order`
+        self.uses = np.diff(np.append(self.starts, count))  # (e,) faces at each edge
+        self.edge = np.empty(count, np.int64)  # (c,)
+        self.edge[self.order] = np.cumsum(first) - 1
+
+    @cached_property
+    def at_border(self) -> np.ndarray:
+        """(c,) whether a side has no other face."""
+        return self.uses[self.edge] == 1
+
+    @cached_property
+    def pairs(self) -> np.ndarray:
+        """(k, 2) the sides of edges with two faces."""
+        at = self.starts[self.uses == 2]
+        return np.stack([self.order[at], self.order[at + 1]], axis=1)
+
+    @cached_property
+    def crowded(self) -> np.ndarray:
+        """Ids of edges of more than two faces."""
+        return np.flatnonzero(self.uses > 2)
+
+    def around(self, edge: int) -> np.ndarray:
+        """The sides at an edge."""
+        return self.order[self.starts[edge] : self.starts[edge] + self.uses[edge]]
+
+
+def numbered_parts(state: State, pairs: np.ndarray) -> tuple[np.ndarray, int]:
+    """(m,) the part of each face, from 0 on, where faces hang together by `pairs` (k, 2) of sides; and
+    how many parts there are.
+    """
+    faces = state.face_of[pairs]
+    leads = _native.joined(len(state.face_origin), np.ascontiguousarray(faces, np.int64))
+    names, part = np.unique(leads, return_inverse=True)
+    return part, len(names)
+
+
+def all_pairs(state: State) -> np.ndarray:
+    """(k, 2) neighbouring sides at every edge, whatever the number of its faces."""
+    sides = state.sides
+    same = sides.edge[sides.order[1:]] == sides.edge[sides.order[:-1]]
+    at = np.flatnonzero(same)
+    return np.stack([sides.order[at], sides.order[at + 1]], axis=1)
+
+
+def of_parts(part: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """(count,) sums of `values` (m,)."""
+    return np.bincount(part, values, count)
+
+
+def diagonals(state: State, part: np.ndarray, count: int) -> np.ndarray:
+    """(count,) of the boxes around the parts."""
+    of_corner = np.repeat(part, np.diff(state.offsets))
+    order = np.argsort(of_corner, kind="stable")
+    starts = np.searchsorted(of_corner[order], np.arange(count))
+    points = state.points[state.corners[order]]
+    size = np.maximum.reduceat(points, starts) - np.minimum.reduceat(points, starts)
+    return np.linalg.norm(size, axis=1)

@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps that change which faces hang together: borders joined, fins, crowded edges, pinched vertices,
+faces turned over.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .. import _native
+from .state import State, numbered_parts, of_parts
+
+
+def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, int]]:
+    """Without what the core mends; by code how many elements were concerned."""
+    found = _native.mended(state.points, state.corners, state.offsets, *watchers)
+    if found is None:
+        return state, {}
+    nearer = np.where(found["corner_share"] > 0.5, 1, 0)
+    corner = found["corner_origin"][np.arange(len(nearer)), nearer]
+    lost = ~np.isfinite(state.points).all(axis=1)
+    return state.replaced(
+        # of no face, and nothing that is computed may meet them
+        points=np.where(lost[:, None], 0.0, state.points) if lost.any() else state.points,
+        corners=found["corners"].astype(np.int64),
+        offsets=found["offsets"].astype(np.int64),
+        face_origin=state.face_origin[found["face_origin"]],
+        corner_origin=state.corner_origin[corner],
+    ), dict(found["acts"])
+
+
+def borders_joined(state: State) -> tuple[State, int]:
+    """With border edges that lie on one another, end on end, made one; how many vertices went. Borders
+    that only touch in a point stay apart.
+    """
+    border = np.flatnonzero(state.sides.at_border)
+    if not len(border):
+        return state, 0
+    ends = np.stack([state.corners[border], state.corners[state.sides.next[border]]], axis=1)
+    ids, rows = np.unique(ends, return_inverse=True)
+    rows = rows.reshape(ends.shape)
+    place = _places(state.points[ids])
+    named = place[rows]
+    turned = named[:, 0] > named[:, 1]
+    rows[turned] = rows[turned, ::-1]
+    named = np.sort(named, axis=1)
+    order = np.lexsort(named.T)
+    same = np.flatnonzero((named[order[1:]] == named[order[:-1]]).all(axis=1))
+    one, other = rows[order[same]], rows[order[same + 1]]
+    pairs = np.stack([one.ravel(), other.ravel()], axis=1)
+    leads = ids[_native.joined(len(ids), pairs)]
+    number = np.arange(len(state.points))
+    number[ids] = leads
+    count = int((leads != ids).sum())
+    return (state.replaced(corners=number[state.corners]), count) if count else (state, 0)
+
+
+def _places(points: np.ndarray) -> np.ndarray:
+    """(k,) a number for each place, of points (k, 3)."""
+    order = np.lexsort(points.T)
+    fresh = np.ones(len(points), bool)
+    fresh[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
+    found = np.empty(len(points), np.int64)
+    found[order] = np.cumsum(fresh) - 1
+    return found
+
+
+def without_fins(state: State) -> tuple[State, int]:
+    """Without the sheets that hang on a surface: where more than two faces meet at an edge, the part of
+    least area that ends in a border goes, then the next, until two faces are left there or no part ends.
+    Also how many faces went.
+    """
+    sides = state.sides
+    if not len(sides.crowded):
+        return state, 0
+    part, count = numbered_parts(state, sides.pairs)
+    of_side = part[state.face_of]
+    area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
+    ends = np.zeros(count, bool)
+    ends[of_side[sides.at_border]] = True
+    ends[np.argmax(area)] = False
+    left = sides.uses.copy()
+    crowded = sides.uses[sides.edge] > 2
+    rows = np.flatnonzero(crowded)
+    rows = rows[np.argsort(of_side[rows], kind="stable")]
+    names, starts = np.unique(of_side[rows], return_index=True)
+    edges_of = dict(zip(names.tolist(), np.split(sides.edge[rows], starts[1:]), strict=True))
+    gone = np.zeros(count, bool)
+    for name in sorted(edges_of, key=lambda p: (area[p], p)):
+        edges = edges_of[name]
+        if ends[name] and (left[edges] > 2).any():
+            gone[name] = True
+            np.subtract.at(left, edges, 1)
+    faces = gone[part]
+    return (state.without(faces), int(faces.sum())) if faces.any() else (state, 0)
+
+
+def turned_alike(state: State, watchers: tuple[Any, Any]) -> tuple[State, int]:
+    """With faces that look another way than their neighbours turned over: the fewer of each part."""
+    faces = _native.to_flip(state.points, state.corners, state.offsets, *watchers)
+    return (state.turned(faces), len(faces)) if len(faces) else (state, 0)
+
+
+def turned_out(state: State) -> tuple[State, int]:
+    """With closed parts that look inwards turned over, but for hollows: those that lie in another."""
+    part, volume, closed = closed_parts(state)
+    wrong = closed & (volume < 0.0)
+    if not wrong.any():
+        return state, 0
+    hollow = [p for p in np.flatnonzero(wrong).tolist() if is_inside(state, part == p)]
+    wrong[hollow] = False
+    faces = np.flatnonzero(wrong[part])
+    return (state.turned(faces), len(faces)) if len(faces) else (state, 0)
+
+
+def closed_parts(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(m,) the part of each face, (p,) what the parts enclose, and whether they have no border."""
+    part, count = numbered_parts(state, state.sides.pairs)
+    closed = np.ones(count, bool)
+    alone = state.sides.uses[state.sides.edge] != 2
+    closed[part[state.face_of[alone]]] = False
+    return part, volumes(state, part, count), closed
+
+
+def volumes(state: State, part: np.ndarray, count: int) -> np.ndarray:
+    """(count,) what the parts enclose; of open ones it has no meaning."""
+    rows = state.triangle_corners
+    centred = state.points - state.points[state.corners].mean(axis=0)
+    a, b, c = centred[state.corners[rows]].swapaxes(0, 1)
+    return of_parts(part[state.face_of[rows[:, 0]]], (a * np.cross(b, c)).sum(axis=1), count) / 6.0
+
+
+SAMPLES = 8  # faces of a part from which it is looked whether that lies inside of others
+
+
+def is_inside(state: State, chosen: np.ndarray) -> bool:
+    """Whether the faces `chosen`, (m,) bool, lie inside of what the others enclose, by the winding number
+    of these [Jacobson, Kavan and Sorkine-Hornung 2013]: also where they have holes.
+    """
+    faces = np.flatnonzero(chosen)
+    faces = faces[np.linspace(0, len(faces) - 1, min(SAMPLES, len(faces))).astype(int)]
+    rows = state.triangle_corners
+    others = state.points[state.corners[rows[~chosen[state.face_of[rows[:, 0]]]]]]
+    if not len(others):
+        return False
+    low, high = others.min(axis=(0, 1)), others.max(axis=(0, 1))
+    for face in faces.tolist():
+        ids = state.corners[state.offsets[face] : state.offsets[face + 1]]
+        place = state.points[ids].mean(axis=0)
+        if (place <= low).any() or (place >= high).any():
+            return False
+        if abs(_winding(others - place)) <= 0.5:
+            return False
+    return True
+
+
+def _winding(triangles: np.ndarray) -> float:
+    """How often triangles (t, 3, 3) go around the origin [van Oosterom and Strackee 1983]."""
+    a, b, c = triangles.swapaxes(0, 1)
+    x, y, z = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
+    above = (a * np.cross(b, c)).sum(axis=1)
+    below = x * y * z + (a * b).sum(axis=1) * z + (b * c).sum(axis=1) * x + (c * a).sum(axis=1) * y
+    return float(np.arctan2(above, below).sum() / (2.0 * np.pi))
+
+
+def without_inner(state: State) -> tuple[State, int]:
+    """Without parts that lie inside of others, walls among them; hollows stay, closed parts that look
+    into themselves. How many faces went.
+    """
+    part, volume, closed = closed_parts(state)
+    area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), len(volume))
+    gone = np.zeros(len(part), bool)
+    for name in np.argsort(area, kind="stable")[:-1].tolist():
+        if closed[name] and volume[name] < 0.0:
+            continue
+        left = state.without(gone) if gone.any() else state
+        mine = part[~gone] == name
+        if is_inside(left, mine):
+            gone |= part == name
+    return (state.without(gone), int(gone.sum())) if gone.any() else (state, 0)
+
+
+def vertices_split(state: State, every: bool) -> tuple[State, int]:
+    """With a vertex of its own for each fan of faces: where parts touch in a point, or more than two
+    faces at an edge, of which those are neighbours that bound one wedge. Where all fans at a vertex end
+    in borders of one part, only if `every` one is meant: to fill the holes between them joins them.
+    Also how many vertices there are more.
+    """
+    sides = state.sides
+    pairs = np.concatenate([sides.pairs, _wedges(state)])
+    a, b = pairs.T
+    opposite = sides.forward[a] != sides.forward[b]
+    at_begin = np.where(opposite, sides.next[b], b)
+    at_end = np.where(opposite, b, sides.next[b])
+    links = np.concatenate([np.stack([a, at_begin], 1), np.stack([sides.next[a], at_end], 1)])
+    fan = _native.joined(len(state.corners), np.ascontiguousarray(links, np.int64))
+    leads = np.flatnonzero(fan == np.arange(len(fan)))
+    leads = leads[np.argsort(state.corners[leads], kind="stable")]
+    at = state.corners[leads]
+    again = np.concatenate([[False], at[1:] == at[:-1]])
+    if not again.any():
+        return state, 0
+    if not every:
+        again &= ~_heals(state, pairs, fan, leads)[at]
+    fresh = leads[again]
+    number = state.corners.copy()
+    of_fan = np.full(len(fan), -1)
+    of_fan[fresh] = len(state.points) + np.arange(len(fresh))
+    moved = of_fan[fan] >= 0
+    number[moved] = of_fan[fan[moved]]
+    return state.with_split(number, state.corners[fresh]), len(fresh)
+
+
+def _heals(state: State, pairs: np.ndarray, fan: np.ndarray, leads: np.ndarray) -> np.ndarray:
+    """(n,) whether all fans at a vertex end in borders, and are of one part."""
+    sides = state.sides
+    paired = np.zeros(len(fan), bool)
+    paired[pairs] = True
+    open_ = np.zeros(len(fan), bool)
+    lone = np.flatnonzero(~paired)
+    open_[fan[lone]] = True
+    open_[fan[sides.next[lone]]] = True
+    heals = np.ones(len(state.points), bool)
+    heals[state.corners[leads[~open_[leads]]]] = False
+    heals[state.corners[sides.uses[sides.edge] > 2]] = False
+    heals[state.corners[sides.next[sides.uses[sides.edge] > 2]]] = False
+    part, _ = numbered_parts(state, pairs)
+    of_corner = part[state.face_of]
+    low = np.full(len(state.points), len(part))
+    high = np.full(len(state.points), -1)
+    np.minimum.at(low, state.corners, of_corner)
+    np.maximum.at(high, state.corners, of_corner)
+    return heals & (low == high)
+
+
+def _wedges(state: State) -> np.ndarray:
+    """(k, 2) of the sides at crowded edges those that bound one wedge of what is inside."""
+    sides, found = state.sides, []
+    for edge in sides.crowded.tolist():
+        rows = sides.around(edge)
+        angles, along = _angles_around(state, rows), sides.forward[rows]
+        # seen along the edge, what is inside lies behind each face: before one that runs along it,
+        # after one that runs against it
+        ranked = [
+            (angle, not way, row) for angle, way, row in zip(angles, along, rows, strict=True)
+        ]
+        ranked.sort(key=lambda t: (t[0], t[1]))
+        ways = [not against for _, against, _ in ranked]
+        first = next((k for k in range(len(ways)) if not ways[k] and ways[k - 1]), None)
+        if first is None:
+            continue
+        waiting = None
+        for k in range(first, first + len(ways)):
+            row = ranked[k % len(ways)][2]
+            if not ways[k % len(ways)]:
+                waiting = row
+            elif waiting is not None:
+                found.append((waiting, row))
+                waiting = None
+    return np.array(found, np.int64).reshape(-1, 2)
+
+
+def _angles_around(state: State, rows: np.ndarray) -> list[float]:
+    """Where the faces of these sides lie around their common edge, in radians, from any of them on."""
+    sides = state.sides
+    begin, end = state.corners[rows[0]], state.corners[sides.next[rows[0]]]
+    begin, end = min(begin, end), max(begin, end)
+    axis = state.points[end] - state.points[begin]
+    axis = axis / max(float(np.linalg.norm(axis)), 1e-300)
+    found = []
+    x: np.ndarray | None = None
+    y = axis
+    for row in rows.tolist():
+        face = int(np.searchsorted(state.offsets, row, side="right")) - 1
+        ids = state.corners[state.offsets[face] : state.offsets[face + 1]]
+        way = (state.points[ids] - state.points[begin]).mean(axis=0)
+        way = way - axis * (way @ axis)
+        if x is None:
+            x = way / max(float(np.linalg.norm(way)), 1e-300)
+            y = np.cross(axis, x)
+        found.append(float(np.arctan2(way @ y, way @ x)) % (2.0 * np.pi))
+    return found

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clean Scan: from a spoiled ball to a closed one, and what lies on the mesh stays on it."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from hole_scenes import ball, is_closed, radii
+from scenes import activate, positions
+
+from addon.check.defects import recall_cleaned, recall_defects
+
+
+def spoiled():
+    """A ball with a hole, a spike, faces turned over, a fin and a speck."""
+    target = ball()
+    bm = bmesh.new()
+    bm.from_mesh(target.data)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.delete(
+        bm, geom=[f for f in bm.faces if f.calc_center_median().z > 0.9], context="FACES"
+    )
+    bmesh.ops.reverse_faces(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.8])
+    bm.verts.ensure_lookup_table()
+    tip = min(bm.verts, key=lambda v: v.co.z)
+    tip.co *= 1.7
+    edge = min((e for e in bm.edges if e.is_manifold), key=lambda e: e.verts[0].co.y)
+    bm.faces.new([*edge.verts, bm.verts.new(edge.verts[0].co * 1.3)])
+    bm.faces.new(
+        [bm.verts.new((3.0, 3.0, z)) for z in (0.0, 0.1)] + [bm.verts.new((3.1, 3.0, 0.0))]
+    )
+    bm.to_mesh(target.data)
+    bm.free()
+    activate(target)
+    return target
+
+
+def test_a_spoiled_ball_is_closed():
+    target = spoiled()
+    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
+    assert is_closed(target.data)
+    assert np.abs(radii(target) - 1).max() < 0.02
+    said = recall_cleaned(target)
+    assert said[-1].startswith("Watertight: yes") and said[-1].endswith("left: nothing")
+    assert any("spike" in s for s in said) and any("fin" in s for s in said)
+    assert any("hole" in s for s in said) and any("island" in s for s in said)
+    assert recall_defects(target) == ([], False)
+    assert not target.data.validate()
+
+
+def test_a_clean_mesh_stays_as_it_is():
+    target = ball()
+    activate(target)
+    before = positions(target.data)
+    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
+    assert np.array_equal(positions(target.data), before)
+    assert recall_cleaned(target)[0] == "Nothing to do"
+
+
+def test_what_lies_on_the_mesh_stays():
+    target = spoiled()
+    mesh = target.data
+    mesh.materials.append(bpy.data.materials.new("A"))
+    mesh.materials.append(bpy.data.materials.new("B"))
+    for face in mesh.polygons:
+        face.material_index = int(face.center[0] > 0.0)
+    group = target.vertex_groups.new(name="Left")
+    group.add([v.index for v in mesh.vertices if v.co[0] < 0.0], 0.5, "REPLACE")
+    uv = mesh.uv_layers.new(name="Map")
+    for loop in mesh.loops:
+        uv.data[loop.index].uv = mesh.vertices[loop.vertex_index].co[:2]
+    seams = mesh.attributes.new("crease_edge", "FLOAT", "EDGE")
+    for edge in mesh.edges:
+        if edge.index % 7 == 0 and all(
+            abs(mesh.vertices[v].co[2]) < 0.6 and mesh.vertices[v].co.length < 1.01
+            for v in edge.vertices
+        ):
+            edge.use_seam = True
+            seams.data[edge.index].value = 0.75
+    target.shape_key_add(name="Basis")
+    key = target.shape_key_add(name="Wide")
+    for point in key.data:
+        point.co.x += 0.25
+    creased = {
+        tuple(sorted(tuple(np.round(mesh.vertices[v].co, 5)) for v in e.vertices))
+        for e in mesh.edges
+        if e.use_seam
+    }
+    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
+    assert is_closed(mesh)
+    basis = positions(mesh)
+    wide = np.empty(3 * len(basis))
+    mesh.shape_keys.key_blocks["Wide"].data.foreach_get("co", wide)
+    old = basis[:, 2] < 0.85
+    assert np.allclose((wide.reshape(-1, 3) - basis)[old], [0.25, 0.0, 0.0], atol=1e-5)
+    for face in mesh.polygons:
+        if face.center[2] < 0.85:
+            assert face.material_index == int(face.center[0] > 0.0)
+    uv = mesh.uv_layers["Map"]
+    for loop in mesh.loops:
+        co = mesh.vertices[loop.vertex_index].co
+        if -0.9 < co[2] < 0.85:
+            assert np.allclose(uv.data[loop.index].uv, co[:2], atol=1e-5)
+    for vertex in mesh.vertices:
+        if -0.9 < vertex.co[2] < 0.85:
+            assert bool(vertex.groups) == (vertex.co[0] < 0.0)
+    now = {
+        tuple(sorted(tuple(np.round(mesh.vertices[v].co, 5)) for v in e.vertices))
+        for e in mesh.edges
+        if e.use_seam and mesh.attributes["crease_edge"].data[e.index].value == 0.75
+    }
+    assert now == creased and len(creased) > 50
+
+
+@pytest.mark.parametrize("step", ["fill", "spikes", "fins", "normals"])
+def test_each_step_can_be_turned_off(step):
+    target = spoiled()
+    assert bpy.ops.object.fairing_clean(**{step: False}) == {"FINISHED"}
+    words = {"fill": "filled", "spikes": "spike", "fins": "fin ", "normals": "turned"}
+    said = recall_cleaned(target)[:-1]
+    assert not any(words[step] in s for s in said)
+    if step == "fill":
+        defects, _ = recall_defects(target)
+        assert [d["code"] for d in defects] == ["OPEN_HOLE"]
+        assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
+        assert target.data.total_edge_sel == len(defects[0]["elements"]) > 0
+
+
+def test_parts_that_share_an_edge_are_separated_with_their_marks():
+    """Two cubes with one edge in common, which is a seam: both have it afterwards."""
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=1.0)
+    for vertex in bmesh.ops.create_cube(bm, size=1.0)["verts"]:
+        vertex.co += type(vertex.co)((1.0, 1.0, 0.0))
+    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6)
+    next(e for e in bm.edges if len(e.link_faces) == 4).seam = True
+    mesh = bpy.data.meshes.new("Two")
+    bm.to_mesh(mesh)
+    bm.free()
+    target = bpy.data.objects.new("Two", mesh)
+    bpy.context.collection.objects.link(target)
+    activate(target)
+    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
+    assert is_closed(mesh)
+    assert len(mesh.vertices) == 16 and sum(e.use_seam for e in mesh.edges) == 2
+
+
+def test_in_edit_mode():
+    target = spoiled()
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert is_closed(target.data)
