@@ -74,7 +74,7 @@ ROOMS = (
     {"mesh"},
     {"curve_cage", "place"},
     {"check", "freshness", "inspection", "measured"},
-    {"in_place", "holes", "job"},
+    {"cleaning", "in_place", "holes", "job"},
     {"live"},
     {"cad", "strain"},
     {"cli", "ui"},

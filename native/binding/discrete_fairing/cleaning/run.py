@@ -203,6 +203,8 @@ def clean(
     if fill:
         settings = {"joint": joint, "energy": energy, "density": density, "rim": rim}
         skipped = run.fill(float(largest), settings)
+        if spikes or folds:
+            run.press(held, spikes, folds, filled=True)
         if pinched:
             apart_now = lambda s: topology.vertices_split(s, every=True)  # noqa: E731
             run.step("pinched", 0.92, apart_now, *SPLIT)
@@ -215,8 +217,8 @@ def clean(
 
 TURNED = "face turned over", "faces turned over"
 SPLIT = (
-    "vertex given to each of the parts that it held together",
-    ("vertices given to each of the parts that they held together"),
+    "vertex where parts touched doubled",
+    "vertices where parts touched doubled",
 )
 _CODES = {
     "BAD_SHAPE": (
@@ -315,9 +317,10 @@ class _Run:
         for code, count in acts.items():
             self.note("mend", count, *_CODES[code])
 
-    def press(self, fixed: np.ndarray, spikes: bool, folds: bool) -> None:
-        held = fixed[self.state.vertex_origin] if len(fixed) else fixed
-        self.state, tips, folded = shape.flattened(self.state, held, spikes, folds)
+    def press(self, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False) -> None:
+        origin = self.state.vertex_origin
+        held = fixed[origin] & (origin >= 0)
+        self.state, tips, folded = shape.flattened(self.state, held, spikes, folds, filled)
         self.note("spikes", tips, "spike pressed down", "spikes pressed down")
         self.note("folds", folded, "folded face laid flat", "folded faces laid flat")
 

@@ -10,11 +10,13 @@ from .state import State
 ROUNDS = 10  # of vertices moved to the middle of their neighbours; a spike of several vertices takes some
 
 
-def flattened(state: State, fixed: np.ndarray, spikes: bool, folds: bool) -> tuple[State, int, int]:
+def flattened(
+    state: State, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False
+) -> tuple[State, int, int]:
     """With vertices moved to the middle of their neighbours: tips of spikes, where the faces around
     have less than half of the angle around a point of a plane, and corners of faces that look away from
     all that is around. Those that are `fixed`, (n,) bool, stay. Also how many spikes and faces there
-    were.
+    were. `filled`: it is done again, at the rims of holes that have been filled.
     """
     rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
@@ -22,6 +24,10 @@ def flattened(state: State, fixed: np.ndarray, spikes: bool, folds: bool) -> tup
     free = ~rim & ~fixed
     points = state.points.copy()
     near = np.arange(len(state.face_origin))
+    if filled:
+        fresh = np.zeros(len(points), bool)
+        fresh[state.corners[np.repeat(state.face_origin < 0, np.diff(state.offsets))]] = True
+        near = _around(state, fresh)
     tips = np.zeros(len(points), bool)
     folded: np.ndarray = np.empty(0, np.int64)
     for turn in range(ROUNDS):
@@ -72,8 +78,7 @@ class _Fans:
         cross = np.cross(way, back)
         sine, cosine = np.sqrt((cross * cross).sum(axis=1)), (way * back).sum(axis=1)
         self._angles = np.arctan2(sine, cosine)
-        whole = len(faces) == len(state.face_origin)
-        if whole:
+        if len(faces) == len(state.face_origin):
             self._complete = np.ones(len(points), bool)
         else:
             uses = np.bincount(state.corners, minlength=len(points))

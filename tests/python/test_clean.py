@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""clean(): one spoiled surface for each step, and what it makes of them all together."""
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from control_meshes import cube
+from surfaces import assert_oriented_manifold
+from test_fill_holes import lattice, mapped, sphere
+
+BALL = sphere()
+VOLUME = df.clean(*BALL).volume
+
+
+def told(cleaned, step):
+    return [act for act in cleaned.done if act.step == step]
+
+
+def only(cleaned, step, count):
+    """That this step alone has done something, to so many elements."""
+    assert [(act.step, act.count) for act in cleaned.done if "without a face" not in act.text] == [
+        (step, count)
+    ]
+
+
+def closed(cleaned, volume=VOLUME):
+    assert cleaned.watertight and cleaned.left == []
+    assert cleaned.volume == pytest.approx(volume, rel=1e-12)
+
+
+def test_a_clean_mesh_stays_as_it_is():
+    found = df.clean(*BALL)
+    assert found.done == [] and found.watertight and found.left == []
+    assert np.array_equal(found.vertices, BALL[0]) and np.array_equal(found.faces, BALL[1])
+    for origin in (found.vertex_origin, found.face_origin, found.corner_origin):
+        assert np.array_equal(origin, np.arange(len(origin)))
+    assert 4.09 < found.volume < 4.0 * np.pi / 3.0
+
+
+def test_loose_triangles_are_joined():
+    """As an STL file has them."""
+    points, faces = BALL
+    found = df.clean(points[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3))
+    assert len(found.vertices) == len(points)
+    closed(found)
+
+
+def test_parts_that_touch_in_a_point_are_not_joined():
+    points, faces = BALL
+    both = np.concatenate([points, points + [2.0, 0.0, 0.0]])
+    found = df.clean(both, np.concatenate([faces, faces + len(points)]))
+    assert found.done == []
+    closed(found, 2 * VOLUME)
+
+
+def test_duplicate_and_empty_faces():
+    points, faces = BALL
+    found = df.clean(points, np.concatenate([faces, faces[:5, [1, 2, 0]], [[0, 0, 1]]]))
+    assert {act.text for act in told(found, "mend")} >= {"5 duplicate faces dropped"}
+    closed(found)
+
+
+def test_what_cannot_be_read_is_refused_without_mending():
+    points, faces = BALL
+    with pytest.raises(df.FairingError) as error:
+        df.clean(points, np.concatenate([faces, faces[:1]]), mend=False)
+    assert error.value.code == "DUPLICATE_FACE"
+
+
+@pytest.mark.parametrize("size", [0.05, 0.15])
+def test_islands_go_by_their_diagonal(size):
+    points, faces = BALL
+    both = np.concatenate([points, size * points + [3.0, 0.0, 0.0]])
+    found = df.clean(both, np.concatenate([faces, faces + len(points)]))
+    if size < 0.1:
+        only(found, "islands", 1)
+        closed(found)
+    else:
+        assert found.done == []
+
+
+def test_a_fin_goes():
+    points, faces = BALL
+    found = df.clean(
+        np.vstack([points, [[2.0, 2.0, 2.0]]]), np.vstack([faces, [[*faces[0, :2], len(points)]]])
+    )
+    only(found, "fins", 1)
+    closed(found)
+
+
+def two_boxes(at):
+    """Two unit cubes, the second moved by `at`, their common vertices merged."""
+    points, faces = cube()
+    points = (np.asarray(points) - np.min(points, axis=0)) / np.ptp(points, axis=0)
+    both = np.concatenate([points, points + at])
+    places, number = np.unique(np.round(both, 9), axis=0, return_inverse=True)
+    corners = np.concatenate([np.asarray(faces), np.asarray(faces) + len(points)])
+    return places, number.ravel()[corners]
+
+
+def test_a_wall_inside_goes():
+    points, faces = two_boxes([1.0, 0.0, 0.0])
+    sides = [frozenset(face) for face in faces.tolist()]
+    twice = [k for k, side in enumerate(sides) if side in sides[:k]]
+    assert len(twice) == 1
+    found = df.clean(points, np.delete(faces, twice, axis=0))
+    only(found, "inner", 1)
+    closed(found, 2.0)
+
+
+@pytest.mark.parametrize("at", [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0]])
+def test_parts_that_share_an_edge_or_a_vertex_are_separated(at):
+    points, faces = two_boxes(at)
+    found = df.clean(points, faces)
+    only(found, "pinched", 2 if at[2] == 0.0 else 1)
+    closed(found, 2.0)
+    assert len(found.vertices) == 16
+    assert np.array_equal(found.vertices, points[found.vertex_origin])
+
+
+def test_hollows_stay_and_what_is_inside_goes():
+    points, faces = BALL
+    both = np.concatenate([points, 0.5 * points])
+    hollow = df.clean(both, np.concatenate([faces, faces[:, ::-1] + len(points)]))
+    assert hollow.done == []
+    closed(hollow, VOLUME * 0.875)
+    full = df.clean(both, np.concatenate([faces, faces + len(points)]))
+    only(full, "inner", len(faces))
+    closed(full)
+
+
+@pytest.mark.parametrize("count", [100, 512])
+def test_faces_are_turned_over(count):
+    points, faces = BALL[0], BALL[1].copy()
+    faces[:count] = faces[:count, ::-1]
+    found = df.clean(points, faces)
+    only(found, "normals", min(count, len(faces)))
+    closed(found)
+    corners = np.asarray(faces).ravel()
+    assert np.array_equal(corners[found.corner_origin], found.faces.ravel())
+
+
+@pytest.mark.parametrize("factor", [2.0, 0.3])
+def test_spikes_are_pressed_down_but_not_fixed_ones(factor):
+    points, faces = BALL[0].copy(), BALL[1]
+    points[[50, 200]] *= factor
+    found = df.clean(points, faces)
+    only(found, "spikes", 2)
+    assert np.abs(np.linalg.norm(found.vertices, axis=1) - 1.0).max() < 0.035
+    fixed = np.zeros(len(points), bool)
+    fixed[50] = True
+    assert told(df.clean(points, faces, fixed=fixed), "spikes")[0].count == 1
+
+
+def test_a_corner_of_a_box_is_no_spike():
+    assert df.clean(*two_boxes([3.0, 0.0, 0.0])).done == []
+
+
+def test_a_hole_is_filled_and_the_border_of_a_sheet_is_not():
+    points, faces = BALL
+    height = points[faces].mean(axis=1)[:, 2]
+    found = df.clean(points, faces[height < 0.8])
+    assert told(found, "fill")[0].text.startswith("1 hole filled")
+    assert (
+        found.watertight and found.left == [] and found.volume == pytest.approx(VOLUME, rel=0.005)
+    )
+    assert (found.face_origin[-told(found, "fill")[0].count :] == -1).all()
+    new = found.vertex_origin < 0
+    assert (np.diff(new.astype(int)) >= 0).all()  # new ones come last
+    sheet = df.clean(points, faces[height > 0.6])
+    assert not told(sheet, "fill")
+    assert not sheet.watertight and np.isnan(sheet.volume)
+    assert [defect.code for defect in sheet.left] == ["OPEN_HOLE"]
+
+
+def test_holes_by_their_length():
+    points, faces = BALL
+    height = points[faces].mean(axis=1)[:, 2]
+    kept = faces[(height < 0.9) & (height > -0.5)]
+    small = df.clean(points, kept, largest=1.3)
+    assert told(small, "fill")[0].text.startswith("1 hole filled")
+    assert len(small.left[0].elements) > 20
+    assert df.clean(points, kept, largest=3.0).watertight
+
+
+def test_a_hole_wider_than_half_of_its_part_is_flat():
+    points, faces = mapped(
+        lambda a, b: (np.cos(2 * np.pi * a), np.sin(2 * np.pi * a), 2.0 * b), 32, 17, (True, False)
+    )
+    found = df.clean(points, faces)
+    assert found.watertight
+    assert found.vertices[:, 2].min() > -1e-9 and found.vertices[:, 2].max() < 2.0 + 1e-9
+
+
+def test_a_bad_rim_is_cut_back():
+    """A slit in a hole's rim: the faces around go, and the hole is filled."""
+    points, faces = BALL
+    height = points[faces].mean(axis=1)[:, 2]
+    kept = faces[height < 0.8]
+    rim = df.find_holes(points, kept)[0]
+    at = int(rim[0])
+    fan = np.flatnonzero((kept == at).any(axis=1))
+    split = kept.copy()
+    split[fan[: len(fan) // 2]] = np.where(
+        split[fan[: len(fan) // 2]] == at, len(points), split[fan[: len(fan) // 2]]
+    )
+    found = df.clean(np.vstack([points, points[at]]), split)
+    assert found.watertight and found.left == []
+
+
+def spoiled(seed=0):
+    """A ball with noise, holes, specks, spikes, fins, faces turned over and twice."""
+    rng = np.random.default_rng(seed)
+    points, faces = sphere(4)
+    centres = points[faces].mean(axis=1)
+    for _ in range(4):
+        way = rng.normal(size=3)
+        keep = centres @ (way / np.linalg.norm(way)) < 0.96
+        faces, centres = faces[keep], centres[keep]
+    points = points * (1.0 + 0.002 * rng.normal(size=(len(points), 1)))
+    used = np.unique(faces)
+    points[rng.choice(used, 5, replace=False)] *= 1.5
+    faces[:200] = faces[:200, ::-1]
+    parts, corners = [points], [faces, faces[rng.choice(len(faces), 9)][:, [1, 2, 0]]]
+    count = len(points)
+    for _ in range(20):
+        parts.append(rng.normal(0, 2, 3) + rng.normal(0, 0.02, (3, 3)))
+        corners.append(count + np.arange(3)[None])
+        count += 3
+    for _ in range(5):
+        a, b = faces[rng.integers(len(faces)), :2]
+        parts.append(points[a][None] * 1.2)
+        corners.append(np.array([[a, b, count]]))
+        count += 1
+    return np.concatenate(parts), np.concatenate(corners)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_all_at_once(seed):
+    points, faces = spoiled(seed)
+    found = df.clean(points, faces)
+    assert found.watertight and found.left == []
+    assert_oriented_manifold(found.faces, len(found.vertices))
+    assert found.volume == pytest.approx(4.0 * np.pi / 3.0, rel=0.02)
+    assert {act.step for act in found.done} >= {
+        "mend",
+        "islands",
+        "fins",
+        "normals",
+        "spikes",
+        "fill",
+    }
+    again = df.clean(found.vertices, found.faces)
+    assert again.done == [] and np.array_equal(again.vertices, found.vertices)
+    kept = found.vertex_origin >= 0
+    same = (found.vertices[kept] == points[found.vertex_origin[kept]]).all(axis=1)
+    assert (~same).sum() == sum(act.count for act in told(found, "spikes"))
+
+
+def test_the_same_for_any_number_of_threads():
+    points, faces = spoiled()
+    one, many = (df.clean(points, faces, threads=k) for k in (1, 3))
+    assert np.array_equal(one.vertices, many.vertices) and np.array_equal(one.faces, many.faces)
+
+
+def test_each_step_can_be_turned_off():
+    points, faces = spoiled()
+    for step in ("fins", "normals", "inner", "pinched", "spikes", "folds", "fill", "join"):
+        assert not told(df.clean(points, faces, **{step: False}), step)
+    assert not told(df.clean(points, faces, islands=0.0), "islands")
+
+
+@pytest.mark.parametrize(
+    ("settings", "code"),
+    [
+        ({"islands": 2.0}, "BAD_OPTION"),
+        ({"largest": -1.0}, "BAD_OPTION"),
+        ({"fixed": [True]}, "BAD_SHAPE"),
+        ({"progress": 1}, "BAD_OPTION"),
+    ],
+)
+def test_options_are_checked(settings, code):
+    with pytest.raises(df.FairingError) as error:
+        df.clean(*BALL, **settings)
+    assert error.value.code == code
+
+
+def test_it_can_be_cancelled():
+    with pytest.raises(df.FairingError) as error:
+        df.clean(*spoiled(), progress=lambda fraction, phase: fraction < 0.2)
+    assert error.value.code == "CANCELLED"
+
+
+def test_a_sheet_of_quads_stays_one():
+    points, triangles = mapped(lambda a, b: (a, b, 0.1 * a * b), 9, 7)
+    count = len(triangles) // 2
+    quads = np.stack(
+        [triangles[:count, 0], triangles[:count, 1], triangles[:count, 2], triangles[count:, 2]], 1
+    )
+    assert len(lattice(9, 7)) == 2 * count
+    found = df.clean(points, quads)
+    assert found.done == [] and not found.watertight
+    assert np.array_equal(found.faces[0].reshape(-1, 4), quads)
