@@ -22,12 +22,10 @@ def length_of(points: np.ndarray) -> float:
     return float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
-def wanted_holes(
-    state: State, loops: list[np.ndarray], largest: float
-) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """The loops to be closed: those across which the surface goes on, and those wider than half of the
-    part that they are in, where nobody knows how. `largest`: the longest diagonal of a hole's box; 0:
-    what is flat within the rim has less than half of the area of the part: the border of a sheet has all
+def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[Any], list[Any]]:
+    """Of holes, each a rim and those of islands in it, the ones to be closed: those across which the
+    surface goes on, and those wider than half of the part that they are in, where nobody knows how.
+    `largest`: the longest diagonal of a hole's box; 0: what is flat within the rim has less than half of the area of the part: the border of a sheet has all
     of it, that of half a ball just half.
     """
     part, count = numbered_parts(state, state.sides.pairs)
@@ -35,12 +33,13 @@ def wanted_holes(
     of_vertex[state.corners] = part[state.face_of]
     sizes = diagonals(state, part, count)
     areas = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
-    narrow, wide = [], []
-    for loop in loops:
-        points, name = state.points[loop], of_vertex[loop[0]]
+    narrow: list[Any] = []
+    wide: list[Any] = []
+    for hole in holes:
+        points, name = state.points[hole[0]], of_vertex[hole[0][0]]
         length = length_of(points)
         if length <= largest if largest > 0.0 else _flat_area(points) < 0.5 * areas[name]:
-            (narrow if length <= 0.5 * sizes[name] else wide).append(loop)
+            (narrow if length <= 0.5 * sizes[name] else wide).append(hole)
     return narrow, wide
 
 
@@ -64,7 +63,7 @@ def closed(
         watchers = run["monitor"], run["progress"]
         filler = _native.Filler(state.points, state.corners, state.offsets)
         loops, unclear = filler.find(*watchers)
-        narrow, wide = wanted_holes(state, [np.array(loop) for loop in loops], largest)
+        narrow, wide = wanted_holes(state, filler.with_islands(loops, *watchers), largest)
         skipped = []
         for wanted, how in ((narrow, settings), (wide, settings | {"joint": "position"})):
             if not wanted:
