@@ -25,6 +25,7 @@ class Wish:
     steps: dict[str, bool]
     islands: float
     largest: float
+    noise: int
 
 
 class CleanJob:
@@ -58,6 +59,7 @@ class CleanJob:
                 (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
                 islands=self._wish.islands,
                 largest=self._wish.largest,
+                noise=self._wish.noise,
                 fixed=_marked(arrays),
                 **self._wish.steps,
                 **watchers,

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from ..blender import Answer, Context, registration
 from ..cleaning import CleanJob, Wish
@@ -71,6 +71,14 @@ class OBJECT_OT_fairing_clean(WholeFairing, bpy.types.Operator):
         min=0.0,
         subtype="DISTANCE",
     )
+    noise: IntProperty(
+        name="Noise",
+        description="Passes of a filter that takes noise off all but creased and sharp edges, or 0 for none",
+        default=0,
+        min=0,
+        max=1000,
+        soft_max=30,
+    )
 
     @staticmethod
     def poll_reason(context: Context) -> str:
@@ -85,10 +93,11 @@ class OBJECT_OT_fairing_clean(WholeFairing, bpy.types.Operator):
                 layout.prop(self, "islands")
         if self.fill:
             layout.prop(self, "largest")
+        layout.prop(self, "noise")
 
     def make_jobs(self, context: Context) -> list[Any]:
         steps = {name: bool(getattr(self, name)) for name, *_ in _STEPS}
-        wish = Wish(steps, self.islands, self.largest)
+        wish = Wish(steps, self.islands, self.largest, self.noise)
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, wish) for target in targets]
 

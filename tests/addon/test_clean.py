@@ -151,3 +151,20 @@ def test_in_edit_mode():
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert is_closed(target.data)
+
+
+def test_noise_is_taken_off_in_all_shape_keys():
+    target = ball()
+    rng = np.random.default_rng(0)
+    for vertex in target.data.vertices:
+        vertex.co *= 1.0 + 0.01 * rng.normal()
+    activate(target)
+    target.shape_key_add(name="Basis")
+    for point in target.shape_key_add(name="Wide").data:
+        point.co.x += 0.25
+    before = radii(target).std()
+    assert bpy.ops.object.fairing_clean(noise=10) == {"FINISHED"}
+    assert radii(target).std() < 0.6 * before
+    basis, wide = positions(target.data), target.data.shape_keys.key_blocks["Wide"]
+    found = np.array([point.co for point in wide.data])
+    assert np.allclose(found - basis, [0.25, 0.0, 0.0], atol=1e-5)

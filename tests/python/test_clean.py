@@ -275,6 +275,8 @@ def test_each_step_can_be_turned_off():
     [
         ({"islands": 2.0}, "BAD_OPTION"),
         ({"largest": -1.0}, "BAD_OPTION"),
+        ({"noise": 1001}, "BAD_OPTION"),
+        ({"noise": 1.5}, "BAD_OPTION"),
         ({"fixed": [True]}, "BAD_SHAPE"),
         ({"progress": 1}, "BAD_OPTION"),
     ],
@@ -301,3 +303,19 @@ def test_a_sheet_of_quads_stays_one():
     found = df.clean(points, quads)
     assert found.done == [] and not found.watertight
     assert np.array_equal(found.faces[0].reshape(-1, 4), quads)
+
+
+def test_noise_is_taken_off():
+    rng = np.random.default_rng(0)
+    points, faces = sphere(5)
+    edge = np.linalg.norm(points[faces[:, 0]] - points[faces[:, 1]], axis=1).mean()
+    noisy = points * (1.0 + 0.1 * edge * rng.normal(size=(len(points), 1)))
+    fixed = np.zeros(len(points), bool)
+    fixed[:3] = True
+    found = df.clean(noisy, faces, noise=10, fixed=fixed)
+    only(found, "noise", len(points) - 3)
+    off = np.linalg.norm(found.vertices, axis=1) - 1.0
+    before = np.linalg.norm(noisy, axis=1) - 1.0
+    assert off[3:].std() < 0.45 * before[3:].std()
+    assert abs(off.mean()) < 1e-3  # it neither shrinks nor swells
+    assert np.array_equal(found.vertices[:3], noisy[:3])

@@ -14,9 +14,10 @@ from .. import _native
 from ..arrays import face_arrays, vertex_array
 from ..checking import Defect, check
 from ..errors import fairing_error
-from ..options import switch
+from ..options import switch, whole
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import holes, shape, topology
+from .noise import without_noise
 from .state import State, all_pairs, diagonals, numbered_parts
 
 
@@ -90,6 +91,7 @@ def clean(
     energy: str = "thin_plate",
     density: float = 1.0,
     rim: str = "exact",
+    noise: int = 0,
     fixed: ArrayLike | None = None,
     threads: int = 0,
     progress: Progress | None = None,
@@ -136,6 +138,10 @@ def clean(
     largest : float
         Holes stay open whose box has a longer diagonal, a length. 0: by area: the flat area within the rim
         is over half of the surface's own, as at the border of a sheet.
+    noise : int
+        So many passes of Taubin's filter take noise off [Taubin 1995], up to 1000; ten do for a scan whose
+        noise is a tenth of its edges. It rounds sharp edges that are not `fixed`, and moves all other
+        vertices but those of borders. 0: none.
     fixed : (n,) bool
         Vertices that no step moves. None: none.
     threads : int
@@ -170,6 +176,9 @@ def clean(
         switch(name, value)
     _require_number("islands", islands, 1.0)
     _require_number("largest", largest, np.inf)
+    passes = whole("noise", noise)
+    if passes > 1000:
+        raise fairing_error("BAD_OPTION", f"noise is {passes}; it must be from 0 to 1000.")
     points = vertex_array(vertices)
     state = State.of(points, *face_arrays(faces))
     held = _fixed(fixed, len(points))
@@ -210,6 +219,9 @@ def clean(
             run.step("pinched", 0.92, apart_now, *SPLIT)
     if normals:
         run.step("normals", 0.94, topology.turned_out, *TURNED)
+    if passes:
+        smoother = lambda s: without_noise(s, run.held(held), passes)  # noqa: E731
+        run.step("noise", 0.95, smoother, "vertex smoothed", "vertices smoothed")
     found = run.cleaned(skipped)
     watched.finish()
     return found
@@ -317,9 +329,13 @@ class _Run:
         for code, count in acts.items():
             self.note("mend", count, *_CODES[code])
 
-    def press(self, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False) -> None:
+    def held(self, fixed: np.ndarray) -> np.ndarray:
+        """(n,) bool: of the vertices now, which were `fixed` in the input."""
         origin = self.state.vertex_origin
-        held = fixed[origin] & (origin >= 0)
+        return fixed[origin] & (origin >= 0)
+
+    def press(self, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False) -> None:
+        held = self.held(fixed)
         self.state, tips, folded = shape.flattened(self.state, held, spikes, folds, filled)
         self.note("spikes", tips, "spike pressed down", "spikes pressed down")
         self.note("folds", folded, "folded face laid flat", "folded faces laid flat")
@@ -343,11 +359,11 @@ class _Run:
         rows = np.zeros(len(state.face_origin), np.int64)
         volume = float(topology.volumes(state, rows, 1)[0]) if watertight else float("nan")
         sizes = np.diff(state.offsets)
-        whole: Any = state.corners, state.offsets
+        faces: Any = state.corners, state.offsets
         if (sizes == 3).all():
-            whole = state.corners.reshape(-1, 3)
+            faces = state.corners.reshape(-1, 3)
         origins = state.vertex_origin, state.face_origin, state.corner_origin
-        return Cleaned(state.points, whole, *origins, self.done, watertight, volume, left)
+        return Cleaned(state.points, faces, *origins, self.done, watertight, volume, left)
 
 
 def is_watertight(state: State) -> bool:
