@@ -129,8 +129,7 @@ def test_overlays_begin_where_blender_opens_with_a_file():
             overlay.unregister()
             overlay.register()
         bpy.ops.wm.open_mainfile(filepath=path)
-        yield 1.0
-    assert all(overlay.is_on() for overlay in overlays)
+        yield from until(lambda: all(overlay.is_on() for overlay in overlays))
 
 
 harness.run_in_window(globals())
