@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "multigrid/hierarchy.h"
+#include "parallel/memory_news.h"
 
 namespace fairing {
 namespace {
@@ -69,8 +70,9 @@ bool Hierarchy::fits_factor(std::size_t index, const PcgLimits& limits) const {
   return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
 }
 
+// A factor only saves time here. Its matrix takes up to half as much beside it.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
-  return fits_factor(index, limits) &&
+  return fits_factor(index, limits) && is_expected_memory(3 * factor_bytes(unknowns_[index]) / 2) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index));
 }
 

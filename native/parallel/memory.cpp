@@ -51,6 +51,11 @@ void announce_memory(std::size_t bytes) {
   if (open_ledger && run_news) run_news->needs(open_ledger->current() + bytes);
 }
 
+bool is_expected_memory(std::size_t bytes) {
+  if (!open_ledger || !run_news || run_news->predicted() == 0) return true;
+  return open_ledger->current() + bytes <= std::max(2 * run_news->predicted(), small_run);
+}
+
 MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { open_ledger = this; }
 
 MemoryLedger::~MemoryLedger() { open_ledger = nullptr; }

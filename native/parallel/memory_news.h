@@ -51,4 +51,8 @@ class MemoryNewsScope {
 // That the run on this thread is about to take so many bytes more than its ledger holds.
 void announce_memory(std::size_t bytes);
 
+// Whether so many more leave the run within twice what was predicted, or small: to be asked before
+// what it can do without.
+bool is_expected_memory(std::size_t bytes);
+
 }  // namespace fairing
