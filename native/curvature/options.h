@@ -76,6 +76,7 @@ struct CurvatureLevelReport {
   // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
   std::size_t folds_before = 0, folds = 0;
   std::vector<StepReport> steps;
+  int last_steps = 0;  // of the last way of stepping, which max_steps bounds
   StepWork work;
   // How far the surface is from the solution of its equation, as its last steps tell
   // (left_to_move.h); infinity where they tell nothing.
@@ -86,6 +87,9 @@ struct CurvatureLevelReport {
   bool converged = false;
   // The steps ended at a worse surface than they began at, which is kept in its place.
   bool kept_start = false;
+  // The level below is a bubble (grid/thickness.h), the energy's least perhaps, to which few steps do
+  // not lead: the thin plate's surface is kept in its place.
+  bool swollen = false;
   // Plain steps did not lead to this surface: there may be others, and which one is found may hang
   // on how the mesh lies and is numbered.
   bool damped = false;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/error.h"
 #include "curvature/left_to_move.h"
 #include "hold/anderson.h"
 #include "parallel/reductions.h"
@@ -30,7 +31,9 @@ bool search(StepMethod& method, const StepCount& count, StepReport& step) {
 
 void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
   StepCount count;
+  report.last_steps = 0;
   while (count.total() < most && method.begin(report)) {
+    ++report.last_steps;
     StepReport& step = report.steps.emplace_back();
     method.find_step(step);
     if (search(method, count, step)) {
@@ -292,7 +295,18 @@ void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, 
 void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& report) {
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
   GaussNewtonMethod method(iterate_, of_variation, &damping, end, 0);
-  run_steps(method, options_.max_steps, report);
+  const std::size_t before = report.steps.size();
+  try {
+    run_steps(method, options_.max_steps, report);
+  } catch (const FairingError& error) {
+    // where variation hardly sees what vertices leave open, its system has no factor: the surface that
+    // there is stands
+    if (error.code != ErrorCode::underdetermined) throw;
+    report.steps.pop_back();
+    --report.last_steps;
+    report.converged = false;
+    if (report.steps.size() == before) report.left = std::numeric_limits<double>::infinity();
+  }
 }
 
 void CurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
