@@ -94,7 +94,7 @@ BOUNDARIES = (
     (
         "CORNERS",
         "Keep Corners",
-        "Borders become smooth curves through their vertices, with corners where a single face turns by over 60°",
+        "Borders become smooth curves through their vertices, with corners where the sheet turns by over 60°",
         3,
     ),
     (

@@ -18,7 +18,7 @@ from .choices import EDGE_BOUNDARIES
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
-# half: the cosine of a turn of 60°, above which a border has a corner where a single face ends
+# half: the cosine of a turn of 60°, above which a border has a corner
 _COSINE_OF_CORNER = 0.5
 _OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
 _AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
@@ -335,28 +335,41 @@ def corner_vertices(arrays: ControlArrays, crease_threshold: float | None = None
 
 
 def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarray:
-    """Vertices (c,) int32 of a single face where the border turns by more than 60°, as at the corners
-    of a sheet of quads, and neither of its edges has a boundary of its own.
+    """Vertices (c,) int32 of the border where the sheet's own angle, however many faces it has, is so
+    narrow that the border turns by more than 60°, and neither of its edges there has a boundary of
+    its own; and vertices of a single face where that turns as much the other way.
 
     `plane`: the axis across whose plane the mesh is mirrored; the border does not end in it.
     """
-    count = len(arrays.positions)
-    before = np.arange(len(arrays.corners)) - 1
+    count, corners = len(arrays.positions), arrays.corners
+    before = np.arange(len(corners)) - 1
     before[arrays.offsets[:-1]] = arrays.offsets[1:] - 1
     after = np.empty_like(before)
     after[before] = np.arange(len(before))
-    points = arrays.positions[arrays.corners]
-    arriving, leaving = points - points[before], points[after] - points
-    lengths = np.linalg.norm(arriving, axis=1) * np.linalg.norm(leaving, axis=1)
-    turns = np.einsum("ij,ij->i", arriving, leaving) < _COSINE_OF_CORNER * lengths
-    turns &= np.bincount(arrays.corners, minlength=count)[arrays.corners] == 1
+    points = arrays.positions[corners]
+    back, ahead = points[before] - points, points[after] - points
+    sizes, starts = np.diff(arrays.offsets), arrays.offsets[:-1]
+    spokes = points - np.repeat(points[starts], sizes, axis=0)
+    normals = np.add.reduceat(np.cross(spokes, spokes[after]), starts)
+    own = np.repeat(normals, sizes, axis=0)
+    across = np.cross(ahead, back)
+    sines = np.copysign(np.linalg.norm(across, axis=1), np.einsum("ij,ij->i", across, own))
+    angles = np.arctan2(sines, np.einsum("ij,ij->i", ahead, back))
+    single = np.bincount(corners, minlength=count)[corners] == 1
+    angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
+    angle = np.bincount(corners, angles, minlength=count)
+    sides = np.sort(np.stack([corners, corners[after]], axis=1), axis=1)
+    _, place, uses = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    ends = sides[uses[place.ravel()] == 1].ravel()
+    # at 120° themselves rounding would decide
+    turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(np.arange(count), ends)
     if arrays.boundary_edge is not None:
-        marked = arrays.boundary_edge[arrays.corner_edges] != 0
-        turns &= ~(marked | marked[before])
+        marked = (arrays.boundary_edge != 0) & (arrays.edge_uses == 1)
+        turns &= ~np.isin(np.arange(count), arrays.edges[marked])
     if plane is not None and count:
         near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
-        turns &= np.abs(points[:, plane]) > near
-    return np.sort(arrays.corners[turns]).astype(np.int32)
+        turns &= np.abs(arrays.positions[:, plane]) > near
+    return np.flatnonzero(turns).astype(np.int32)
 
 
 def _corners(arrays: ControlArrays, settings: Any, crease_threshold: float | None) -> np.ndarray:

@@ -251,6 +251,33 @@ def test_a_sheet_of_quads_keeps_its_corners():
     assert core.border_corners(polygons(*grid(3, 2))).tolist() == [0, 3, 8, 11]
 
 
+@pytest.mark.parametrize("diagonal", ["one way", "the other way", "by turns"])
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_a_sheet_of_triangles_keeps_the_same_corners(diagonal, columns):
+    positions, quads = grid(columns, 2)
+    triangles = []
+    for k, (a, b, c, d) in enumerate(quads):
+        turned = diagonal == "the other way" or (diagonal == "by turns" and k % 2)
+        triangles += [[a, b, d], [b, c, d]] if turned else [[a, b, c], [a, c, d]]
+    assert np.array_equal(
+        core.border_corners(polygons(positions, triangles)),
+        core.border_corners(polygons(positions, quads)),
+    )
+
+
+def test_corners_inside_a_sheet_are_none():
+    spike = [(0, 0, 9), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    sides = [[0, i + 1, (i + 1) % 4 + 1] for i in range(4)]
+    assert not len(core.border_corners(polygons(spike, sides)))
+
+
+def test_a_hexagon_of_triangles_has_no_corners():
+    angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+    points = [(0, 0, 0)] + [(np.cos(a), np.sin(a), 0) for a in angles]
+    fan = [[0, i + 1, (i + 1) % 6 + 1] for i in range(6)]
+    assert not len(core.border_corners(polygons(points, fan)))
+
+
 def test_small_turns_are_no_corners():
     angles = np.linspace(0, 2 * np.pi, 8, endpoint=False)
     disc = [(np.cos(a), np.sin(a), 0) for a in angles]
