@@ -28,6 +28,7 @@ REMEDIES = {
     "TOO_EXTREME": "Move far vertices back to the others or delete them, and even out very thin faces",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
     "OUT_OF_MEMORY": "Use fewer levels, or close other programs",
+    "STRAIGHT_CURVE": "Add vertices along the border or crease, or widen the faces beside it",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NO_THREAD": "Close other programs",
     "UNRESOLVED": "Move or add vertices there, or crease the edges where it turns",

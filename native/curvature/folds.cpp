@@ -10,15 +10,24 @@
 namespace fairing {
 namespace {
 
-// Of the ways to cut the quads: those in which an edge has to be folded.
-enum class Cut { any, every };
+// What counts as folded: in which of the ways to cut the quads an edge has to be, and the cosine of the
+// turn from which on it is.
+enum class Ways { any, every };
+struct Cut {
+  Ways ways = Ways::any;
+  double cosine = 0;
+
+  bool any() const { return ways == Ways::any; }
+};
 
 using Point = Eigen::Map<const Vec3>;
 
 // Triangles p q r and q p s.
-bool is_folded(const Point& p, const Point& q, const Point& r, const Point& s) {
+bool is_folded(const Cut& cut, const Point& p, const Point& q, const Point& r, const Point& s) {
   const Vec3 along = q - p;
-  return along.cross(r - p).dot((s - p).cross(along)) < 0;
+  const Vec3 left = along.cross(r - p), right = (s - p).cross(along);
+  const double least = cut.cosine == 0 ? 0 : cut.cosine * left.norm() * right.norm();
+  return left.dot(right) < least;
 }
 
 // The corners that triangles on one side of an edge may have for their third: a quad's may have
@@ -28,13 +37,13 @@ struct Corners {
   int count;
 };
 
-bool is_folded(Cut cut, const double* p, const double* q, const Corners& left,
+bool is_folded(const Cut& cut, const double* p, const double* q, const Corners& left,
                const Corners& right) {
   int folded = 0;
   for (int l = 0; l < left.count; ++l)
     for (int r = 0; r < right.count; ++r)
-      folded += is_folded(Point(p), Point(q), Point(left.at[l]), Point(right.at[r]));
-  return cut == Cut::any ? folded > 0 : folded == left.count * right.count;
+      folded += is_folded(cut, Point(p), Point(q), Point(left.at[l]), Point(right.at[r]));
+  return cut.any() ? folded > 0 : folded == left.count * right.count;
 }
 
 // Calls visit(a, b) for every folded edge inside a face, a and b in closed coordinates.
@@ -44,7 +53,8 @@ void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visi
     return closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(p.j)) + std::size_t(p.i));
   };
   const auto look = [&](GridPoint a, GridPoint b, GridPoint left, GridPoint right) {
-    const bool folded = is_folded(Point(at(a)), Point(at(b)), Point(at(left)), Point(at(right)));
+    const bool folded =
+        is_folded(cut, Point(at(a)), Point(at(b)), Point(at(left)), Point(at(right)));
     if (folded) visit(a, b);
   };
   if (!quad) {  // every edge inside belongs to one triangle that points down
@@ -66,9 +76,9 @@ void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visi
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const GridPoint a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-      if (cut == Cut::any || is_folded(Point(at(b)), Point(at(d)), Point(at(a)), Point(at(c))))
+      if (cut.any() || is_folded(cut, Point(at(b)), Point(at(d)), Point(at(a)), Point(at(c))))
         look(a, c, d, b);
-      if (cut == Cut::any) look(b, d, a, c);
+      if (cut.any()) look(b, d, a, c);
       if (j > 0) look_both(a, b, d, {i, j - 1});
       if (i > 0) look_both(a, d, {i - 1, j}, b);
     }
@@ -140,15 +150,16 @@ std::size_t Folds::count() const {
 
 Folds find_folds(const GridLevel& grid, Workers& workers, const double* x,
                  const std::vector<std::uint8_t>& excused) {
-  return find_folds(Cut::any, grid, workers, x, excused);
+  return find_folds(Cut{}, grid, workers, x, excused);
 }
 
 std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
-                                               std::span<const Vec3> control, Workers& workers) {
+                                               std::span<const Vec3> control, Workers& workers,
+                                               double cosine) {
   const GridLevel grid(mesh, 0);
   std::vector<double> x(3 * grid.size());
   refine_linearly(grid, control, workers, x.data());
-  const Folds folds = find_folds(Cut::every, grid, workers, x.data(), {});
+  const Folds folds = find_folds({Ways::every, cosine}, grid, workers, x.data(), {});
   std::vector<std::uint8_t> folded(mesh.faces.size(), 0);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) folded[f] = folds.in_face[f] > 0;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
@@ -165,15 +176,14 @@ void mark_folds(const GridLevel& grid, const double* x, const Folds& folds, Arra
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     if (!folds.in_face[std::size_t(f)]) continue;
     gather_face(grid, x, f, scratch.data());
-    visit_in_face(Cut::any, mesh.faces[std::size_t(f)].quad(), n, scratch.data(),
-                  [&](GridPoint a, GridPoint b) {
-                    marks[std::size_t(grid.face_point(f, a))] =
-                        marks[std::size_t(grid.face_point(f, b))] = 1;
-                  });
+    visit_in_face(
+        Cut{}, mesh.faces[std::size_t(f)].quad(), n, scratch.data(), [&](GridPoint a, GridPoint b) {
+          marks[std::size_t(grid.face_point(f, a))] = marks[std::size_t(grid.face_point(f, b))] = 1;
+        });
   }
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
     if (folds.on_edge[std::size_t(e)])
-      visit_on_edge(Cut::any, grid, e, x, scratch, [&](int k) {
+      visit_on_edge(Cut{}, grid, e, x, scratch, [&](int k) {
         marks[std::size_t(grid.edge_point(e, k))] = marks[std::size_t(grid.edge_point(e, k + 1))] =
             1;
       });

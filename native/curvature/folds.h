@@ -23,9 +23,11 @@ Folds find_folds(const GridLevel& grid, Workers& workers, const double* x,
                  const std::vector<std::uint8_t>& excused);
 
 // The control faces at folds of the control mesh itself, along whatever diagonals its quads are
-// cut, which no surface through its vertices can do without.
+// cut, which no surface through its vertices can do without. `cosine`: of the turn from which on an
+// edge is a fold of it.
 std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
-                                               std::span<const Vec3> control, Workers& workers);
+                                               std::span<const Vec3> control, Workers& workers,
+                                               double cosine = 0);
 
 // 1 at the ends of the folded edges, 0 elsewhere.
 void mark_folds(const GridLevel& grid, const double* x, const Folds& folds, Array<float>& marks);

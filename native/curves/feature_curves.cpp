@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "curves/curve.h"
+#include "curves/straight.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -25,15 +26,8 @@ std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, i
   return points;
 }
 
-}  // namespace
-
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
-  return refine_feature_edges(mesh, mesh.positions, mesh.positions, subdivisions, exponent);
-}
-
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
-                                   std::span<const Vec3> positions, int subdivisions,
-                                   double exponent) {
+FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> parameters,
+                            std::span<const Vec3> positions, int subdivisions, double exponent) {
   const bool own = positions.data() == parameters.data();
   FeatureCurves curves;
   curves.points_per_edge = subdivisions - 1;
@@ -62,6 +56,37 @@ FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3
   }
   for (Index e = mesh.first_copied_edge(); e < Index(mesh.edges.size()); ++e)
     curves.run[std::size_t(e)] = curves.run[std::size_t(mesh.original_edge(e))];
+  return curves;
+}
+
+}  // namespace
+
+void straighten(const ControlMesh& mesh, std::span<const Index> edges,
+                std::span<const Vec3> positions, FeatureCurves& curves) {
+  for (const Index e : edges) {
+    const auto& ends = mesh.edges[std::size_t(e)].vertex;
+    const Vec3 chord[2] = {positions[std::size_t(ends[0])], positions[std::size_t(ends[1])]};
+    const std::vector<Vec3> points = straight_points(chord, false, curves.points_per_edge + 1);
+    std::copy(points.begin(), points.end(),
+              curves.points.begin() + std::ptrdiff_t(curves.run[std::size_t(e)]) *
+                                          std::ptrdiff_t(curves.points_per_edge));
+  }
+}
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
+  return refine_feature_edges(mesh, mesh.positions, mesh.positions, subdivisions, exponent);
+}
+
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
+                                   std::span<const Vec3> positions, int subdivisions,
+                                   double exponent) {
+  FeatureCurves own = refine_chains(mesh, parameters, parameters, subdivisions, exponent);
+  std::vector<Index> edges = edges_to_straighten(mesh, parameters, own);
+  FeatureCurves curves = positions.data() == parameters.data()
+                             ? std::move(own)
+                             : refine_chains(mesh, parameters, positions, subdivisions, exponent);
+  straighten(mesh, edges, positions, curves);
+  curves.straightened = std::move(edges);
   return curves;
 }
 

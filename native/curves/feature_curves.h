@@ -13,7 +13,8 @@ struct FeatureCurves {
   int points_per_edge = 0;  // subdivisions - 1
   // Per edge: the number of its run in `points`; -1: on no chain. Copies share a run.
   std::vector<Index> run;
-  std::vector<Vec3> points;  // run after run, points_per_edge each
+  std::vector<Vec3> points;           // run after run, points_per_edge each
+  std::vector<Index> straightened{};  // control edges (curves/straight.h), ascending
 
   // The interior points of a feature edge, from its vertex[0] to its vertex[1].
   std::span<const Vec3> of(Index edge) const {
@@ -22,8 +23,13 @@ struct FeatureCurves {
   }
 };
 
+// Puts the points of these edges' runs on their edges, about these positions of the control vertices.
+void straighten(const ControlMesh& mesh, std::span<const Index> edges,
+                std::span<const Vec3> positions, FeatureCurves& curves);
+
 // Straight chains stay on their edges (point k is at k / subdivisions, the same from either end,
-// bit for bit); all others are refined by refine_chain.
+// bit for bit); all others are refined by refine_chain, and brought back to their edges where faces
+// are too narrow for them (curves/straight.h).
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
 
 // The same through other positions of the control vertices, one a vertex. The parameters of the

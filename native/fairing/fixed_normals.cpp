@@ -6,14 +6,12 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "fairing/steepest.h"
 #include "mesh/normal.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
-
-// Between a fixed normal and that of the faces around; more is refused.
-constexpr double steepest = 80 * degree;
 
 Vec3 normal_given(const FairOptions& options, std::size_t v) {
   const Eigen::Map<const Vec3> given(options.normals.data() + 3 * v);

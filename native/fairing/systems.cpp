@@ -5,9 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "curvature/folds.h"
 #include "curvature/total_curvature.h"
 #include "fairing/extremes.h"
 #include "fairing/output.h"
+#include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "paper/back_leg.h"
 #include "paper/release.h"
@@ -153,8 +155,35 @@ void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, R
   watch.enter(Phase::solve, 0.25);
 }
 
+FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control, Report& report,
+                                                 const double* x) {
+  Upright out{x};
+  const bool plain = problem_.options.energy == Energy::thin_plate;
+  if (!repair_kept_) repair_ = {};
+  if (repair_kept_ ? repair_.any()
+                   : plain && find_folds(finest(), *problem_.workers, x, {}).count() > 0) {
+    out.own.resize(3 * finest().size());
+    std::copy_n(x, out.own.size(), out.own.begin());
+    if (repair_kept_)
+      unfold_alike(problem_, control, finest(), repair_, out.own);
+    else
+      repair_ = unfold_plate(problem_, control, finest(), out.own);
+    if (repair_.any()) out.x = out.own.data();
+  }
+  std::vector<Index> straight = control.world_curves.straightened;
+  if (!repair_.straightened.empty()) {
+    out.control = control;
+    straighten(problem_.mesh, repair_.straightened, control.world, out.control->world_curves);
+    straight.insert(straight.end(), repair_.straightened.begin(), repair_.straightened.end());
+  }
+  warn_straightened(problem_.mesh, straight, report);
+  return out;
+}
+
 void FairingSystems::write(const ControlPositions& control, bool measured, Stopwatch& watch,
                            Report& report, const double* x, double* world) {
+  const Upright upright = unfolded(control, report, x);
+  x = upright.x;
   if (measured) {
     watch.enter(Phase::measure, 0.75);
     report.result = energies(x);
@@ -165,7 +194,8 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
     report.result = report.polyhedron = report.prediction = {NAN, NAN};
   }
   watch.enter(Phase::output, 0.875);
-  to_world(control, finest(), problem_.frame, *problem_.workers, x, world);
+  to_world(upright.control ? *upright.control : control, finest(), problem_.frame,
+           *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.cage, world);
 }

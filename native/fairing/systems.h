@@ -4,9 +4,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "curvature/solver.h"
 #include "fairing/problem.h"
+#include "fairing/unfold_plate.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -35,6 +37,10 @@ class FairingSystems {
   PlateState solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
                    Array<double>& x);
 
+  // From here on folds are taken out of a surface where they were taken out of the last one, by the
+  // same linear map: mixes of shapes are shapes of mixes.
+  void keep_repair() { repair_kept_ = true; }
+
   // What solve() has built for a curvature energy; null for the thin plate.
   GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
   // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
@@ -57,6 +63,14 @@ class FairingSystems {
              const double* x, double* world);
 
  private:
+  // The thin plate's surface without folds, which is `x` where that has none; where curves had to give
+  // way, `control` with these.
+  struct Upright {
+    const double* x;
+    Array<double> own{};
+    std::optional<ControlPositions> control{};
+  };
+  Upright unfolded(const ControlPositions& control, Report& report, const double* x);
   SurfaceEnergies energies(const double* x);
   std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
 
@@ -64,6 +78,8 @@ class FairingSystems {
   Monitor& monitor_;
   std::unique_ptr<ThinPlateSolver> plate_;
   std::unique_ptr<GaussNewtonSolver> gauss_newton_;
+  PlateRepair repair_;
+  bool repair_kept_ = false;
 };
 
 }  // namespace fairing

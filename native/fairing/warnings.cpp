@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include "fairing/fixed_normals.h"
 #include "hold/control_hold.h"
+#include "mesh/vertex_pair.h"
 #include "parallel/memory_news.h"
 
 namespace fairing {
@@ -94,6 +96,25 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
 }
 
 }  // namespace
+
+void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges, Report& report) {
+  std::vector<VertexPair> ends;
+  for (const Index e : edges) {
+    const auto& v = mesh.edges[std::size_t(e)].vertex;
+    ends.push_back(ascending(mesh.original_vertex(v[0]), mesh.original_vertex(v[1])));
+  }
+  if (ends.empty()) return;
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<std::int64_t> ids;
+  for (const VertexPair& pair : ends) ids.insert(ids.end(), pair.begin(), pair.end());
+  report.warnings.push_back({"STRAIGHT_CURVE",
+                             listing_pairs(edge_s, ids, {"is", "are"}) +
+                                 " straight where a border or crease is a curve: it would leave "
+                                 "them by more than the faces there are wide. Add vertices along "
+                                 "the curve, or widen these faces.",
+                             ids, ElementKind::edge});
+}
 
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run says of itself: that it takes more memory than was predicted, or has not converged.
+// What a run says of itself: that it takes more memory than was predicted, has straight lines
+// in the place of curves, or has not converged.
 #pragma once
 
 #include <string>
@@ -15,6 +16,10 @@ void expect_memory(const Report& report);
 
 // Reports the peak, with a warning when the run has taken markedly more than was predicted.
 void warn_of_memory(const MemoryLedger& ledger, Report& report);
+
+// Adds a warning that names these control edges, if there are any: their curves are straight lines,
+// since the faces beside them are too narrow.
+void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges, Report& report);
 
 // Adds a warning to `report` when a surface has not converged (Report::converged()), with its level,
 // what is left and what to do; `of` begins it. Its code, which begins with NOT_CONVERGED, says why.

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature leaves no folds that the control mesh does not have."""
+"""No energy leaves folds that the control mesh does not have."""
 
 import control_meshes as meshes
 import discrete_fairing as df
+import folding_meshes as folding
 import numpy as np
 import pytest
 import tight
@@ -112,3 +113,79 @@ def test_no_spike_is_thrown_far_off(path):
     result = df.fair(vertices, faces, 2, energy="total_curvature", repair="mend")
     middle = (vertices.max(0) + vertices.min(0)) / 2
     assert np.abs(result.vertices - middle).max() <= 2 * np.abs(vertices - middle).max()
+
+
+OUTLINES = {
+    "corner": folding.corner(),
+    "arrow": folding.arrow(),
+    "star": folding.star(),
+    "comb": folding.comb(),
+    "star of 8": folding.star(8),
+    "star of 24": folding.star(24),
+    "scattered": folding.scattered(),
+}
+
+
+@pytest.mark.parametrize("boundary", ["linear", "curve"])
+@pytest.mark.parametrize("levels", [1, 2, 3])
+@pytest.mark.parametrize("name", OUTLINES)
+def test_a_flat_mesh_stays_one_layer(name, levels, boundary):
+    vertices, faces = OUTLINES[name]
+    result = df.fair(vertices, faces, levels, boundary=boundary)
+    corner = result.vertices[result.triangles]
+    area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2]
+    assert not result.vertices[:, 2].any()
+    assert area.min() > -1e-12 * np.abs(area).sum()
+    assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
+
+
+THIN_PLATES = {
+    "rounded box of 16": (folding.rounded_box(16), 3, {}),
+    "rounded box of 32": (folding.rounded_box(32), 2, {}),
+    "rounded box, uniform": (folding.rounded_box(32), 1, {"metric_exponent": 0.0}),
+    "rounded box, point forces": (folding.rounded_box(32), 1, {"pad_size": 0.0}),
+    "rounded box, tension": (folding.rounded_box(32), 1, {"tension": 0.5}),
+    "hanging vertex": (folding.octahedron_with_a_hanging_vertex(), 3, {}),
+    "chamfered drum of 32": (folding.chamfered_drum(32), 3, {}),
+    "chamfered drum of 64": (folding.chamfered_drum(64), 2, {}),
+}
+
+
+@pytest.mark.parametrize("name", THIN_PLATES)
+def test_the_thin_plate_has_no_folds_of_its_own(name):
+    mesh, levels, options = THIN_PLATES[name]
+    result = df.fair(*mesh, levels, **options)
+    assert own_folds(result, mesh) == 0
+    assert result.vertices[: len(mesh[0])].tobytes() == mesh[0].tobytes()
+
+
+def test_a_plate_is_unfolded_by_any_number_of_threads():
+    one, two = (df.fair(*folding.rounded_box(), 2, threads=threads) for threads in (1, 2))
+    assert one.vertices.tobytes() == two.vertices.tobytes()
+
+
+def test_a_mix_of_shapes_is_unfolded_as_they_are():
+    vertices, faces = folding.rounded_box()
+    bent = vertices + np.sin(vertices[:, [1, 2, 0]])
+    mix = 0.25 * vertices + 0.75 * bent
+    result = tight.fair(vertices, faces, 2, shapes=[bent, mix])
+    assert own_folds(result, (vertices, faces)) == 0
+    wanted = 0.25 * result.vertices + 0.75 * result.shapes[0]
+    assert np.abs(result.shapes[1] - wanted).max() < 1e-6 * np.ptp(vertices)
+
+
+@pytest.mark.parametrize("faces", [1, 2, 4])
+def test_a_narrow_strip_stays_narrow(faces):
+    width = 0.001
+    mesh = folding.strip(width, faces)
+    result = df.fair(*mesh, 3)
+    assert np.ptp(result.vertices[:, 1]) <= 1.01 * width
+    warning = next(w for w in result.report["warnings"] if w["code"] == "STRAIGHT_CURVE")
+    sides = [(i, i + 1) for i in (*range(faces), *range(faces + 1, 2 * faces + 1))]
+    assert set(sides) <= set(map(tuple, np.reshape(warning["elements"], (-1, 2)).tolist()))
+
+
+@pytest.mark.parametrize("mesh", [folding.strip(0.5, 4), meshes.grid(), meshes.fan(8)])
+def test_curves_with_room_stay_curves(mesh):
+    report = df.fair(*mesh, 2).report
+    assert "STRAIGHT_CURVE" not in [w["code"] for w in report["warnings"]]

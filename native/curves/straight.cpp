@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curves/straight.h"
+
+#include <algorithm>
+
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+class NarrowFaces {
+ public:
+  NarrowFaces(const ControlMesh& mesh, std::span<const Vec3> positions, const FeatureCurves& curves)
+      : mesh_(mesh),
+        positions_(positions),
+        curves_(curves),
+        held_(positions.size(), 0),
+        narrow_(curves.run.size(), 0) {
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+      for (const Index v : mesh.edges[e].vertex) held_[std::size_t(v)] |= curves.run[e] >= 0;
+  }
+
+  std::vector<Index> edges() {
+    for (std::size_t s = 0; s < mesh_.sides.size(); ++s) {
+      stop_if_cancelled(s);
+      const Side& side = mesh_.sides[s];
+      if (curves_.run[std::size_t(side.edge)] < 0) continue;
+      const Face& face = mesh_.faces[std::size_t(side.face)];
+      if (!face.quad())
+        look_at_triangle(side, face);
+      else if (side.local < 2)
+        look_at_quad(side, mesh_.sides[s + 2]);
+    }
+    return edges_of_narrow_runs();
+  }
+
+ private:
+  struct Line {
+    Vec3 from, to;
+    Vec3 direction() const { return (to - from).normalized(); }
+    Vec3 at(double t) const { return (1 - t) * from + t * to; }
+  };
+
+  static Vec3 across(const Vec3& v, const Vec3& direction) {
+    return v - direction.dot(v) * direction;
+  }
+  Line chord(const Side& side) const {
+    const auto& v = mesh_.edges[std::size_t(side.edge)].vertex;
+    const Vec3 &a = positions_[std::size_t(v[0])], &b = positions_[std::size_t(v[1])];
+    return side.reversed ? Line{b, a} : Line{a, b};
+  }
+  // Of point k, counted along the side, from where it is on the edge.
+  Vec3 bulge(const Side& side, int k) const {
+    const int last = curves_.points_per_edge + 1;
+    const Vec3& point = curves_.of(side.edge)[std::size_t(side.reversed ? last - k : k) - 1];
+    return point - chord(side).at(double(k) / last);
+  }
+  void mark(const Side& side) { narrow_[std::size_t(curves_.run[std::size_t(side.edge)])] = 1; }
+
+  void look_at_triangle(const Side& side, const Face& face) {
+    const Index corner = face.vertex[std::size_t((side.local + 2) % 3)];
+    const Line line = chord(side);
+    const Vec3 height = across(positions_[std::size_t(corner)] - line.from, line.direction());
+    for (int k = 1; k <= curves_.points_per_edge; ++k) {
+      const Vec3 away = across(bulge(side, k), line.direction());
+      const double into = away.dot(height.normalized());
+      if ((held_[std::size_t(corner)] ? away.norm() : into) > height.norm()) mark(side);
+    }
+  }
+
+  void look_at_quad(const Side& side, const Side& opposite) {
+    if (curves_.run[std::size_t(opposite.edge)] < 0) return;
+    const Line line = chord(side), beside = chord(opposite);
+    const Vec3 direction = ((line.to - line.from) - (beside.to - beside.from)).normalized();
+    const int last = curves_.points_per_edge + 1;
+    for (int k = 1; k < last; ++k) {
+      const double t = double(k) / last;
+      const Vec3 width = across(beside.at(1 - t) - line.at(t), direction);
+      const Vec3 apart = across(bulge(opposite, last - k) - bulge(side, k), direction);
+      if (!(apart.norm() > width.norm())) continue;
+      mark(side);
+      mark(opposite);
+    }
+  }
+
+  std::vector<Index> edges_of_narrow_runs() const {
+    std::vector<Index> out;
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
+      if (curves_.run[e] >= 0 && narrow_[std::size_t(curves_.run[e])]) out.push_back(Index(e));
+    return out;
+  }
+
+  const ControlMesh& mesh_;
+  std::span<const Vec3> positions_;
+  const FeatureCurves& curves_;
+  std::vector<std::uint8_t> held_;    // per control vertex: on a curve
+  std::vector<std::uint8_t> narrow_;  // per run
+};
+
+}  // namespace
+
+std::vector<Index> edges_to_straighten(const ControlMesh& mesh, std::span<const Vec3> positions,
+                                       const FeatureCurves& curves) {
+  return NarrowFaces(mesh, positions, curves).edges();
+}
+
+}  // namespace fairing

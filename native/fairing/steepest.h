@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fairing/fixed_normals.h"
+
+namespace fairing {
+
+// Up to this angle normals tell which side of a surface is up. A fixed normal farther from those of the
+// faces around is refused. Where the control mesh turns by more, the surface may by over 90 degrees: a
+// cube's does by 96 around its vertices, on point forces.
+constexpr double steepest = 80 * degree;
+
+}  // namespace fairing

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fairing/unfold_plate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "curvature/local_damping.h"
+#include "curvature/unfold.h"
+#include "fairing/steepest.h"
+#include "grid/linear.h"
+
+namespace fairing {
+namespace {
+
+// Vertices that weights or tolerances hold stay where these have them.
+Unknowns points_to_fill(const FairingProblem& problem) {
+  Unknowns unknowns = problem.unknowns;
+  if (problem.options.interpolation == Interpolation::approximate)
+    std::fill_n(unknowns.vertex.begin(), problem.mesh.first_centre(), std::uint8_t(0));
+  return unknowns;
+}
+
+class PlateUnfolding {
+ public:
+  PlateUnfolding(const FairingProblem& problem, const ControlPositions& control,
+                 const GridLevel& grid)
+      : mesh_(problem.mesh),
+        workers_(*problem.workers),
+        curves_(control.working_curves),
+        grid_(grid),
+        control_(control.working),
+        unknowns_(points_to_fill(problem)),
+        polyhedron_(3 * grid.size()) {
+    refine_linearly(grid_, control_, workers_, polyhedron_.data());
+  }
+
+  PlateRepair run(Array<double>& surface) {
+    const std::vector<std::uint8_t> excused =
+        folded_control_faces(mesh_, control_, workers_, std::cos(steepest));
+    const auto find = [&] { return find_folds(grid_, workers_, surface.data(), excused); };
+    Folds folds = find();
+    PlateRepair repair;
+    if (folds.count() == 0) return repair;
+    repair.filled.assign(grid_.size(), 0.0f);
+    const Array<double> plate = surface;
+    Array<float> marks;
+    std::size_t before = folds.count();
+    // one ring more each time, until that is more than a control face
+    for (int rings = 2; rings <= grid_.n() + 2 && folds.count() > 0; ++rings) {
+      mark_folds(grid_, surface.data(), folds, marks);
+      if (rings > 2 && folds.count() >= before) straighten_near(marks, repair.straightened);
+      before = folds.count();
+      dilate_by(rings, marks);
+      for (std::size_t i = 0; i < marks.size(); ++i)
+        repair.filled[i] = std::max(repair.filled[i], marks[i]);
+      unmark(excused, repair.filled);
+      surface = plate;
+      apply(repair, polyhedron_, surface);
+      folds = find();
+    }
+    if (count_all(surface) < count_all(plate)) return repair;
+    surface = plate;
+    return {};
+  }
+
+  // `shape`: what the weights are of.
+  void apply(const PlateRepair& repair, const Array<double>& shape, Array<double>& surface) {
+    for (const Index e : repair.straightened)
+      std::copy_n(polyhedron_.begin() + first_number(e), 3 * inner(),
+                  surface.begin() + first_number(e));
+    fill_harmonically(grid_, unknowns_, repair.filled, shape.data(), surface.data());
+  }
+
+ private:
+  std::size_t inner() const { return std::size_t(grid_.n() - 1); }  // points of an edge
+  std::ptrdiff_t first_number(Index e) const { return 3 * std::ptrdiff_t(grid_.edge_base(e)); }
+
+  // With those of the control mesh.
+  std::size_t count_all(const Array<double>& surface) const {
+    return find_folds(grid_, workers_, surface.data(), {}).count();
+  }
+
+  // On closed faces: beside folds of the control mesh nothing says what is upright.
+  void unmark(const std::vector<std::uint8_t>& faces, Array<float>& marks) const {
+    const int n = grid_.n();
+    for (Index f = 0; f < Index(faces.size()); ++f) {
+      if (!faces[std::size_t(f)]) continue;
+      const bool quad = mesh_.faces[std::size_t(f)].quad();
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= (quad ? n : n - j); ++i)
+          marks[std::size_t(grid_.face_point(f, i, j))] = 0;
+    }
+  }
+
+  void dilate_by(int rings, Array<float>& marks) {
+    for (int r = 0; r < rings; ++r) dilate(grid_, workers_, slots_, nullptr, marks);
+  }
+
+  // Adds the edges whose curves come near a marked point, and their points to the marks.
+  void straighten_near(Array<float>& marks, std::vector<Index>& edges) {
+    Array<float> near = marks;
+    dilate_by(1, near);
+    const auto begin = [&](auto& of, Index e) {
+      return of.begin() + std::ptrdiff_t(grid_.edge_base(e));
+    };
+    std::vector<std::uint8_t> is_near(curves_.points.size(), 0);  // per run
+    const auto run = [&](Index e) { return std::size_t(curves_.run[std::size_t(e)]); };
+    for (const Index e : on_curves())
+      if (std::any_of(begin(near, e), begin(near, e) + std::ptrdiff_t(inner()),
+                      [](float mark) { return mark > 0; }))
+        is_near[run(e)] = 1;
+    for (const Index e : on_curves()) {
+      if (!is_near[run(e)] || std::find(edges.begin(), edges.end(), e) != edges.end()) continue;
+      std::fill_n(begin(marks, e), inner(), 1.0f);
+      edges.push_back(e);
+    }
+  }
+
+  std::vector<Index> on_curves() const {
+    std::vector<Index> edges;
+    for (std::size_t e = 0; e < curves_.run.size() && inner() > 0; ++e)
+      if (curves_.run[e] >= 0) edges.push_back(Index(e));
+    return edges;
+  }
+
+  const ControlMesh& mesh_;
+  Workers& workers_;
+  const FeatureCurves& curves_;
+  const GridLevel& grid_;
+  std::span<const Vec3> control_;
+  Unknowns unknowns_;
+  Array<double> polyhedron_;
+  ElementSlots<float, 1> slots_;
+};
+
+}  // namespace
+
+PlateRepair unfold_plate(const FairingProblem& problem, const ControlPositions& control,
+                         const GridLevel& grid, Array<double>& surface) {
+  return PlateUnfolding(problem, control, grid).run(surface);
+}
+
+void unfold_alike(const FairingProblem& problem, const ControlPositions& control,
+                  const GridLevel& grid, const PlateRepair& repair, Array<double>& surface) {
+  Array<double> shape(surface.size());
+  refine_linearly(grid, problem.basis.working, *problem.workers, shape.data());
+  PlateUnfolding(problem, control, grid).apply(repair, shape, surface);
+}
+
+}  // namespace fairing
