@@ -11,7 +11,7 @@ import numpy as np
 
 from . import core, errors, prediction
 from .blender import Context, Object
-from .check.defects import check_object
+from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
@@ -21,7 +21,7 @@ from .transfer.filling import Patch
 from .transfer.hole_loops import (
     around,
     flat_faces,
-    loops_without,
+    holes_without,
     sides_of,
     unclear_edges,
     where_faces_were,
@@ -65,6 +65,8 @@ class Filled:
     patches: list[Patch]
     places: np.ndarray  # (k, 3) of all new vertices, in the object's coordinates
     holes: list[Any]  # the core's reports
+    # what could not be filled, as Check Mesh keeps it, a dict each
+    skipped: list[dict[str, Any]]
 
     @classmethod
     def of(
@@ -91,7 +93,21 @@ class Filled:
             [patch.in_whole(vertices, len(points)) for patch in patches],
             shape.back(found.vertices[known:], none, none),
             found.holes,
+            [_skipped(hole, vertices) for hole in found.skipped],
         )
+
+
+def _skipped(hole: Any, vertices: np.ndarray) -> dict[str, Any]:
+    """A hole that the core has left, with elements of the mesh whose part has these `vertices` (n,)."""
+    _, _, why = hole.message.partition(": ")  # behind the elements, by the numbers of the part
+    ids = vertices[np.array(hole.elements, np.int64)].tolist()
+    return {
+        "code": hole.code,
+        "message": why,
+        "kind": hole.kind,
+        "elements": ids,
+        "severity": "error",
+    }
 
 
 class HoleJob:
@@ -116,7 +132,8 @@ class HoleJob:
                 gone[:] = False
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
-        loops = loops_without(arrays, self._points, gone)
+        holes = holes_without(arrays, self._points, gone)
+        loops = [loop for hole in holes for loop in hole]
         unclear = unclear_edges(arrays, gone, loops)
         if self._editing and not wish.replaces:  # those that somebody has selected
             chosen = set(map(frozenset, arrays.edges[edges].tolist()))
@@ -124,13 +141,17 @@ class HoleJob:
         self._unclear = len(unclear)
         if wish.edge is not None:
             side = frozenset(wish.edge)
-            self._holes = [[loop] for loop in loops if side in sides_of(loop)]
+            self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
         elif not self._editing:
-            self._holes = [[loop] for loop in loops if len(loop) <= wish.most_edges]
+            self._holes = [hole for hole in holes if max(map(len, hole)) <= wish.most_edges]
         elif wish.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
-            self._holes = [[loop] for loop in loops if not chosen.isdisjoint(sides_of(loop))]
+            self._holes = [
+                hole
+                for hole in holes
+                if any(not chosen.isdisjoint(sides_of(loop)) for loop in hole)
+            ]
         if not self._holes:
             raise JobError(
                 f"{self.name}: {_none_text(wish, self._editing, self._unclear, len(loops))}",
@@ -158,6 +179,8 @@ class HoleJob:
         try:
             with errors.explained(self.name, errors.OF_HOLES):
                 self.result = self._filled(watchers)
+            if not self.result.holes:
+                self.error = JobError(f"{self.name}: {self.left_text}", self.skipped[0]["code"])
         except JobCancelled:
             raise
         except JobError as error:
@@ -229,11 +252,31 @@ class HoleJob:
             [h.why_triangles for h in holes if h.why_triangles],
         )
 
+    @property
+    def skipped(self) -> list[dict[str, Any]]:
+        """Of a finished job, what could not be filled, as Check Mesh keeps it."""
+        return [] if self.result is None else self.result.skipped
+
+    @property
+    def left_text(self) -> str:
+        """Which holes could not be filled, and why, as a sentence; empty where all are."""
+        if not self.skipped:
+            return ""
+        why = _listed([defect["message"] for defect in self.skipped]).rstrip(".")
+        return f"{count_text(len(self.skipped))} left, listed in the panel Check: {why}"
+
     def check_again(self, context: Context) -> None:
-        """Keeps the list of holes true, where one of them was filled from it."""
+        """Keeps the list of holes true, where one of them was filled from it, and lists what could not be
+        filled, with buttons that select and mend it.
+        """
         target = self._target.find()
-        if self._wish.edge is not None and target is not None:
-            check_object(context, target)
+        if target is None or not (self.skipped or self._wish.edge is not None):
+            return
+        known = check_object(context, target)
+        if self.skipped:
+            codes = {defect["code"] for defect in known}
+            new = [defect for defect in self.skipped if defect["code"] not in codes]
+            store_defects(context, target, known + new)
 
     @staticmethod
     def _rebuild(target: Object, patches: list[Patch], places: np.ndarray) -> None:

@@ -10,14 +10,14 @@ from ..blender import Context, Object
 from ..mesh.read import control_mesh, read_mesh
 from ..transfer.hole_loops import loops_without, sides_of
 
-MOST = 50  # that are kept; a list of more helps nobody
+MOST = 50  # that are kept, the longest; a list of more helps nobody
 
 
 def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
-    """The loops of a mesh, the shortest first; none where the core makes no mesh of it."""
+    """The loops of a mesh, the longest first; none where the core makes no mesh of it."""
     gone = np.zeros(len(arrays.face_sizes), bool)
     try:
-        return sorted(loops_without(arrays, arrays.positions, gone), key=len)
+        return sorted(loops_without(arrays, arrays.positions, gone), key=len, reverse=True)
     except core.module().FairingError:
         return []
 

@@ -137,7 +137,8 @@ def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], l
         for hole in job.result.holes
     ]
     entry |= {"result": _counts(source.data), "report": {"holes": holes}}
-    return entry, [f"{source.name}: {sentence}." for sentence in doubts([done])]
+    said = [job.left_text, *doubts([done])]
+    return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
 
 
 def table_head(width: int) -> str:

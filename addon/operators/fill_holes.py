@@ -124,11 +124,12 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
         if ready and context.mode == "EDIT_MESH":  # then only what is new is selected
             bpy.ops.mesh.select_all(action="DESELECT")
         done = [job.apply() for job in ready]
+        for job in jobs:
+            job.check_again(context)
         if not done:
             self.report({"ERROR"}, " ".join(reasons))
             return {"CANCELLED"}
-        for job in ready:
-            job.check_again(context)
+        reasons += [f"{job.name}: {job.left_text}" for job in ready if job.left_text]
         self.report({"INFO"}, _said(done))
         for sentence in reasons + doubts(done):
             self.report({"WARNING"}, sentence)

@@ -19,6 +19,13 @@ def loops_without(
     arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray
 ) -> list[list[int]]:
     """Around the holes that are there without the faces `gone`: only those at a border are looked at."""
+    return [loop for hole in holes_without(arrays, points, gone) for loop in hole]
+
+
+def holes_without(
+    arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray
+) -> list[list[list[int]]]:
+    """The same by holes: of each its rim, and the rims of islands in it."""
     kept = np.repeat(~gone, arrays.face_sizes)
     border = arrays.edges[_uses(arrays, gone) == 1]
     at_border = np.zeros(len(points), bool)
@@ -29,10 +36,15 @@ def loops_without(
     if not near.any():
         return []
     part = cut_out(arrays, near)
-    found = core.module().find_holes(points[part.vertices], flat_faces(part.arrays))
-    loops = [part.vertices[loop].tolist() for loop in found]
+    mesh = points[part.vertices], flat_faces(part.arrays)
     sides = set(map(frozenset, border.tolist()))
-    return [loop for loop in loops if sides.issuperset(sides_of(loop))]
+    ours = [  # the others are only there where the part was cut out
+        loop
+        for loop in core.module().find_holes(*mesh)
+        if sides.issuperset(sides_of(part.vertices[loop].tolist()))
+    ]
+    found = core.module().with_islands(*mesh, ours) if ours else []
+    return [[part.vertices[loop].tolist() for loop in hole] for hole in found]
 
 
 def unclear_edges(

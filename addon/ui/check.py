@@ -9,6 +9,7 @@ from .. import errors
 from ..blender import Context, registration
 from ..check import repair
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
+from ..check.holes import MOST
 from .layout import Folded
 from .notice import draw_notice
 
@@ -68,7 +69,8 @@ def _draw_holes(layout: bpy.types.UILayout, holes: list[dict[str, Any]], stale: 
         show.edge = hole["at"]
         row.operator("object.fairing_fill", text="Fill").edge = hole["at"]
     if len(holes) > _SHOWN:
-        column.label(text=f"and {len(holes) - _SHOWN} larger ones")
+        more = "" if len(holes) < MOST else "at least "
+        column.label(text=f"and {more}{len(holes) - _SHOWN} smaller ones")
 
 
 CLASSES = (VIEW3D_PT_fairing_check,)

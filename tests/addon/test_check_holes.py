@@ -24,10 +24,10 @@ def two_holes():
     return without(ball(), lambda c: c[2] > 0.7 or c[2] < -0.9)
 
 
-def test_holes_are_listed_the_shortest_first():
+def test_holes_are_listed_the_largest_first():
     target = two_holes()
     holes = checked(target)
-    assert len(holes) == 2 and holes[0]["edges"] < holes[1]["edges"]
+    assert len(holes) == 2 and holes[0]["edges"] > holes[1]["edges"]
     assert sum(hole["edges"] for hole in holes) == len(borders(target))
     for hole in holes:
         assert {frozenset(hole["at"])} <= {frozenset(e.vertices) for e in target.data.edges}
@@ -54,7 +54,7 @@ def test_one_is_shown():
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_one_is_filled_and_the_list_goes_on(mode):
     target = two_holes()
-    small, large = checked(target)
+    large, small = checked(target)
     bpy.ops.object.mode_set(mode=mode)
     assert bpy.ops.object.fairing_fill(edge=small["at"]) == {"FINISHED"}
     assert recall_defects(target) == ([], False)
@@ -72,3 +72,17 @@ def test_a_hole_that_is_gone_is_said():
         bpy.ops.object.fairing_fill(edge=hole["at"])
     assert bpy.ops.object.fairing_select_hole(edge=hole["at"]) == {"FINISHED"}
     assert target.mode == "OBJECT"
+
+
+def test_of_many_holes_the_largest_are_kept():
+    points = [(x, y, 0.0) for x in range(41) for y in range(29)]
+    faces = [
+        (29 * x + y, 29 * x + 29 + y, 29 * x + 30 + y, 29 * x + 1 + y)
+        for x in range(40)
+        for y in range(28)
+        if x % 4 != 1 or y % 4 != 1
+    ]
+    target = add("Sieve", points, faces)
+    holes = checked(target)
+    assert len(holes) == 50 and holes[0]["edges"] == 136  # the border of the sheet
+    assert "and at least 42 smaller ones" in draw(check_panel.VIEW3D_PT_fairing_check)

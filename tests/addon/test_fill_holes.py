@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from hole_scenes import ball, borders, edit, is_closed, radii, without
+from mathutils import Vector
 from scenes import activate, positions
 
 from addon import core, holes
@@ -172,3 +173,15 @@ def test_noise_of_the_rim_is_not_carried_on():
         assert bpy.ops.object.fairing_fill(noisy=noisy) == {"FINISHED"}
         off.append(np.abs(radii(target)[count:] - 1).max())
     assert off[1] < 0.6 * off[0]
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_an_island_in_a_hole_is_part_of_its_filling(mode):
+    target = without(ball(), lambda c: 0.2 < (c - Vector((0, 0, 1))).length < 0.75)
+    count = len(target.data.vertices)
+    if mode == "EDIT":
+        edit(target, "EDGE", borders(target)[:1])
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert is_closed(target.data)
+    assert np.abs(radii(target)[count:] - 1.0).max() < 0.005

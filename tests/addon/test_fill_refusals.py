@@ -9,6 +9,8 @@ import pytest
 from cli_runs import entries
 from hole_scenes import ball, borders, edit, is_closed, without
 
+from addon.check.defects import recall_defects
+
 
 def with_a_fin():
     """A ball with two holes; at the rim of one a third face stands on an edge."""
@@ -65,3 +67,27 @@ def test_the_command_line_warns(tmp_path, monkeypatch):
     code, (entry,) = entries("out.obj", "again.obj", "--fill")
     assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
     assert "around no hole" in entry["warnings"][0]
+
+
+def test_a_slit_is_left_and_listed_with_buttons_to_select_and_mend_it(capfd):
+    target = without(ball(), lambda c: c[2] > 0.7)
+    mesh = target.data
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    low = min(bm.edges, key=lambda e: sum(v.co.z for v in e.verts))
+    a, b = low.verts
+    bm.edges.ensure_lookup_table()
+    beside = [f for f in a.link_faces if b not in f.verts]
+    bmesh.ops.split_edges(bm, edges=[low, next(e for e in b.link_edges if e != low)])
+    bm.to_mesh(mesh)
+    bm.free()
+    assert beside
+    before = len(mesh.polygons)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert len(mesh.polygons) > before
+    assert "1 hole left, listed in the panel Check" in capfd.readouterr().out
+    defects, stale = recall_defects(target)
+    assert not stale and [d["code"] for d in defects] == ["COINCIDENT_VERTICES"]
+    assert bpy.ops.object.fairing_repair(index=0) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert is_closed(mesh)
