@@ -166,12 +166,12 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
             break
         part = 1.0 if last else done + 0.5 * (1 - done)
         # a whole fit is worth its time only if the faces that had no patches have some now
-        if best is not None and best.unresolved.size and not run.insist:
-            if run.still_folded(result, at, best.unresolved, runs.run(done, part)):
-                done = part
-                if last:
-                    break
-                continue
+        folded = best is not None and best.unresolved.size > 0 and not run.insist
+        if folded and run.still_folded(result, at, best.unresolved, runs.run(done, part)):
+            done = part
+            if last:
+                break
+            continue
         found = run.fitted(result, at, error, runs.run(done, part))
         done = part
         if best is None or _faults(found, serves) <= _faults(best, serves):
