@@ -92,7 +92,6 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
   fair_once(systems, problem->basis, true, watch, report, result.vertices);
   warn_unconverged(report, options, "", report);
   systems.plate().keep_smoother();
-  systems.keep_repair();
   fair_shapes(*problem, systems, input, watch, monitor, result);
 
   monitor.enter_part(0, 1);

@@ -158,16 +158,17 @@ void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, R
 FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control, Report& report,
                                                  const double* x) {
   Upright out{x};
-  const bool plain = problem_.options.energy == Energy::thin_plate;
-  if (!repair_kept_) repair_ = {};
-  if (repair_kept_ ? repair_.any()
-                   : plain && find_folds(finest(), *problem_.workers, x, {}).count() > 0) {
+  const bool basis = control.working == problem_.basis.working;
+  if (basis) repair_ = {};
+  const bool folded = basis && problem_.options.energy == Energy::thin_plate &&
+                      find_folds(finest(), *problem_.workers, x, {}).count() > 0;
+  if (folded || repair_.any()) {
     out.own.resize(3 * finest().size());
     std::copy_n(x, out.own.size(), out.own.begin());
-    if (repair_kept_)
-      unfold_alike(problem_, control, finest(), repair_, out.own);
-    else
+    if (folded)
       repair_ = unfold_plate(problem_, control, finest(), out.own);
+    else
+      unfold_alike(problem_, control, finest(), repair_, out.own);
     if (repair_.any()) out.x = out.own.data();
   }
   std::vector<Index> straight = control.world_curves.straightened;

@@ -37,10 +37,6 @@ class FairingSystems {
   PlateState solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
                    Array<double>& x);
 
-  // From here on folds are taken out of a surface where they were taken out of the last one, by the
-  // same linear map: mixes of shapes are shapes of mixes.
-  void keep_repair() { repair_kept_ = true; }
-
   // What solve() has built for a curvature energy; null for the thin plate.
   GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
   // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
@@ -78,8 +74,9 @@ class FairingSystems {
   Monitor& monitor_;
   std::unique_ptr<ThinPlateSolver> plate_;
   std::unique_ptr<GaussNewtonSolver> gauss_newton_;
+  // Of the basis, once it has been written; other positions get the same linear map, so that mixes of
+  // shapes are shapes of mixes.
   PlateRepair repair_;
-  bool repair_kept_ = false;
 };
 
 }  // namespace fairing
