@@ -78,7 +78,7 @@ class CleanJob:
                 and self._shape == world_shape(target)
             ):
                 return ""
-        return f"Clean once more: {self.name} was edited during the run, and nothing has changed."
+        return f"Run Clean Scan once more: {self.name} was edited during the run, and nothing has changed."
 
     def apply(self, context: Context) -> list[str]:
         """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""

@@ -52,7 +52,8 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (pads_.take()) iterate_.current.held.loads.clear();
-  choose_start(iterate_, level, pads_.now(), plate, below_.plate, hold_.targets(), report);
+  const std::span<const Vec3> given = is_finest() ? hold_.targets() : std::span<const Vec3>{};
+  choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
   below_ = {{plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size())}, is_plain};

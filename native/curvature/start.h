@@ -11,11 +11,11 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 
 // Takes the iterate from the level below, whose solution it holds, to `level` and on to these pads.
 // `plate` and `plate_below` are the thin plate's surfaces of both levels; on the coarsest level
-// iterate.current and plate_below are empty. Candidates, of which each has to have less energy than
-// those before:
+// iterate.current and plate_below are empty. `given` are the control vertices' own places on a mesh
+// that is not refined, else empty. Candidates, of which each has to have less energy than those before:
 //
-//   1. the thin plate's surface; on the coarsest level the control vertices as they are, `given`, which
-//      differ where they may move: what fills a long tube is one, and the plate a thread;
+//   1. the thin plate's surface; or the given places, which differ where vertices may move: a filling
+//      of a long tube is one, and the plate a thread;
 //   2. the same plus the prolongated change (solution minus plate) of the level below;
 //   3. where that is not near the level below's energy: its surface with new midpoints bulged along
 //      its normals (transfer/point_normal.h), exact to fourth order;
