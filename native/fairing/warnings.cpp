@@ -91,8 +91,7 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
       "NOT_CONVERGED",
       "On level %d the steps stopped after %zu with some %.1e of the mesh's size left to move "
       "(target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
-      level.level, level.steps.size(), level.left,
-      options.step_tolerance_wanted());
+      level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
 }
 
 }  // namespace
