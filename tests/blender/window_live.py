@@ -240,9 +240,13 @@ def test_undo_takes_live_along():
     assert np.array_equal(positions(target.data), before)
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.ed.redo()
-    yield 1.0
+    waited = 0.0
+    while not bpy.data.objects["Suzanne Fair"].discrete_fairing_live.on:
+        assert waited < harness.DRAWN
+        waited += 0.5
+        yield 0.5
     source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
-    assert target.discrete_fairing_live.on and not source.hide_get()
+    assert not source.hide_get()
     yield from wait_for_the_full_level(target, 2)
     assert np.array_equal(positions(target.data), before)
 
