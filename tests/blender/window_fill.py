@@ -82,7 +82,7 @@ def test_check_lists_holes_and_fills_one():
         region.tag_redraw()
     yield 1.0
     harness.photograph("fill_listed")
-    small, large = module("check.defects").recall_holes(target)
+    large, small = module("check.defects").recall_holes(target)
     assert small["edges"] < large["edges"]
     call("fairing_fill", edge=small["at"])
     yield from until_it_ends()
