@@ -127,8 +127,8 @@ def test_the_view_can_be_used_and_cancel_is_a_button():
     assert list(bpy.data.objects.keys()) == ["Suzanne"]
 
 
-def test_what_is_begun_meanwhile_is_ended_first():
-    """Edit Mode is left before the surface is written; a drag is waited for."""
+def test_what_is_begun_meanwhile_goes_on():
+    """Edit Mode is kept when the surface is written; a drag is waited for."""
     yield from open_window()
     start(4)
     with bpy.context.temp_override(**harness.view()):
@@ -140,7 +140,7 @@ def test_what_is_begun_meanwhile_is_ended_first():
     assert running() and bpy.context.mode == "EDIT_MESH", "nothing is taken from under the mouse"
     harness.xdotool("key", "Return")
     yield from until_it_ends()
-    assert bpy.context.mode == "OBJECT" and "Suzanne Fair" in bpy.data.objects
+    assert bpy.context.mode == "EDIT_MESH" and "Suzanne Fair" in bpy.data.objects
 
 
 def until_it_ends():
