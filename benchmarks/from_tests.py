@@ -65,11 +65,6 @@ def readers() -> tuple[ModuleType, ModuleType]:
     return importlib.import_module("mesh_files"), importlib.import_module("shared_data")
 
 
-def hard_meshes() -> tuple[ModuleType, ModuleType]:
-    """bevelled_boxes and thin_meshes."""
-    return importlib.import_module("bevelled_boxes"), importlib.import_module("thin_meshes")
-
-
 def ragged_holes() -> ModuleType:
     """tests/python/ragged_holes.py."""
     return importlib.import_module("ragged_holes")

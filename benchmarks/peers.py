@@ -70,14 +70,14 @@ def timed(body: Callable[[], Any], repeats: int) -> dict[str, Any]:
 
 def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
     """From arrays to arrays."""
-    import runs
+    import discrete_fairing as df
 
     mesh = control_meshes.sphere(size)
 
     def body() -> dict[str, Any]:
-        report = runs.fair(
-            mesh, levels=levels, relative_residual=TOLERANCE, measure=False, threads=threads
-        )
+        report = df.fair(
+            *mesh, levels=levels, relative_residual=TOLERANCE, measure=False, threads=threads
+        ).report
         return {"iterations": [level["iterations"] for level in report["levels"]]}
 
     return timed(body, repeats)

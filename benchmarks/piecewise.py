@@ -57,11 +57,11 @@ def lumpy_torus(triangles: int) -> tuple[Any, Any]:
 
 
 def used() -> dict[str, float]:
-    import million
+    import one_run
 
     spent = resource.getrusage(resource.RUSAGE_SELF)
     return {
-        "resident_bytes": million.peak_resident_bytes(),
+        "resident_bytes": one_run.peak_resident_bytes(),
         "processor": spent.ru_utime + spent.ru_stime,
     }
 

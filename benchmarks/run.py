@@ -9,55 +9,32 @@ import platform
 import time
 from pathlib import Path
 
-import bevels
-import cancel
-import charts
-import cholesky
-import clean_meshes
 import curvature_peaks
 import drag
 import drawn
 import energies
 import exactness
 import fill_lengths
-import fill_million
 import fills
 import jobs
 import limits
-import live
 import machine_parts
 import measured_points
-import memory
-import million
 import offsets
 import pads
-import paper
 import peers
 import piecewise
-import ragged
-import renumbering
-import scaling
-import shared
 import side_by_side
 import sizes
 import step_distances
 import subdivision
-import uneven
 
 OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
-    "scaling": scaling.run,
-    "cholesky": cholesky.run,
     "peers": peers.run,
-    "million": million.run,
     "piecewise": piecewise.run,
     "sizes": sizes.run,
     "step_distances": step_distances.run,
-    "cancel": cancel.run,
-    "charts": charts.run,
-    "paper": paper.run,
-    "memory": memory.run,
-    "shared": shared.run,
     "side_by_side": side_by_side.run,
     "subdivision": subdivision.run,
     "limits": limits.run,
@@ -68,18 +45,11 @@ BENCHMARKS = {
     "peaks": curvature_peaks.run,
     "pads": pads.run,
     "offsets": offsets.run,
-    "bevels": bevels.run,
     "energies": energies.run,
     "exact": exactness.run,
-    "clean": clean_meshes.run,
     "fills": fills.run,
     "fill_lengths": fill_lengths.run,
-    "fill_million": fill_million.run,
-    "ragged": ragged.run,
     "drag": drag.run,
-    "live": live.run,
-    "uneven": uneven.run,
-    "renumbering": renumbering.run,
 }
 
 

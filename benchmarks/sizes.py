@@ -10,8 +10,8 @@ import os
 import statistics
 from typing import Any
 
-import million
-import scaling
+import numpy as np
+import one_run
 import table
 
 REPEATS = 3
@@ -35,13 +35,18 @@ def triangles(case: tuple[str, int, int]) -> int:
     return FACES[kind] * size**2 * 4**levels
 
 
+def exponent(sizes: list[float], seconds: list[float]) -> float:
+    """The slope of log seconds over log size."""
+    return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
+
+
 def measure(case: tuple[str, int, int]) -> dict[str, Any]:
     """One size on one thread and on two, in turns."""
     repeats = 1 if triangles(case) >= ONCE_FROM else REPEATS
     found: dict[int, list[dict[str, Any]]] = {1: [], 2: []}
     for _ in range(repeats):
         for threads, entries in found.items():
-            entries.append(million.spawn(case, threads))
+            entries.append(one_run.spawn(case, threads))
     one, two = found[1][0], found[2][0]
     count = two["triangles"]
     return {
@@ -67,9 +72,9 @@ def run() -> dict[str, Any]:
         ]
         sizes = [p["triangles"] for p in points]
         slopes = {
-            "one thread": scaling.exponent(sizes, [p["wall"][1] for p in points]),
-            "two": scaling.exponent(sizes, [p["wall"][2] for p in points]),
-            "processor": scaling.exponent(sizes, [p["processor"] for p in points]),
+            "one thread": exponent(sizes, [p["wall"][1] for p in points]),
+            "two": exponent(sizes, [p["wall"][2] for p in points]),
+            "processor": exponent(sizes, [p["processor"] for p in points]),
         }
         result[name] = {"points": points, "exponents": slopes}
         exponents.append([name, *slopes.values()])
@@ -95,7 +100,7 @@ def run() -> dict[str, Any]:
         rows,
     )
     table.show(
-        f"Time exponents (target {scaling.TARGET})",
+        "Time exponents",
         ["series", "one thread", "two", "processor"],
         exponents,
     )

@@ -5,19 +5,12 @@ from collections.abc import Callable
 from statistics import median
 from typing import Any
 
-from results import result, short, span, table
-
-CRUMPLED = ("torus", "Suzanne")  # what the meshes of `energies` begin with whose steps are damped
+from results import result, short, table
 
 
 def energies() -> dict[str, Any]:
     """The meshes that pads and energies were timed on, by name and level."""
     return result("energies")
-
-
-def total_curvature(crumpled: bool) -> list[float]:
-    """Times of total curvature over the thin plate's."""
-    return [e["ratio"] for name, e in energies().items() if name.startswith(CRUMPLED) == crumpled]
 
 
 def pads_table() -> str:
@@ -52,23 +45,6 @@ def wall(size: str, tool: str) -> float | None:
 
 def sizes_of_peers() -> list[str]:
     return [name for name, found in result("peers").items() if isinstance(found, dict)]
-
-
-def libigl() -> str:
-    """How many times as long libigl takes, both as they come."""
-    size = "82 K, 320 faces"
-    theirs, ours = wall(size, "libigl harmonic"), wall(size, "ours, default settings, two")
-    assert theirs and ours
-    return f"{theirs / ours:.0f}"
-
-
-def cholmod() -> str:
-    ratios = []
-    for size in sizes_of_peers():
-        theirs, ours = wall(size, "CHOLMOD, one thread"), wall(size, "ours, one thread")
-        assert theirs and ours
-        ratios.append(theirs / ours)
-    return span(ratios)
 
 
 def peers_table() -> str:
@@ -128,30 +104,6 @@ def sizes_table() -> str:
     return table(heads, rows)
 
 
-def points_of_sizes() -> list[dict[str, Any]]:
-    return [p for key in SIZES for p in result("sizes")[key]["points"]]
-
-
-def bytes_a_triangle(least: bool) -> str:
-    """Of runs of millions with large faces, or of any size with small ones."""
-    found = result("sizes")
-    if least:
-        return span((p["resident"] for p in found["by levels"]["points"][2:]), 3)
-    return span((p["resident"] for p in found["L = 3"]["points"]), 3)
-
-
-def predicted() -> str:
-    """Predicted memory over the peak of long arrays."""
-    runs = result("memory").values()
-    ratios = [r["predicted_bytes"] / r["peak_bytes"] for r in runs]
-    return span([*ratios, *(p["predicted"] / p["ledger"] for p in points_of_sizes())], 3)
-
-
-def microseconds() -> str:
-    """Processor time a triangle."""
-    return span(1e6 * p["processor"] / p["triangles"] for p in points_of_sizes())
-
-
 def drag_table() -> str:
     """Moves of a vertex by a `Solver`."""
     heads = ["control mesh, level", "pad size", "first moves", "following", "slowest of these"]
@@ -162,11 +114,6 @@ def drag_table() -> str:
         following = f"{d['following']:.1f} ms, {d['iterations']}"
         rows.append([name, f"{float(pad):.0f}", first, following, f"{d['most']:.0f} ms"])
     return table(heads, rows)
-
-
-def cancel_largest() -> str:
-    """The longest that a run went on, in milliseconds."""
-    return f"{max(c['largest'] for c in result('cancel').values()):.0f}"
 
 
 def pieces_table() -> str:
@@ -186,17 +133,6 @@ def pieces_table() -> str:
     return table(heads, rows)
 
 
-def pieces_rate() -> str:
-    """Seconds of a core for a million triangles."""
-    runs = result("piecewise")["sizes"]
-    return span(1e6 * s["work"]["processor"] / s["triangles"] for s in runs)
-
-
-def two_workers() -> str:
-    """How many times as fast as one worker two are."""
-    return f"{2 * result('piecewise')['two_workers']['efficiency']:.2f}"
-
-
 def rings_table() -> str:
     """How far pieces are from the whole, by rings."""
     found = result("piecewise")["rings"]
@@ -210,27 +146,11 @@ def rings_table() -> str:
 
 
 COST: dict[str, Callable[[], str]] = {
-    "pads.cost": lambda: span(e["pads"] for e in energies().values()),
-    "pads.cost.median": lambda: short(median(e["pads"] for e in energies().values())),
     "pads.cost.table": pads_table,
-    "pads.total_curvature": lambda: span(
-        e["curvature"] / e["curvature on needles"] for e in energies().values()
-    ),
-    "total_curvature.cost": lambda: span(total_curvature(crumpled=False)),
-    "total_curvature.cost.crumpled": lambda: span(total_curvature(crumpled=True)),
     "total_curvature.cost.table": total_curvature_table,
-    "peers.libigl": libigl,
-    "peers.cholmod": cholmod,
     "peers.table": peers_table,
     "sizes.table": sizes_table,
-    "sizes.bytes": lambda: bytes_a_triangle(least=True),
-    "sizes.bytes.small_faces": lambda: bytes_a_triangle(least=False),
-    "sizes.microseconds": microseconds,
-    "memory.predicted": predicted,
     "drag.table": drag_table,
-    "cancel.largest": cancel_largest,
     "pieces.table": pieces_table,
-    "pieces.rate": pieces_rate,
-    "pieces.two_workers": two_workers,
     "pieces.rings.table": rings_table,
 }

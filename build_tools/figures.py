@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The figures of the documents, written from benchmarks/results: each is worked out in one place, so that no
-two pages can differ.
+"""The tables of the documents, written from benchmarks/results.
 
-    python3 build_tools/figures.py           writes them anew
+    python3 build_tools/figures.py           writes them
     python3 build_tools/figures.py --check   names those that differ, and fails
 
-A figure stands in Markdown between two comments: <!-- figure: NAME -->text<!-- /figure -->. It is a number in
-a sentence, or a whole table.
+A whole table stands in Markdown between two comments: <!-- figure: NAME -->…<!-- /figure -->. Sentences beside it may
+repeat its numbers; nothing keeps those up to date.
 """
 
 import re

@@ -25,12 +25,6 @@ def short(value: float, digits: int = 2) -> str:
     return f"{float(text):,.0f}" if "e" in text or abs(value) >= 1000 else text
 
 
-def span(values: Iterable[float], digits: int = 2) -> str:
-    """From the least to the largest: "1.4 to 2.8"."""
-    least, *_, most = sorted(values)
-    return f"{short(least, digits)} to {short(most, digits)}"
-
-
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table, in lines of its own."""
     lines = [heads, ["---"] * len(heads), *rows]

@@ -75,37 +75,6 @@ def beside_subdivision(name: str, ours: Sequence[tuple[str, str]]) -> str:
     return table(heads, rows)
 
 
-def smaller(name: str, ours: str) -> list[int]:
-    """How many of the four figures are below Subdivision Surface's, cage by cage."""
-    return [sum(f[ours][k] < f["Subdivision Surface"][k] for k in FOUR) for f in models(name)]
-
-
-def all_four(name: str, ours: str) -> str:
-    """On how many of how many cages all four figures are smaller."""
-    counts = smaller(name, ours)
-    return f"{sum(c == len(FOUR) for c in counts)} of {len(counts)}"
-
-
-def seconds(name: str, ours: str) -> str:
-    """The most processor time that a surface of a benchmark's models took."""
-    return short(max(found[ours]["seconds"] for found in models(name) if ours in found))
-
-
-def models(name: str) -> list[dict[str, Any]]:
-    """What was measured of each cage or model, by tool; not what is a single number."""
-    found = list(result(name).values())
-    if name == "jobs":
-        found = [tools for job in found for tools in job.values()]
-    return [f for f in found if isinstance(f["Subdivision Surface"], dict)]
-
-
-def best_of_jobs(job: str) -> str:
-    """Of how many models minimum variation is nearest to the true normals."""
-    models = result("jobs")[job].values()
-    nearest = [min(found, key=lambda tool: found[tool]["rms"]) for found in models]
-    return f"{nearest.count('minimum variation')} of {len(nearest)}"
-
-
 def jobs_table() -> str:
     """Known panels and hulls: angles to the true normals."""
     tools = {
@@ -315,11 +284,6 @@ def step_distances_table() -> str:
     return table([*heads, "the patches' own largest"], rows)
 
 
-def inscribed(name: str, pad_size: str) -> str:
-    """Total curvature of the thin plate's surface over 8π, level 4."""
-    return f"{result('pads')['inscribed'][f'{name}, 4'][pad_size]:.2f}"
-
-
 SHAPE: dict[str, Callable[[], str]] = {
     "comparison.tables": side_by_side,
     "subdivision.table": lambda: beside_subdivision(
@@ -334,21 +298,12 @@ SHAPE: dict[str, Callable[[], str]] = {
             ("limit, total curvature", "total curvature"),
         ],
     ),
-    "subdivision.curvature": lambda: all_four("subdivision", "total curvature"),
-    "limits.plate": lambda: all_four("limits", "limit"),
-    "limits.character": lambda: all_four("limits", "Character"),
-    "limits.curvature": lambda: all_four("limits", "limit, total curvature"),
-    "limits.plate.seconds": lambda: seconds("limits", "limit"),
-    "limits.curvature.seconds": lambda: seconds("limits", "limit, total curvature"),
     "step_distances.table": step_distances_table,
     "jobs.table": jobs_table,
     "drawn.panels": lambda: drawn_table("panel"),
     "drawn.hulls": lambda: drawn_table("hull"),
     "machine_parts.table": machine_parts_table,
-    "jobs.panels": lambda: best_of_jobs("panel"),
-    "jobs.seconds": lambda: seconds("jobs", "minimum variation"),
     "points.table": measured_points_table,
-    "jobs.hulls": lambda: best_of_jobs("hull"),
     "peaks.table": peaks_table,
     "pads.fender.table": fender_table,
     "pads.near.table": near_on_pads_table,
@@ -356,8 +311,4 @@ SHAPE: dict[str, Callable[[], str]] = {
     "exact.caps.table": caps_table,
     "offsets.table": offsets_table,
     "offsets.hulls.table": offsets_hulls_table,
-    "cube.plate": lambda: inscribed("cube", "1.0"),
-    "cube.plate.points": lambda: inscribed("cube", "0.0"),
-    "octahedron.plate": lambda: inscribed("octahedron", "1.0"),
-    "octahedron.plate.points": lambda: inscribed("octahedron", "0.0"),
 }

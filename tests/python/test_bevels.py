@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pads on bevelled boxes and thin meshes: no surface swells beside the one on point forces. The
-benchmark `bevels` runs all of them."""
+"""Pads on bevelled boxes and thin meshes: no surface swells beside the one on point forces."""
 
 import bevelled_boxes
 import discrete_fairing as df

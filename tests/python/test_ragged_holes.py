@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ragged holes: closed by a manifold without a fold, but for those that any triangles over the rim would
-have. benchmarks/ragged.py has two hundred.
+have.
 """
 
 import random
