@@ -103,7 +103,7 @@ class CleanJob:
             write_cleaned(target, self._arrays, made)
         with control_mesh(context, target) as mesh:
             arrays = read_mesh(mesh)
-        store_defects(context, target, self._left(arrays, made), listed(arrays), said)
+        store_defects(context, target, self._left(arrays, made), listed(arrays, self._shape), said)
         prediction.note("CLEAN", self.triangles, self._taken, self._key)
         return said
 

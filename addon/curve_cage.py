@@ -21,7 +21,7 @@ from .curves.settle import Covered, Wish, covered
 from .errors import JobError
 from .mesh.object import collections_for, session_key
 from .mesh.read_curves import read_curves
-from .units import length_text
+from .units import Text, Units
 
 HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothing between them
 
@@ -126,7 +126,8 @@ def new_cage(
     """A new object, linked beside the curves, and what it was made from; JobError says why there is
     none.
     """
-    found = covered(_read(sources), _wish(settings), text=_text)
+    curves = _read(sources)
+    found = covered(curves, _wish(settings), text=_text(curves))
     cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
     for collection in collections_for(context):
         collection.objects.link(cage)
@@ -148,14 +149,16 @@ def follow(cage: Object) -> Covered:
         raise JobError(
             f"Leave Edit Mode (Tab): '{cage.name}' is being edited, but follows its curves."
         )
-    group = cage.discrete_fairing_curves
-    found = covered(_read(sources), _wish(group), _counts(group), _text)
+    group, curves = cage.discrete_fairing_curves, _read(sources)
+    found = covered(curves, _wish(group), _counts(group), _text(curves))
     _fill(cage, found)
     return found
 
 
-def _text(length: float) -> str:
-    return length_text(current_context().scene, length, digits=4)
+def _text(curves: Sequence[Curve]) -> Text:
+    """What writes lengths in the unit that suits the farthest of the curves' points."""
+    far = max((float(np.abs(curve.pieces).max(initial=0.0)) for curve in curves), default=0.0)
+    return Units.of(current_context().scene).lengths(far, digits=4)
 
 
 def _read(sources: Sequence[Object]) -> list[Curve]:

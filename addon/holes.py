@@ -26,6 +26,7 @@ from .transfer.hole_loops import (
     unclear_edges,
     where_faces_were,
 )
+from .units import Units
 
 NO_HOLE = "NO_HOLE"  # code of a JobError: there is nothing to fill
 
@@ -35,7 +36,8 @@ class Wish:
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
     density: float
-    most_edges: int  # in Object Mode: larger holes stay open
+    # in Object Mode: wider holes stay open, in scene units; 0: the borders of sheets stay open
+    largest: float
     replaces: (
         bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
     )
@@ -138,12 +140,12 @@ class HoleJob:
         if self._editing and not wish.replaces:  # those that somebody has selected
             chosen = set(map(frozenset, arrays.edges[edges].tolist()))
             unclear = [side for side in unclear if side in chosen]
-        self._unclear = len(unclear)
+        self._unclear, units = len(unclear), Units.of(context.scene)
         if wish.edge is not None:
             side = frozenset(wish.edge)
             self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
         elif not self._editing:
-            self._holes = [hole for hole in holes if max(map(len, hole)) <= wish.most_edges]
+            self._holes = _no_wider(arrays, self._points, holes, wish.largest)
         elif wish.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
@@ -154,7 +156,7 @@ class HoleJob:
             ]
         if not self._holes:
             raise JobError(
-                f"{self.name}: {_none_text(wish, self._editing, self._unclear, len(loops))}",
+                f"{self.name}: {_none_text(wish, self._editing, self._unclear, len(loops), units)}",
                 NO_HOLE,
             )
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
@@ -299,15 +301,25 @@ def _triangles_in(edges: int, density: float) -> int:
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
 
 
-def _none_text(wish: Wish, editing: bool, unclear: int, loops: int) -> str:
+def _no_wider(
+    arrays: core.ControlArrays, points: np.ndarray, holes: list[list[list[int]]], largest: float
+) -> list[list[list[int]]]:
+    wanted = core.module().holes_to_fill(points, flat_faces(arrays), holes, largest)
+    return [[loop.tolist() for loop in hole] for hole in wanted]
+
+
+def _none_text(wish: Wish, editing: bool, unclear: int, loops: int, units: Units) -> str:
     if wish.edge is not None:
         return "Press Check Mesh again: this hole is no longer there"
     if unclear:
         return _unclear_text(unclear)
     if not editing and not loops:
         return "Delete faces first: there is no hole, every edge has a face on both sides"
+    if not editing and wish.largest > 0.0:
+        most = units.lengths(wish.largest)(wish.largest)
+        return f"Raise Largest Hole: there is no hole of a width of at most {most}"
     if not editing:
-        return f"Raise Largest Hole: there is no hole of at most {wish.most_edges} edges"
+        return "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
     if wish.replaces:
         return "Select faces with others around them: the selected ones leave no hole"
     return "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"

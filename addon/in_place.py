@@ -7,7 +7,6 @@ Only what is near takes part: the selection and the faces around it.
 from collections.abc import Hashable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from time import perf_counter
 from types import SimpleNamespace
 from typing import Any, cast
@@ -29,7 +28,7 @@ from .preferences import of_runs
 from .settings import Settings, snapshot
 from .transfer.carrier import Carrier
 from .transfer.cut_out import CutOut, cut_out, grown, inside
-from .units import length_text
+from .units import Units
 
 # levels that stand in for the surface of which only the control vertices are wanted
 _UNSEEN_LEVELS = 2
@@ -79,7 +78,7 @@ class InPlaceJob:
         that `wish` does not say.
         """
         self.name, self._source, self._wish = source.name, Reference(source), wish
-        self._length = partial(length_text, context.scene)
+        self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the thread that computes
         self._mode = source.mode
         self.result: Any = None
@@ -214,7 +213,8 @@ class InPlaceJob:
         """What the user may want to know of a finished job, a sentence each."""
         if not self._wish.measured:
             return []
-        return [f"{self.name}: noise of {self._length(self.result.noise)} (rms) taken off."]
+        noise = self.result.noise
+        return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) taken off."]
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does. A long run

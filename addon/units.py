@@ -1,22 +1,80 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lengths and curvatures as the scene says them."""
+"""Lengths and curvatures as the scene says them. No Blender."""
 
-import bpy
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import floor, isfinite, log10
+from typing import Any, TypeAlias
 
-from .blender import Scene
+Text: TypeAlias = Callable[[float], str]  # of a length in scene units, as the scene says it
+
+DIGITS = 3  # of lengths
+
+# by the name that a scene has for it: the symbol, and metres in each; the longest first
+_METRIC = {
+    "KILOMETERS": ("km", 1e3),
+    "METERS": ("m", 1.0),
+    "CENTIMETERS": ("cm", 1e-2),
+    "MILLIMETERS": ("mm", 1e-3),
+    "MICROMETERS": ("µm", 1e-6),
+}
+_IMPERIAL = {
+    "MILES": ("mi", 1609.344),
+    "FEET": ("ft", 0.3048),
+    "INCHES": ("in", 0.0254),
+    "THOU": ("thou", 2.54e-5),
+}
 
 
-def length_text(scene: Scene, length: float, digits: int = 3) -> str:
-    """`4.2 mm`: a `length` in scene units, with so many `digits`."""
-    units = scene.unit_settings
-    if units.system == "NONE":  # of which Blender's own function makes a crash
-        return f"{length:.{digits}g}"
-    return bpy.utils.units.to_string(
-        units.system, "LENGTH", length * units.scale_length, precision=digits
-    )
+@dataclass(frozen=True)
+class Units:
+    """How a scene says lengths, at the time of asking: a run outlives scenes."""
+
+    known: tuple[tuple[str, float], ...]  # symbols, and metres in each; none: it says plain numbers
+    scale: float  # metres in a scene unit
+
+    @classmethod
+    def of(cls, scene: Any) -> "Units":
+        told = scene.unit_settings
+        if told.system == "NONE":
+            return cls((), 1.0)
+        named = _METRIC if told.system == "METRIC" else _IMPERIAL
+        chosen = named.get(told.length_unit)  # none where the scene leaves it open: ADAPTIVE
+        return cls((chosen,) if chosen else tuple(named.values()), told.scale_length)
+
+    def lengths(self, longest: float, digits: int = DIGITS) -> Text:
+        """What writes lengths in scene units, all of a list in the one unit that suits its `longest`."""
+        if not self.known:
+            return partial(digits_of, digits=digits)
+        metres = abs(longest) * self.scale or 1.0
+        name, each = next((unit for unit in self.known if unit[1] <= metres), self.known[-1])
+        return lambda length: f"{digits_of(length * self.scale / each, digits)} {name}"
+
+    def volume(self, volume: float) -> str:
+        """A volume in cubed scene units, with its unit."""
+        if not self.known:
+            return digits_of(volume)
+        cubic = volume * self.scale**3
+        name, each = next((u for u in self.known if u[1] ** 3 <= abs(cubic)), self.known[-1])
+        return f"{digits_of(cubic / each**3)} {name}³"
 
 
-def curvature_text(scene: Scene, curvature: float, power: int = 1) -> str:
+def length_text(scene: Any, length: float, digits: int = DIGITS) -> str:
+    """`4.2 mm`: one `length` in scene units. Those of a list have one unit: `Units.lengths`."""
+    return Units.of(scene).lengths(length, digits)(length)
+
+
+def digits_of(value: float, digits: int = DIGITS) -> str:
+    """`0.000153`, `15.3`, `15321`: so many digits that say something, and no exponent."""
+    if not isfinite(value) or value == 0.0:
+        return f"{value:g}"
+    places = max(0, digits - 1 - floor(log10(abs(value))))
+    text = f"{value:.{places}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def curvature_text(scene: Any, curvature: float, power: int = 1) -> str:
     """`2.5 /m`: a `curvature`, one over a length in scene units; `power` 2: over its square, `/m²`."""
     units = scene.unit_settings
     if units.system == "NONE":

@@ -11,6 +11,7 @@ from .. import core, memory
 from ..blender import Context, Mesh, Object
 from ..mesh import mesh_changes
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import world_shape
 from .holes import listed
 
 _RANK = {"vertex": 0, "edge": 1, "face": 2}
@@ -26,7 +27,7 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
         arrays = read_mesh(mesh)
     found = core.module().check(arrays.positions, (arrays.corners, arrays.offsets))
     defects = as_dicts(found)
-    store_defects(context, target, defects, listed(arrays))
+    store_defects(context, target, defects, listed(arrays, world_shape(target)))
     return defects
 
 
@@ -62,7 +63,7 @@ def store_defects(
 
 
 def recall_holes(target: Object) -> list[dict[str, Any]]:
-    """The holes that the last check listed: for each how many `edges`, and one of them, `at`."""
+    """The holes that the last check listed: for each its `width`, how many `edges`, and one of them, `at`."""
     return (memory.recall(target, "defects") or {}).get("holes", [])
 
 

@@ -8,23 +8,31 @@ import numpy as np
 from .. import core
 from ..blender import Context, Object
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import WorldShape
 from ..transfer.hole_loops import loops_without, sides_of
 
-MOST = 50  # that are kept, the longest; a list of more helps nobody
+MOST = 50  # that are kept, the widest; a list of more helps nobody
 
 
 def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
-    """The loops of a mesh, the longest first; none where the core makes no mesh of it."""
+    """The loops of a mesh; none where the core makes no mesh of it."""
     gone = np.zeros(len(arrays.face_sizes), bool)
     try:
-        return sorted(loops_without(arrays, arrays.positions, gone), key=len, reverse=True)
+        return loops_without(arrays, arrays.positions, gone)
     except core.module().FairingError:
         return []
 
 
-def listed(arrays: core.ControlArrays) -> list[dict[str, Any]]:
-    """Of each hole the number of its `edges`, and one of them, `at`, as a pair of vertices."""
-    return [{"edges": len(loop), "at": loop[:2]} for loop in loops_of(arrays)[:MOST]]
+def listed(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]]:
+    """Of each hole its `width` in scene units, the widest first; the number of its `edges`, and one of
+    them, `at`, as a pair of vertices. `shape`: of the object in the world.
+    """
+    points, width_of = shape.of(arrays.positions), core.module().hole_width
+    holes = [
+        {"width": width_of(points[loop]), "edges": len(loop), "at": loop[:2]}
+        for loop in loops_of(arrays)
+    ]
+    return sorted(holes, key=lambda hole: -hole["width"])[:MOST]
 
 
 def edges_of(context: Context, target: Object, at: list[int]) -> list[list[int]]:

@@ -19,10 +19,9 @@ from ..strain import table
 from ..strain.ease import EaseJob, Wish
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained
+from ..units import digits_of
 from .files import write_text
 from .places import Place, tables
-
-_DIGITS = 3  # of lengths in sentences
 
 
 @dataclass(frozen=True)
@@ -170,7 +169,7 @@ def _what_moved(job: EaseJob) -> dict[str, Any]:
         "moved": int(np.count_nonzero(moves)),
         "largest": float(moves.max(initial=0.0)),
         "vertex": int(np.argmax(moves)) if moves.any() else -1,
-        "said": job.said(lambda length: f"{length:.{_DIGITS}g}"),
+        "said": job.said(digits_of),
     }
 
 

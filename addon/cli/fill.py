@@ -3,6 +3,7 @@
 
 import argparse
 from collections.abc import Sequence
+from math import inf
 from typing import Any
 
 from ..blender import Mesh, Object, current_context
@@ -17,7 +18,7 @@ _DEFAULTS: dict[str, Any] = {
     "fill_density": 1.0,
     "fill_noisy": False,
     "fill_quads": False,
-    "largest_hole": 100,
+    "largest_hole": 0.0,
 }
 _ENERGY = "TOTAL_CURVATURE"
 _OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
@@ -33,10 +34,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--largest-hole",
-        type=_edges,
-        metavar="N",
-        help="holes of more edges stay open, as the border of a sheet should "
-        f"[{_DEFAULTS['largest_hole']}]",
+        type=_width,
+        metavar="LENGTH",
+        help="holes of which two vertices of the rim are farther apart stay open, in the file's unit; 0: the "
+        f"borders of sheets stay open, and no others [{_DEFAULTS['largest_hole']:g}]",
     )
     names = [identifier.lower() for identifier, *_ in JOINTS]
     group.add_argument(
@@ -104,7 +105,7 @@ def shown(wish: Wish) -> dict[str, Any]:
         "fill_density": wish.density,
         "fill_noisy": wish.noisy,
         "fill_quads": wish.quads,
-        "largest_hole": wish.most_edges,
+        "largest_hole": wish.largest,
     }
 
 
@@ -166,10 +167,14 @@ def _option(name: str) -> str:
     return "--" + name.removeprefix("use_").replace("_", "-")
 
 
-def _edges(text: str) -> int:
-    if not text.isdecimal() or not 3 <= int(text) <= 16384:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 3 to 16384")
-    return int(text)
+def _width(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value < inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a length, 0 or more")
+    return value
 
 
 def _density(text: str) -> float:

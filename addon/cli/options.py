@@ -63,7 +63,7 @@ examples:
   {_PROGRAM} parts/*.stl out/ --format ply
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
   {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
-  {_PROGRAM} scan.ply closed.ply --fill --largest-hole 300
+  {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
 exit codes:

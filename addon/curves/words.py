@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What of the curves did not take part, and where: a sentence each, the cure in it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
+from ..units import Text
 from .crossings import Meeting
 from .cubics import Curve, points_at
 from .network import Loose, Network
-
-Text = Callable[[float], str]  # a length in scene units, as the scene says it
 
 _SHOWN = 8
 

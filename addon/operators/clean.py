@@ -12,6 +12,7 @@ from ..cleaning import CleanJob, Wish
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
+from .fill_holes import LargestHole
 
 # name, label, what it does
 _STEPS = (
@@ -39,7 +40,7 @@ _STEPS = (
 )
 
 
-class OBJECT_OT_fairing_clean(WholeFairing, bpy.types.Operator):
+class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
     """Make a closed surface of a scan: drop what does not belong to it, mend it, fill its holes, and list what was done"""
 
     bl_idname = "object.fairing_clean"
@@ -63,13 +64,6 @@ class OBJECT_OT_fairing_clean(WholeFairing, bpy.types.Operator):
         min=0.0,
         max=1.0,
         subtype="FACTOR",
-    )
-    largest: FloatProperty(
-        name="Largest Hole",
-        description="Holes of a longer diagonal stay open; 0 fills all but the borders of sheets",
-        default=0.0,
-        min=0.0,
-        subtype="DISTANCE",
     )
     noise: IntProperty(
         name="Noise",

@@ -13,7 +13,7 @@ from ..mesh.read import source_objects
 from ..poll import edit_mode_reason, mesh_poll_reason
 from ..strain.ease import EaseJob, EaseSelectedJob, Wish
 from ..ui.main import fairing_operator
-from ..units import length_text
+from ..units import Units
 from . import fill
 from .fair import WholeFairing, poll_reason
 from .strain import sources_at_hand
@@ -33,7 +33,7 @@ class _Easing(WholeFairing):
         self.write(context, list(jobs))
         for job in jobs:
             job.note()
-            said = job.said(lambda length: length_text(context.scene, length))
+            said = job.said(Units.of(context.scene).lengths(job.longest))
             self.report({"INFO"}, f"{job.name}: {said}")
         return {"FINISHED"}
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, IntVectorProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProperty
 
 from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
@@ -16,7 +16,19 @@ from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
 
 
-class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
+class LargestHole:
+    """Mix-in of annotations for operators."""
+
+    largest: FloatProperty(
+        name="Largest Hole",
+        description="Wider holes stay open, by the farthest two vertices of their rims; 0 fills all but borders of sheets",
+        default=0.0,
+        min=0.0,
+        subtype="DISTANCE",
+    )
+
+
+class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
     """Close holes so that nobody sees where they were: all small ones, or in Edit Mode those that are selected"""
 
     bl_idname = "object.fairing_fill"
@@ -53,13 +65,6 @@ class OBJECT_OT_fairing_fill(WholeFairing, bpy.types.Operator):
         name="Quads",
         description="In a hole among quads a grid of quads, where its rim allows that; else triangles",
         default=False,
-    )
-    largest: IntProperty(
-        name="Largest Hole",
-        description="In Object Mode: holes of more edges stay open, as the border of a sheet should",
-        default=100,
-        min=3,
-        max=16384,
     )
 
     edge: IntVectorProperty(

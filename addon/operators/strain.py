@@ -20,7 +20,7 @@ from ..poll import ExplainedPoll, mesh_poll_reason
 from ..strain import known, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
-from ..units import length_text
+from ..units import Units
 from .by_browser import ByFileBrowser
 from .fair import WholeFairing, poll_reason
 
@@ -124,13 +124,11 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
             layout.prop(self, self.by.lower())
 
     def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
-        def text(length: float) -> str:
-            return length_text(context.scene, length)
-
         wanted: list[Any] = []
         for job in jobs:
             strained = job.result
             assert strained is not None  # as computing has left it
+            text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
             chosen = self._chosen(strained)
             if len(chosen):
                 said = words.found(chosen, strained.lengths, text)

@@ -98,6 +98,11 @@ class _Moving:
             return ""
         return f"Ease once more: {self.name} was edited during the run, and nothing has changed."
 
+    @property
+    def longest(self) -> float:
+        """Of the lengths that are said of a finished job, in scene units."""
+        return float(self.moves.max(initial=0.0))
+
     def note(self) -> None:
         """For predictions, on the main thread."""
         key = (self.kind, self.reference.key)

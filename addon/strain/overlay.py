@@ -21,7 +21,7 @@ from ..inspection.overlay_arrays import pulled
 from ..live.switch import surfaces_of
 from ..mesh.object import session_key
 from ..mesh.world_shape import world_matrix
-from ..units import length_text
+from ..units import Units
 from . import known
 from .drawn import dots, labels, magnification, needles
 from .strained import Strained
@@ -192,9 +192,7 @@ def _draw_labels() -> None:
         matrix = world_matrix(source)
         times = magnification(strained, drawing.needle_length)
 
-        def text(length: float) -> str:
-            return length_text(context.scene, length)
-
+        text = Units.of(context.scene).lengths(strained.largest)
         for place, label, is_wrong in labels(strained, drawing.label_count, times, text):
             at = location_3d_to_region_2d(cast(Any, region), view, matrix @ Vector(place.tolist()))
             if at is not None:

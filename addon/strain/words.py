@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is said of strain and of easing, in words. No Blender."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-Text = Callable[[float], str]  # a length in scene units, as the scene says it
+from ..units import Text
 
 _NAMED = 5  # vertices that a sentence names
 

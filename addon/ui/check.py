@@ -10,6 +10,7 @@ from ..blender import Context, registration
 from ..check import repair
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
+from ..units import Text, Units
 from .layout import Folded
 from .notice import draw_notice
 
@@ -38,7 +39,7 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
             draw_notice(layout, "Nothing is wrong with this mesh", icon="CHECKMARK")
         for index, defect in enumerate(defects[:_SHOWN]):
             _draw_defect(layout, index, defect, stale)
-        _draw_holes(layout, recall_holes(target), stale)
+        _draw_holes(layout, context, recall_holes(target), stale)
 
 
 def _draw_defect(
@@ -56,15 +57,25 @@ def _draw_defect(
         row.operator("object.fairing_repair", text=label, icon="TOOL_SETTINGS").index = index
 
 
-def _draw_holes(layout: bpy.types.UILayout, holes: list[dict[str, Any]], stale: bool) -> None:
+def _hole_text(hole: dict[str, Any], text: Text) -> str:
+    """`12 mm wide, 34 edges`."""
+    edges = f"{hole['edges']:,} edges"
+    return f"{text(hole['width'])} wide, {edges}" if "width" in hole else edges
+
+
+def _draw_holes(
+    layout: bpy.types.UILayout, context: Context, holes: list[dict[str, Any]], stale: bool
+) -> None:
     if not holes:
         return
     column = layout.column(align=True)
     column.active = not stale
     column.label(text="Holes")
+    # files of before know no width
+    text = Units.of(context.scene).lengths(holes[0].get("width", 0.0))
     for hole in holes[:_SHOWN]:
         row = column.row(align=True)
-        row.label(text=f"{hole['edges']:,} edges", icon="MESH_CIRCLE")
+        row.label(text=_hole_text(hole, text), icon="MESH_CIRCLE")
         show = row.operator("object.fairing_select_hole", text="", icon="RESTRICT_SELECT_OFF")
         show.edge = hole["at"]
         row.operator("object.fairing_fill", text="Fill").edge = hole["at"]

@@ -10,7 +10,7 @@ from ..memory import source_at_hand
 from ..strain import known
 from ..strain.drawn import magnification
 from ..strain.strained import Strained
-from ..units import length_text
+from ..units import Units
 from .layout import Folded
 from .notice import draw_notice
 
@@ -46,9 +46,7 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
 def _draw_worst(layout: Any, context: Context, source: Object, strained: Strained) -> None:
     """A list to jump from, and what is still scatter."""
 
-    def text(length: float) -> str:
-        return length_text(context.scene, length)
-
+    text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
     drawing = context.scene.discrete_fairing_strain
     if not len(strained.held):
         draw_notice(

@@ -3,6 +3,7 @@
 
 import bmesh
 import bpy
+import numpy as np
 import pytest
 from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
@@ -27,12 +28,12 @@ def two_holes():
 def test_holes_are_listed_the_largest_first():
     target = two_holes()
     holes = checked(target)
-    assert len(holes) == 2 and holes[0]["edges"] > holes[1]["edges"]
+    assert len(holes) == 2 and holes[0]["width"] > 1.4 > 1.0 > holes[1]["width"]
     assert sum(hole["edges"] for hole in holes) == len(borders(target))
     for hole in holes:
         assert {frozenset(hole["at"])} <= {frozenset(e.vertices) for e in target.data.edges}
     drawn = draw(check_panel.VIEW3D_PT_fairing_check)
-    assert f"{holes[0]['edges']} edges" in drawn and "Holes" in drawn
+    assert f"{holes[0]['width']:.3g} m wide, {holes[0]['edges']} edges" in drawn
     assert drawn.count("object.fairing_fill") == drawn.count("object.fairing_select_hole") == 2
 
 
@@ -85,4 +86,5 @@ def test_of_many_holes_the_largest_are_kept():
     target = add("Sieve", points, faces)
     holes = checked(target)
     assert len(holes) == 50 and holes[0]["edges"] == 136  # the border of the sheet
+    assert holes[0]["width"] == pytest.approx(np.hypot(40, 28))
     assert "and at least 42 smaller ones" in draw(check_panel.VIEW3D_PT_fairing_check)

@@ -71,7 +71,7 @@ def test_a_hole_is_closed_and_the_rest_stays():
         "fill_density": 1.0,
         "fill_noisy": False,
         "fill_quads": False,
-        "largest_hole": 100,
+        "largest_hole": 0.0,
     }
     before, after = read_obj("in.obj"), read_obj("out.obj")
     used = before[np.isin(np.round(before, 5), np.round(after, 5)).all(axis=1)]
@@ -81,7 +81,7 @@ def test_a_hole_is_closed_and_the_rest_stays():
 
 def test_larger_holes_stay_open_and_that_is_no_failure():
     write_ball("in.obj")
-    code, (entry,) = entries("in.obj", "out.ply", "--fill", "--largest-hole", 10)
+    code, (entry,) = entries("in.obj", "out.ply", "--fill", "--largest-hole", 0.5)
     assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
     assert open_edges("out.ply") == 24
 
@@ -142,7 +142,7 @@ def test_the_table_counts_holes(capsys):
         (("--fill-noisy",), "--fill-noisy needs --fill"),
         (("--fill", "--levels", 2), "--levels is for fairing"),
         (("--fill", "--pieces", 2), "--pieces is for fairing"),
-        (("--fill", "--largest-hole", 2), "from 3 to 16384"),
+        (("--fill", "--largest-hole", -2), "is not a length"),
         (("--fill", "--fill-density", -1), "from 0 to 100"),
     ],
 )

@@ -120,7 +120,7 @@ def test_what_is_left_out_is_remembered_in_words():
     scene(lambda: [*networks.three_by_four(), networks.along("Loose", 0.4, -1.0, 0.1)])
     cage = surface(levels=1).discrete_fairing.source
     [remark] = curve_cage.remarks_of(cage)
-    assert "'Loose' ends loose at (10 cm, 40 cm, " in remark
+    assert "'Loose' ends loose at (0.1 m, 0.4 m, " in remark
 
 
 def test_recompute_follows_the_curves():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hole_scenes import ball, borders, edit, is_closed, radii, without
 from mathutils import Vector
-from scenes import activate, positions
+from scenes import activate, add, positions
 
 from addon import core, holes
 from addon.errors import JobCancelled
@@ -24,9 +24,28 @@ def test_all_small_holes_in_object_mode():
 def test_larger_holes_stay_open():
     target = without(ball(), lambda c: c[2] > 0.5)
     count = len(target.data.polygons)
-    with pytest.raises(RuntimeError, match="no hole of at most 3 edges"):
-        bpy.ops.object.fairing_fill(largest=3)
+    with pytest.raises(RuntimeError, match=r"no hole of a width of at most 1.5 m"):
+        bpy.ops.object.fairing_fill(largest=1.5)
     assert len(target.data.polygons) == count
+    target.scale = (0.1, 0.1, 0.1)  # a length is one of the scene
+    assert bpy.ops.object.fairing_fill(largest=0.2) == {"FINISHED"}
+    assert is_closed(target.data)
+
+
+def test_the_border_of_a_sheet_stays_open():
+    """Its holes are filled: those of few edges, as the sheet has itself."""
+    points = [(x, y, 0.0) for x in range(7) for y in range(7)]
+    faces = [
+        (7 * x + y, 7 * x + 7 + y, 7 * x + 8 + y, 7 * x + 1 + y)
+        for x in range(6)
+        for y in range(6)
+        if (x, y) != (2, 3)
+    ]
+    target = add("Sheet", points, faces)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert len(borders(target)) == 24
+    with pytest.raises(RuntimeError, match="it seems to be that of a sheet"):
+        bpy.ops.object.fairing_fill()
 
 
 def test_a_closed_mesh_has_none():
@@ -143,7 +162,7 @@ def test_why_one_of_several_cannot_be_filled_is_said(capfd):
 
 def test_edits_during_a_run_stay():
     target = without(ball(), lambda c: c[2] > 0.7)
-    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 100, False)
+    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
     job = holes.HoleJob(bpy.context, target, wish)
     job.compute()
     assert job.why_outdated(bpy.context) == ""
@@ -153,7 +172,7 @@ def test_edits_during_a_run_stay():
 
 def test_a_cancelled_run_changes_nothing():
     target = without(ball(), lambda c: c[2] > 0.7)
-    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 100, False)
+    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
     job = holes.HoleJob(bpy.context, target, wish)
     monitor = core.module().Monitor()
     monitor.cancel()

@@ -102,7 +102,7 @@ def test_panels_measure_a_mesh_once_for_each_change(monkeypatch):
 
     source = add("Box", *CUBE)
     follow()
-    assert said() == said() == ["= 50 cm"] and len(drawn) == 1
+    assert said() == said() == ["= 0.5 m"] and len(drawn) == 1
     source.scale = (2.0, 2.0, 2.0)
     assert said() == said() == ["= 1 m"] and len(drawn) == 2
     source.data.vertices[0].co.x -= 6.0

@@ -78,8 +78,9 @@ def test_the_tolerance_that_counts_is_shown():
 
 def test_a_relative_tolerance_says_its_length():
     add("Box", *CUBE)  # edges of 2
-    assert "= 25 cm" in near(relative_tolerance=0.125)
+    assert "= 0.25 m" in near(relative_tolerance=0.125)
     bpy.context.scene.unit_settings.scale_length = 0.001
+    bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
     assert "= 0.25 mm" in near(relative_tolerance=0.125)
     bpy.context.scene.unit_settings.system = "NONE"
     assert "= 0.25" in near(relative_tolerance=0.125)

@@ -109,7 +109,7 @@ def test_a_loose_end_is_said():
 
     surface = yield from one_click("loose", loose)
     remarks = surface.discrete_fairing.source.discrete_fairing_curves.remarks
-    assert remarks.startswith("'Loose' ends loose at (10 cm, 40 cm"), remarks
+    assert remarks.startswith("'Loose' ends loose at (0.1 m, 0.4 m"), remarks
 
 
 def test_the_entry_in_the_menu_add():

@@ -98,7 +98,7 @@ def test_check_lists_holes_and_fills_one():
 def test_all_holes_in_object_mode_in_one_step_of_undo():
     target = yield from ball_with_holes()
     before = open_edges(target)
-    call("fairing_fill", largest=200)
+    call("fairing_fill", largest=3.0)
     yield from until_it_ends()
     target = bpy.context.object
     assert open_edges(target) == 0 and largest_off(target) < 2e-3

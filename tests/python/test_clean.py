@@ -235,6 +235,37 @@ def spoiled(seed=0):
     return np.concatenate(parts), np.concatenate(corners)
 
 
+def test_the_width_of_a_hole_is_a_length_whichever_way_it_is_turned():
+    """Of a circle its diameter, as with a ruler across; the diagonal of its box is by up to 41 % longer."""
+    angles = np.linspace(0.0, 2.0 * np.pi, 1001)[:-1]
+    circle = np.stack([np.cos(angles), np.sin(angles), 0.0 * angles], axis=1)
+    rng = np.random.default_rng(1)
+    for turn in (np.eye(3), np.linalg.qr(rng.standard_normal((3, 3)))[0]):
+        assert df.hole_width(circle @ turn + 7.0) == pytest.approx(2.0, rel=1e-12)
+    points = rng.standard_normal((500, 3)) * [1.0, 3.0, 0.5]
+    apart = np.linalg.norm(points[:, None] - points, axis=2)
+    assert df.hole_width(points) == pytest.approx(apart.max(), rel=1e-12)
+    assert df.hole_width(points[:1]) == 0.0 and df.hole_width(np.empty((0, 3))) == 0.0
+
+
+def test_holes_are_chosen_by_their_width():
+    """Two, 1.2 and 1.6 wide in a ball of radius 1."""
+    points, faces = BALL
+    middle = points[faces].mean(axis=1)[:, 2]
+    kept = faces[(middle < 0.8) & (middle > -0.6)]
+    widths = sorted(df.hole_width(points[loop]) for loop in df.find_holes(points, kept))
+    assert 1.1 < widths[0] < 1.3 and 1.5 < widths[1] < 1.7
+    for largest, count in ((0.0, 2), (1.0, 0), (1.4, 1), (2.0, 2)):
+        wanted = df.holes_to_fill(points, kept, largest=largest)
+        assert len(wanted) == count
+        filled = df.fill_holes(points, kept, holes=wanted)
+        assert len(df.find_holes(filled.vertices, filled.faces)) == 2 - count
+    sheet = mapped(lambda a, b: (a, b, 0.0 * a), 6, 6)
+    assert len(df.find_holes(*sheet)) == 1 and df.holes_to_fill(*sheet) == []
+    with pytest.raises(df.FairingError, match="largest"):
+        df.holes_to_fill(points, kept, largest=-1.0)
+
+
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_all_at_once(seed):
     points, faces = spoiled(seed)

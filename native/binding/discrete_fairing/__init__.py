@@ -9,7 +9,7 @@
 from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
-from .cleaning import Act, Cleaned, clean
+from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
 from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
@@ -48,6 +48,8 @@ __all__ = [
     "fill_holes",
     "find_holes",
     "fit_patches",
+    "hole_width",
+    "holes_to_fill",
     "join",
     "largest_jump",
     "pieces",

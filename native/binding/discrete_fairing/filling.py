@@ -52,7 +52,7 @@ def with_islands(
     """
     filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
     watchers = _native.Monitor(), None
-    asked = filler.find(*watchers)[0] if loops is None else [hole[0] for hole in _asked(loops)]
+    asked = filler.find(*watchers)[0] if loops is None else [hole[0] for hole in asked_holes(loops)]
     found = filler.with_islands(asked, *watchers)
     return [[np.array(loop, np.int64) for loop in hole] for hole in found]
 
@@ -154,7 +154,7 @@ def fill_holes(
         asked = finder.with_islands(known, *watchers)
         skipped = [SkippedHole.of([], why, whole.vertex_ids) for why in unclear]
     else:
-        asked = _asked(holes)
+        asked = asked_holes(holes)
     mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
@@ -242,7 +242,7 @@ def _with_triangles(
         found, _ = filler.fill(loops, *wanted.triangles, *watchers)
 
 
-def _asked(holes: Sequence[Any]) -> list[list[list[int]]]:
+def asked_holes(holes: Sequence[Any]) -> list[list[list[int]]]:
     """The caller's holes as loops of plain ids."""
     found = []
     for hole in holes:

@@ -3,30 +3,68 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays
-from ..filling import fill_holes
+from ..arrays import face_arrays, vertex_array
+from ..filling import asked_holes, fill_holes, with_islands
+from ..options import distance
 from ..watching import SeveralRuns
 from .state import State, diagonals, numbered_parts, of_parts
 from .topology import vertices_split
 
+BLOCK = 64  # rows of distances at a time: 25 MB for the longest rim
 CUTS = 3  # times that the faces around a bad rim are taken away, a ring at a time
 
 
-def length_of(points: np.ndarray) -> float:
-    """Of a rim: the diagonal of the box around it."""
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
+def hole_width(rim: ArrayLike) -> float:
+    """The largest distance between two of the points (k, 3) of a hole's `rim`: its diameter, whichever way
+    it is turned. `largest` of clean() and holes_to_fill() is this length.
+    """
+    points = np.asarray(rim, float).reshape(-1, 3)
+    if not len(points):
+        return 0.0
+    points = points - (points.min(axis=0) + points.max(axis=0)) / 2
+    radii = np.linalg.norm(points, axis=1)
+    width = float(np.linalg.norm(points - points[np.argmax(radii)], axis=1).max())
+    # no pair with another point is as far apart
+    ends = points[radii >= width - radii.max()]
+    for first in range(0, len(ends), BLOCK):
+        away = ends[first : first + BLOCK, None] - ends
+        width = max(width, float(np.linalg.norm(away, axis=2).max()))
+    return width
+
+
+def holes_to_fill(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    holes: Sequence[Any] | None = None,
+    largest: float = 0.0,
+) -> list[list[np.ndarray]]:
+    """Those of `holes`, as fill_holes() takes them, that are no wider than `largest`, a length as
+    hole_width() has it. 0: those that are not the border of a sheet, whose flat area within the rim is less
+    than half of the area of their part. `holes` None: all, as with_islands() has them. What clean() fills.
+    Raises FairingError BAD_OPTION for a `largest` below 0, and what with_islands() raises.
+    """
+    most, points = distance("largest", largest), vertex_array(vertices)
+    asked = asked_holes(with_islands(vertices, faces) if holes is None else holes)
+    for hole in asked:
+        if len(hole) > 1:
+            hole.sort(key=lambda loop: -hole_width(points[loop]))  # the rim first
+    narrow, wide = wanted_holes(State.of(points, *face_arrays(faces)), asked, most)
+    chosen = {id(hole) for hole in narrow + wide}
+    return [list(map(np.array, hole)) for hole in asked if id(hole) in chosen]
 
 
 def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[Any], list[Any]]:
     """Of holes, each a rim and those of islands in it, the ones to be closed: those across which the
     surface goes on, and those wider than half of the part that they are in, where nobody knows how.
-    `largest`: the longest diagonal of a hole's box; 0: what is flat within the rim has less than half of the area of the part: the border of a sheet has all
-    of it, that of half a ball just half.
+    `largest`: the width of the widest; 0: what is flat within the rim has less than half of the area of
+    the part: the border of a sheet has all of it, that of half a ball just half.
     """
     part, count = numbered_parts(state, state.sides.pairs)
     of_vertex = np.zeros(len(state.points), np.int64)
@@ -37,9 +75,10 @@ def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[A
     wide: list[Any] = []
     for hole in holes:
         points, name = state.points[hole[0]], of_vertex[hole[0][0]]
-        length = length_of(points)
-        if length <= largest if largest > 0.0 else _flat_area(points) < 0.5 * areas[name]:
-            (narrow if length <= 0.5 * sizes[name] else wide).append(hole)
+        is_narrow = largest > 0.0 and hole_width(points) <= largest
+        if is_narrow or (largest == 0.0 and _flat_area(points) < 0.5 * areas[name]):
+            diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+            (narrow if diagonal <= 0.5 * sizes[name] else wide).append(hole)
     return narrow, wide
 
 

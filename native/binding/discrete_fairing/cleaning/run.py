@@ -136,8 +136,8 @@ def clean(
         One wider than half of its part, as under a scan that stood on a table, is closed by the least area.
         Where one cannot be, the faces around it are dropped and it is tried again, up to three times.
     largest : float
-        Holes stay open whose box has a longer diagonal, a length. 0: by area: the flat area within the rim
-        is over half of the surface's own, as at the border of a sheet.
+        Wider holes stay open: a length, between the two vertices of the rim that are farthest apart. 0: those
+        stay open whose flat area is over half of the surface's own, as at the border of a sheet.
     noise : int
         So many passes of Taubin's filter take noise off [Taubin 1995], up to 1000; ten do for a scan whose
         noise is a tenth of its edges. It rounds sharp edges that are not `fixed`, and moves all other
