@@ -2,12 +2,11 @@
 """The project's own Python in .venv, with every dependency at an exact version."""
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 from layout import ROOT, VENV, VENV_PYTHON
-from shell import run, say
+from shell import output, run, say
 from stamp import fingerprint, is_fresh, leave
 
 REQUIREMENTS = ROOT / "build_tools" / "requirements.lock"  # of requirements.txt
@@ -31,14 +30,15 @@ def base_python() -> str:
 
 
 def install() -> None:
-    """Makes .venv and fills it; returns at once when the requirements are as before."""
+    """Makes .venv and fills it, or adds what it lacks; returns at once when the requirements are as before."""
     base = base_python()
-    version = subprocess.run([base, "-VV"], capture_output=True, text=True, check=True).stdout
+    version = output(base, "-VV")[1]
     value = fingerprint([REQUIREMENTS], version)
     if is_fresh(STAMP, value) and VENV_PYTHON.exists():
         return
     say(f"Python environment: {VENV.relative_to(ROOT)}, {version.split(' (')[0].strip()}")
-    run(base, "-m", "venv", "--clear", VENV)
+    if output(VENV_PYTHON, "-VV")[1] != version:
+        run(base, "-m", "venv", "--clear", VENV)
     pip("install", "--require-hashes", "--requirement", REQUIREMENTS)
     leave(STAMP, value)
     if not has_bpy():

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The form of the sources: clang-format and ruff; the types of the add-on: mypy."""
+"""The form of the sources: clang-format and ruff; types: mypy; what may import what: import-linter."""
 
 from pathlib import Path
 
-from layout import ROOT
+from layout import CACHE, ROOT
 from shell import run
 from stamp import files_under
 
@@ -23,7 +23,12 @@ def checks() -> dict[str, list]:
         "clang-format": ["clang-format", "--dry-run", "--Werror", *cpp_files()],
         "ruff check": ["ruff", "check", *PYTHON_FOLDERS],
         "ruff format": ["ruff", "format", "--check", *PYTHON_FOLDERS],
-        "mypy": ["mypy"],  # of what pyproject.toml names
+        # of what pyproject.toml names
+        "mypy": ["mypy"],
+        "imports": [
+            *("env", f"PYTHONPATH={ROOT / 'native' / 'binding'}"),
+            *("lint-imports", "--cache-dir", CACHE / "import-linter"),
+        ],
     }
 
 

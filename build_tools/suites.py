@@ -166,7 +166,7 @@ def nightly_suite() -> dict[str, Tally]:
 # what daily work touches most, of the package and of the add-on
 QUICK = {
     "python": ["interpolation", "total_curvature", "near_on_pads", "threads", "settings", "check"],
-    "addon": ["operator", "register", "ui", "documents", "guards"],
+    "addon": ["operator", "register", "ui", "documents"],
     "build_tools": ["layering"],
 }
 

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What documents claim in several places is what the code does: defaults, what energies take, platforms, names."""
+"""Tables of the reference are what the code does: defaults, what energies take, public names."""
 
 import inspect
 import re
-import sys
 from pathlib import Path
 
 import discrete_fairing as df
@@ -13,70 +12,13 @@ import pytest
 from addon.preferences import DiscreteFairingPreferences
 from addon.settings import FairingSettings
 
-ROOT = Path(__file__).resolve().parents[2]
-DOCS = ROOT / "docs"
-REFERENCE = DOCS / "reference"
-USER_PAGES = [
-    ROOT / "README.md",
-    ROOT / "CHANGELOG.md",
-    *sorted(path for path in DOCS.rglob("*.md") if path.parent.name not in ("site", "notes")),
-]
-# How a notebook speaks: allowed in docs/notes alone.
-NOTEBOOK = re.compile(
-    r"\bTried\b|\b(?:was|were) tried\b|\bin trials?\b|\bof no use\b|\b[Tt]he targets? (?:of|was|were|is|are)\b|\*[Bb]efore\*|\| [Bb]efore\b"
-    r"|\bin a later run\b|\bearlier version\b|\bit used to\b|\bMissed targets\b"
-)
-# Words that nobody says any more, or that Blender's users do not.
-ARCHAIC = re.compile(
-    r"\banew\b|\bin place of\b|\bforetold\b|\bfor want of\b|\bwillingly\b|\bthereof\b|\bupon\b|\bis of use\b"
-)
-STATED_DEFAULT = re.compile(r"`(\w+)`, default ([\d.]+)|\(`(\w+)`, (\d[\d.]*) by default\)")
-
-
-def named(path):
-    return path.relative_to(ROOT).as_posix()
+REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "reference"
 
 
 def table_rows(text, first):
     """Cells of the rows of the first table whose head begins with `first`."""
     lines = text[text.index(f"| {first}") :].split("\n\n")[0].splitlines()
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
-
-
-def found_in_pages(pattern):
-    """Where a pattern stands in pages that it has no place in."""
-    found = {named(path): pattern.findall(path.read_text("utf-8")) for path in USER_PAGES}
-    return {name: words for name, words in found.items() if words}
-
-
-def test_only_notes_say_how_things_came_about():
-    assert found_in_pages(NOTEBOOK) == {}
-
-
-def test_nothing_is_said_in_old_words():
-    assert found_in_pages(ARCHAIC) == {}
-
-
-@pytest.mark.parametrize("text", ["Tried, and of no use:", "The target was 40.", "| Before |"])
-def test_a_notebook_is_seen(text):
-    assert NOTEBOOK.search(text)
-
-
-def test_stated_defaults_are_those_of_the_code():
-    checked = 0
-    for path in USER_PAGES:
-        for match in STATED_DEFAULT.finditer(path.read_text("utf-8")):
-            name, value = (match[1], match[2]) if match[1] else (match[3], match[4])
-            assert default_of(name) == float(value), (named(path), match[0])
-            checked += 1
-    assert checked
-
-
-def default_of(name):
-    """Of a setting in Blender, or an argument of the core."""
-    if name in FairingSettings.__annotations__:
-        return FairingSettings.__annotations__[name].keywords["default"]
-    return inspect.signature(df.fair).parameters[name].default
 
 
 def test_settings_have_the_defaults_that_their_page_says():
@@ -177,31 +119,7 @@ def test_the_table_of_energies_is_what_the_core_takes():
     assert said == found
 
 
-def test_no_page_says_that_one_sided_surfaces_cannot_be_faired():
-    for path in USER_PAGES:
-        for sentence in re.split(r"(?<=[.!?])\s", path.read_text("utf-8")):
-            one_sided = re.search(r"one-sided|Möbius", sentence, re.IGNORECASE)
-            assert not (one_sided and "cannot be faired" in sentence), (path.name, sentence)
-
-
-def test_no_page_says_that_zips_are_for_one_platform():
-    """`dev.py extension --all` makes them for five."""
-    only = r"(?:only (?:for|on) Linux|Linux[^.|]{0,20} only)"
-    assert found_in_pages(re.compile(rf"[Zz]ips?[^.|]{{0,40}}{only}")) == {}
-
-
 def test_every_public_name_of_the_package_is_explained():
     text = (REFERENCE / "numpy-api.md").read_text("utf-8")
     missing = [n for n in df.__all__ if not re.search(rf"\b{n}\b", text)]
     assert missing == []
-
-
-def test_packaging_names_the_platforms_that_zips_are_made_for():
-    sys.path.insert(0, str(ROOT / "build_tools"))
-    try:
-        from cross import targets
-    finally:
-        sys.path.pop(0)
-    text = (DOCS / "packaging.md").read_text("utf-8")
-    platforms = {target.name for target in targets.TARGETS}
-    assert platforms and all(f"`{name.replace('-', '_')}`" in text for name in platforms)
