@@ -24,6 +24,7 @@ import offsets
 import pads
 import peers
 import piecewise
+import rims
 import side_by_side
 import sizes
 import step_distances
@@ -38,6 +39,7 @@ BENCHMARKS = {
     "side_by_side": side_by_side.run,
     "subdivision": subdivision.run,
     "limits": limits.run,
+    "rims": rims.run,
     "jobs": jobs.run,
     "drawn": drawn.run,
     "machine_parts": machine_parts.run,

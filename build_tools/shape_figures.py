@@ -270,6 +270,17 @@ def near_on_pads_table() -> str:
     return table(heads, rows)
 
 
+def rims_table() -> str:
+    """How far rims turn once around, degrees."""
+    rows = [
+        [name, *(f"{angle:.1f}" for angle in found.values())]
+        for name, found in result("rims").items()
+    ]
+    return table(
+        ["model", "Subdivision Surface", "thin plate", "*Character*", "*Follow* at 0"], rows
+    )
+
+
 def step_distances_table() -> str:
     """STEP files as another program evaluates them, from their surfaces."""
     rows = [
@@ -298,6 +309,7 @@ SHAPE: dict[str, Callable[[], str]] = {
             ("limit, total curvature", "total curvature"),
         ],
     ),
+    "rims.table": rims_table,
     "step_distances.table": step_distances_table,
     "jobs.table": jobs_table,
     "drawn.panels": lambda: drawn_table("panel"),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 #include "base/types.h"
 
@@ -15,6 +16,11 @@ Vec3 point_at(const Array& coordinates, std::int64_t p) {
 }
 inline Vec3 point_at(const double* coordinates, std::int64_t p) {
   return Eigen::Map<const Vec3>(coordinates + 3 * p);
+}
+
+// The coordinates of points, one after another.
+inline std::span<const double> flat(std::span<const Vec3> points) {
+  return {points.empty() ? nullptr : points.data()->data(), 3 * points.size()};
 }
 
 // Returns where the next one goes.

@@ -38,6 +38,12 @@ struct ControlPositions {
   // surface passes through limit positions.
   std::vector<Vec3> cage;
   FeatureCurves world_curves, working_curves;
+
+  std::vector<Vec3> cage_in(const Frame& frame) const {
+    std::vector<Vec3> out;
+    for (const Vec3& p : cage) out.push_back(frame.to_working(p));
+    return out;
+  }
 };
 
 // Of `world` itself: the parameters of curves are those of these positions. `subdivisions`: 2^L

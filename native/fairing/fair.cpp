@@ -250,11 +250,22 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
   });
 }
 
+// What a surface depends on, in working coordinates: where it is held, and the cage where it is drawn to
+// that one's limit surface.
+std::vector<Vec3> FairSolver::positions_of(const ControlPositions& control) const {
+  std::vector<Vec3> out = control.working;
+  if (problem_->held.surface) {
+    const std::vector<Vec3> cage = control.cage_in(problem_->frame);
+    out.insert(out.end(), cage.begin(), cage.end());
+  }
+  return out;
+}
+
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
   recent_.forget();
   recent_.state() =
       systems_->solve(control_, problem_->options.measure, watch, report, recent_.surface());
-  recent_.remember(control_.working);
+  recent_.remember(positions_of(control_));
 }
 
 // False where that does not go well: the report is as before then.
@@ -264,16 +275,19 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
   GaussNewtonSolver* const gauss_newton = systems_->gauss_newton();
   if (gauss_newton && !gauss_newton->can_move()) return false;
   if (gauss_newton) gauss_newton->leave_plate(recent_.surface());
-  recent_.extrapolate(control_.working);
+  recent_.extrapolate(positions_of(control_));
   const double tolerance = gauss_newton ? std::max(options.solve.relative_residual, start_tolerance)
                                         : options.solve.relative_residual;
-  systems_->plate().solve_moved(recent_.extrapolated(), data_of(control_), tolerance,
-                                recent_.state(), recent_.surface(), report.levels,
+  const std::span<const Vec3> before = recent_.extrapolated();
+  const std::span<const Vec3> held = before.first(control_.working.size());
+  const Array<double> goal = systems_->goal_of(before.subspan(held.size()), held);
+  systems_->plate().solve_moved({held, control_.working_curves, &goal}, systems_->data_of(control_),
+                                tolerance, recent_.state(), recent_.surface(), report.levels,
                                 [&](const double* start) {
                                   if (options.measure)
                                     systems_->measure_prediction(start, watch, report);
                                 });
-  recent_.remember(control_.working);
+  recent_.remember(positions_of(control_));
   if (!gauss_newton) return true;
   CurvatureLevelReport& steps = report.curvature.emplace_back();
   if (gauss_newton->solve_moved(recent_.surface(), problem_->mirrors_of(control_), steps))
@@ -325,7 +339,7 @@ void FairSolver::rebase_mended(const PolygonMesh& input) {
     check_input(input, problem_->options, watch, report);
     guarded([&] {
       forget_surfaces();
-      auto problem = make_problem_about(input.coordinates, *problem_, watch);
+      auto problem = make_problem_about(input, *problem_, watch);
       auto systems = std::make_unique<FairingSystems>(*problem, monitor_);
       ControlPositions control = problem->basis;
       control_ = std::move(control);

@@ -63,6 +63,7 @@ class FairSolver {
   Report solve_mended(std::span<const double> coordinates, double* out);
   void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
+  std::vector<Vec3> positions_of(const ControlPositions& control) const;
   void solve_from_nothing(Stopwatch& watch, Report& report);
   bool solve_from_last(Stopwatch& watch, Report& report);
   void write(Stopwatch& watch, Report& report, double* out);

@@ -10,8 +10,8 @@
 
 #include "fairing/whole.h"
 #include "mesh/control_mesh.h"
-#include "mesh/limit_positions.h"
 #include "mesh/polygon_mesh.h"
+#include "mesh/sharpness.h"
 #include "multigrid/solve_options.h"
 #include "paper/options.h"
 #include "stencil/chart.h"
@@ -67,8 +67,8 @@ struct FairOptions {
   std::vector<double> tolerance{0.0};
   // Approximate: one a vertex, or empty. 0 frees a vertex that has no tolerance, infinity fixes it.
   std::vector<double> weights;
-  // Limit: how far control vertices go, from 0, the cage, to 1, their limits; and which edges and
-  // vertices are semi-sharp on the way.
+  // Limit: how closely the thin plate follows the subdivision surface between the limit positions: 0,
+  // not at all, to 1; and which edges and vertices are semi-sharp on the way.
   double limit = 1;
   Sharpness sharpness;
 
@@ -119,6 +119,10 @@ struct FairOptions {
 // What the membrane's energy is multiplied by, relative to bending over the length of a control edge
 // (stencil/membrane.h), for FairOptions::tension.
 double membrane_strength(double tension);
+
+// What the plate is drawn to the subdivision surface with, relative to a plate that bends over a control
+// edge (grid/limit_surface.h), for FairOptions::limit.
+double pull_to_limits(double limit);
 
 // Throws FairingError(bad_option), naming the option and its range.
 void check_options(const PolygonMesh& mesh, const FairOptions& options);

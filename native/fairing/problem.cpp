@@ -16,12 +16,12 @@
 namespace fairing {
 namespace {
 
-// Of the plate's differences on the levels that have a surface below.
+// Of the plate's differences in the metric of a surface.
 std::int64_t bytes_on_surface(const ControlMesh& mesh, int levels) {
   std::int64_t quads = 0, points = 0;
   for (const Face& face : mesh.faces) quads += face.quad();
   const auto faces = std::int64_t(mesh.faces.size());
-  for (int l = 1; l <= levels; ++l)
+  for (int l = 0; l <= levels; ++l)
     points +=
         grid_size(mesh.vertex_count(), std::int64_t(mesh.edges.size()), faces - quads, quads, l);
   return points * SurfaceDifferences::bytes(2 * quads > faces);
@@ -40,8 +40,10 @@ RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::in
   add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
   if (options.interpolation == Interpolation::limit)
     add(std::int64_t(LimitPositions::bytes(input)));
-  if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate)
+  if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate) {
     add(bytes_on_surface(problem.mesh, options.levels));
+    add(LimitSurface::bytes(input, problem.mesh, options.levels));
+  }
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
 }
@@ -128,13 +130,14 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   return problem;
 }
 
-std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double> coordinates,
+std::unique_ptr<const FairingProblem> make_problem_about(const PolygonMesh& input,
                                                          const FairingProblem& like,
                                                          Stopwatch& watch) {
   auto problem = std::make_unique<FairingProblem>(FairingProblem{
       like.options, like.workers, like.mesh, like.exponent, like.unknowns, like.normals});
   problem->held = like.held;
-  ControlPositions next = like.control_positions(coordinates);
+  check_held(like.held, input, like.options.repair);
+  ControlPositions next = like.control_positions(input.coordinates);
   make_about(std::move(next.world), std::move(next.cage), watch, *problem);
   return problem;
 }

@@ -72,9 +72,9 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
                                                    const FairOptions& options, Stopwatch& watch,
                                                    Report& report);
 
-// The same about other positions, 3 numbers an input vertex in world coordinates: charts, stencils,
-// curves. Faces, splits and creases stay.
-std::unique_ptr<const FairingProblem> make_problem_about(std::span<const double> coordinates,
+// The same about other positions of the input's vertices: charts, stencils, curves. Faces, splits and
+// creases stay.
+std::unique_ptr<const FairingProblem> make_problem_about(const PolygonMesh& input,
                                                          const FairingProblem& like,
                                                          Stopwatch& watch);
 

@@ -47,8 +47,8 @@ PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
         systems.finest(), *problem.charts(), *plate.pads(), problem.unknowns, control.working);
     const CountedBytes counted(moments.size() * sizeof(double));
     if (!moments.empty())
-      plate.solve_again(data_of(control), problem.options.solve.relative_residual, state, surface,
-                        0, moments);
+      plate.solve_again(PlateData{control.working, control.working_curves},
+                        problem.options.solve.relative_residual, state, surface, 0, moments);
   }
   out.turned = std::move(state.loads);
   return out;

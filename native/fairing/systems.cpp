@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/points.h"
 #include "curvature/folds.h"
 #include "curvature/total_curvature.h"
 #include "fairing/extremes.h"
@@ -28,10 +29,6 @@ PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
 
 }  // namespace
 
-PlateData data_of(const ControlPositions& control) {
-  return {control.working, control.working_curves};
-}
-
 FairingSystems::FairingSystems(const FairingProblem& problem, Monitor& monitor)
     : problem_(problem), monitor_(monitor) {
   plate();
@@ -45,15 +42,31 @@ ThinPlateSolver& FairingSystems::plate() {
     own.solve = options.solve;
     own.pad_size = options.width_of_pads();
     own.normals = problem_.normals.fixed;
-    // Steps to other energies begin better from the control metric's plate (docs/notes/comparison.md).
-    if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate)
-      own.surface_exponent = problem_.exponent;
     own.starts_steps = options.energy != Energy::thin_plate;
+    if (problem_.held.surface) {
+      auto pull = std::make_shared<Array<float>>(
+          hold_of_thin_faces(GridLevel(problem_.mesh, options.levels), problem_.basis.working,
+                             problem_.exponent, *problem_.workers));
+      const double strength = std::pow(pull_to_limits(options.limit), 0.25);
+      for (float& p : *pull) p *= float(strength);
+      own.pull = {std::move(pull), problem_.exponent};
+    }
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
                                                problem_.unknowns, problem_.start_weights, own,
                                                *problem_.workers, monitor_);
   }
   return *plate_;
+}
+
+Array<double> FairingSystems::goal_of(std::span<const Vec3> cage, std::span<const Vec3> held) {
+  return problem_.held.surface
+             ? problem_.held.surface->at_points(finest(), flat(cage), held, *problem_.workers)
+             : Array<double>();
+}
+
+PlateData FairingSystems::data_of(const ControlPositions& control) {
+  goal_ = goal_of(control.cage_in(problem_.frame), control.working);
+  return {control.working, control.working_curves, goal_.empty() ? nullptr : &goal_};
 }
 
 void FairingSystems::drop() {
@@ -136,7 +149,8 @@ void FairingSystems::release(const ControlPositions& control, PlateState state, 
   if (!(epsilon > 0) || problem_.options.energy != Energy::thin_plate) return;
   watch.enter(Phase::constrain, 0.75);
   report.constraint_rounds +=
-      release_control_vertices(plate(), data_of(control), epsilon / problem_.frame.scale, state, x);
+      release_control_vertices(plate(), data_of(control), epsilon / problem_.frame.scale,
+                               problem_.options.solve.relative_residual, state, x);
 }
 
 // The energy of working coordinates in the unit of world ones.

@@ -13,9 +13,6 @@
 
 namespace fairing {
 
-// What the thin plate's surface of these positions is to come up to.
-PlateData data_of(const ControlPositions& control);
-
 // Throws FairingError and bad_alloc, from every member that takes a Stopwatch. After an error the
 // systems may be half done: drop() them, and they are built anew.
 class FairingSystems {
@@ -26,6 +23,12 @@ class FairingSystems {
   // The thin plate's, built again where it has been dropped. Its smoother adapts to the surfaces
   // that are solved until keep_smoother().
   ThinPlateSolver& plate();
+  // What the thin plate's surface of these positions is to come up to. Valid until the next call, and
+  // as long as `control` is.
+  PlateData data_of(const ControlPositions& control);
+  // The limit surface of a cage in working coordinates on the finest level, with control vertices where
+  // they are held; empty where nothing is drawn to it.
+  Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
   const GridLevel& finest() { return plate().levels().grid(problem_.options.levels); }
   // Gives the memory of all of them back.
   void drop();
@@ -77,6 +80,7 @@ class FairingSystems {
   // Of the basis, once it has been written; other positions get the same linear map, so that mixes of
   // shapes are shapes of mixes.
   PlateRepair repair_;
+  Array<double> goal_;
 };
 
 }  // namespace fairing

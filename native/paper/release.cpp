@@ -13,11 +13,12 @@ constexpr int release_rounds = 3;
 }  // namespace
 
 int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, double epsilon,
-                             PlateState& state, Array<double>& x) {
-  ThinPlateShared& shared = solver.levels().shared();
-  const ControlMesh& mesh = shared.mesh;
+                             double tolerance, PlateState& state, Array<double>& x) {
+  ThinPlateLevels& levels = solver.levels();
+  const int top = levels.top();
+  const ControlMesh& mesh = levels.shared().mesh;
   const std::span<const Vec3> given = data.targets;
-  Unknowns freed = shared.unknowns;
+  Unknowns freed = levels.shared().unknowns;
   bool any = false;
   for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
     const bool released = !freed.vertex[v] && !mesh.feature_vertex[v] &&
@@ -28,19 +29,15 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
   }
   if (!any) return 0;
   freed.any_vertex = true;
-  const GridLevel& grid = solver.levels().grid(solver.levels().top());
-  const VertexWeights none;
-  const Array<float> diagonal =
-      thin_plate_diagonal(grid, shared.stencils, freed, none, shared.workers, shared.double_slots);
+  const Array<float> diagonal = levels.diagonal_with(top, freed);
   // A row reaches two points far: edges in two pieces couple neighbouring vertices, which step half as
   // far there.
-  const double damping = grid.n() > 2 ? 1.0 : 0.5;
+  const double damping = levels.grid(top).n() > 2 ? 1.0 : 0.5;
   const double within = (1 - single_rounding) * epsilon;  // rounding must not carry a vertex beyond
   std::vector<Vec3> targets(given.begin(), given.end());
   Array<double> gradient(x.size());
   for (int round = 0; round < release_rounds; ++round) {
-    apply_thin_plate(grid, shared.double_rows, freed, none, shared.workers, shared.double_slots,
-                     x.data(), gradient.data());
+    levels.apply_with(top, freed, x.data(), gradient.data());
     for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
       // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in
@@ -52,7 +49,7 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
       targets[v] = given[v] + offset;
       put_point(targets[v], x.data() + 3 * v);
     }
-    solver.solve_again({targets, data.curves}, PcgLimits().tolerance, state, x);
+    solver.solve_again({targets, data.curves, data.goal}, tolerance, state, x);
   }
   return release_rounds;
 }

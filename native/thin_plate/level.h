@@ -42,11 +42,11 @@ class ThinPlateLevel final : public LevelOperator {
     set_weights(weights);
   }
 
-  // From here on in the metric of the surface x, 3 numbers a point.
-  void measure(const double* x, double exponent) {
+  // From here on in this metric, of a surface of the level.
+  void measure(const SurfaceMetric& metric) {
     matrix_.reset();
-    surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, exponent,
-                                                    shared_.unknowns, shared_.workers, x);
+    surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, metric,
+                                                    shared_.unknowns, shared_.workers);
     matrix_ = PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers);
     update();
   }
@@ -75,11 +75,17 @@ class ThinPlateLevel final : public LevelOperator {
     apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, weights_, shared_.workers,
                      shared_.double_slots, x, y);
   }
-  // K x without weights, where these control vertices count as unknowns.
+  // (K + P) x without weights, where these control vertices count as unknowns.
   void apply_with(const Unknowns& unknowns, const double* x, double* y) {
     if (surface_) return surface_->apply(unknowns.vertex, {}, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, unknowns, {}, shared_.workers,
                      shared_.double_slots, x, y);
+  }
+  // Its diagonal.
+  Array<float> diagonal_with(const Unknowns& unknowns) {
+    return surface_ ? surface_->diagonal(unknowns.vertex, {}, shared_.workers)
+                    : thin_plate_diagonal(grid_, shared_.stencils, unknowns, {}, shared_.workers,
+                                          shared_.double_slots);
   }
   void apply(const float* x, float* y) override {
     if (matrix_)
@@ -132,7 +138,7 @@ class ThinPlateLevel final : public LevelOperator {
       return;
     }
     inverse_diagonal_ = surface_
-                            ? surface_->diagonal(weights_, shared_.workers)
+                            ? surface_->diagonal(shared_.unknowns.vertex, weights_, shared_.workers)
                             : thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns,
                                                   weights_, shared_.workers, shared_.double_slots);
     for (float& d : inverse_diagonal_) d = 1 / d;

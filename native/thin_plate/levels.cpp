@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/rounding.h"
+#include "grid/injection.h"
 #include "grid/linear.h"
 #include "hold/pads.h"
 #include "parallel/reductions.h"
@@ -29,6 +30,19 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   out.always_factor = unknowns.any_vertex;
   out.settled = settled_level - std::size_t(base);
   if (tense) out.settled += settled_under_tension;
+  return out;
+}
+
+// What the finest level has at the points of another.
+template <int C, class T>
+Array<T> on_level(const std::vector<std::unique_ptr<GridLevel>>& grids, int level,
+                  const Array<T>& finest, Workers& workers) {
+  Array<T> out = finest;
+  for (std::size_t l = grids.size() - 1; l > std::size_t(level); --l) {
+    Array<T> coarser(C * grids[l - 1]->size());
+    inject<C>(*grids[l - 1], *grids[l], workers, out.data(), coarser.data());
+    out = std::move(coarser);
+  }
   return out;
 }
 
@@ -108,19 +122,14 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
       [&](int l) { return hierarchy_->room(index(l)); }, sums);
 }
 
-void ThinPlateLevels::measure(int level, const double* x, double exponent) {
-  operators_[index(level)]->measure(x, exponent);
+void ThinPlateLevels::measure(int level, const double* x, const ThinPlateOptions::Pull& pull) {
+  const Array<float> own = on_level<1>(grids_, level, *pull.of_points, workers());
+  operators_[index(level)]->measure({x, own.data(), pull.exponent});
   hierarchy_->refresh(index(level), true);
 }
 
 Array<double> ThinPlateLevels::goal(int level, const PlateData& data) {
-  Array<double> below, out;
-  for (int l = base_; l <= level && is_measured(level); ++l) {
-    std::swap(below, out);
-    out.resize(3 * grid(l).size());
-    start(l, data, below, out);
-  }
-  return out;
+  return data.goal ? on_level<3>(grids_, level, *data.goal, workers()) : Array<double>();
 }
 
 double ThinPlateLevels::bending(int level, const double* x) {

@@ -19,6 +19,8 @@ namespace fairing {
 struct PlateData {
   std::span<const Vec3> targets;  // control vertices: fixed ones stay there, others are drawn there
   const FeatureCurves& curves;    // on the finest level
+  // Where the plate is drawn to, on the finest level, where it is in the metric of a surface.
+  const Array<double>* goal = nullptr;
 };
 
 // Vectors hold 3 numbers a point of their level. Whatever solves throws FairingError: cancelled
@@ -39,9 +41,12 @@ class ThinPlateLevels {
   const AssembledTransfer* transfer_matrix(int level) const {
     return level > 0 ? transfer_matrices_[std::size_t(level - 1)].get() : nullptr;
   }
-  // r <- K x without weights, where these control vertices count as unknowns.
+  // r <- (K + P) x without weights, where these control vertices count as unknowns; its diagonal.
   void apply_with(int level, const Unknowns& unknowns, const double* x, double* r) {
     operators_[index(level)]->apply_with(unknowns, x, r);
+  }
+  Array<float> diagonal_with(int level, const Unknowns& unknowns) {
+    return operators_[index(level)]->diagonal_with(unknowns);
   }
   LevelOperator& op(int level) { return *operators_[index(level)]; }
   ThinPlateShared& shared() { return shared_; }
@@ -71,13 +76,12 @@ class ThinPlateLevels {
   // From here on the level is in the metric of the surface x. Once a level: later surfaces are in the
   // same, so that they are linear in what they are to come up to.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
-  void measure(int level, const double* x, double exponent);
-  // Where a level that is so measured is drawn to (thin_plate/surface_differences.h): the control
-  // polyhedron, prolongated and never solved. Empty where it is not.
+  void measure(int level, const double* x, const ThinPlateOptions::Pull& pull);
+  // The goal on a level (thin_plate/surface_differences.h); empty in the control metric.
   Array<double> goal(int level, const PlateData& data);
-  // r += P goal, where the level is so measured.
+  // r += P goal, where there is one.
   void add_pull(int level, const Array<double>& goal, double* r) const {
-    if (is_measured(level)) operators_[index(level)]->add_pull(goal.data(), r);
+    if (!goal.empty()) operators_[index(level)]->add_pull(goal.data(), r);
   }
 
   // The plate's own energy, and with tension's: what is minimized, but for the pull.

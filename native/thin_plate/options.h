@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "grid/grid_level.h"
@@ -17,9 +18,12 @@ struct ThinPlateOptions {
   SolveOptions solve;
   double pad_size = 0;               // of the pads under control vertices (pads.h); 0: point forces
   std::vector<FixedNormal> normals;  // held on all levels but the coarsest
-  // The exponent of the metric in which levels are solved that have a surface of the level below: that
-  // of their start, in place of the control metric. 0: in the control metric as well.
-  double surface_exponent = 0;
+  // Where the plate is drawn to a goal, in the metric of the surface that a level starts from; null: in
+  // the control metric, and drawn nowhere.
+  struct Pull {
+    std::shared_ptr<const Array<float>> of_points;  // SurfaceMetric::pull, on the finest level
+    double exponent = 0;                            // of the metric
+  } pull;
   bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
 };
 

@@ -20,7 +20,7 @@ struct ThinPlateSolver::Run {
   Array<double>& x;                  // of the present level, with room for the finest
   Array<double> r{};                 // its residual
   Array<double> below{};             // the surface of the level below
-  Array<double> goal{};              // that the level's metric draws it to, if that is of a surface
+  Array<double> goal{};              // that it is drawn to; or empty
   Loads forces_below{};              // of its hats, where they say how loads change; or empty
   double rough_force = 0;            // of what loads carry: the forces that may be left anyway
   std::span<const double> forces{};  // on the points of the finest level; or empty
@@ -31,7 +31,7 @@ struct ThinPlateSolver::Run {
   std::size_t size(int level) const { return 3 * levels().grid(level).size(); }
 
   // What x holds is of the level below: it is kept, and x gets room. Then the level's metric, where
-  // it is to have that of a surface: of its start.
+  // it is to have that of a surface: of its start, on the coarsest level of the goal.
   void begin(int level);
   void take_metric(int level);
   // State and x <- the start of a level. `foretells`: whether forces say how loads change.

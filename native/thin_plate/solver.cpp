@@ -33,15 +33,15 @@ void ThinPlateSolver::Run::begin(int level) {
   below.resize(level > base() ? size(level - 1) : 0);
   for_each_index(levels().workers(), below.size(), [&](std::size_t i) { below[i] = x[i]; });
   r.resize(size(top()));
-  take_metric(level);
   goal = levels().goal(level, data);
+  take_metric(level);
 }
 
 void ThinPlateSolver::Run::take_metric(int level) {
-  const double exponent = solver.options_.surface_exponent;
-  if (!(exponent > 0) || level == base() || levels().is_measured(level)) return;
-  levels().start(level, data, below, x);
-  levels().measure(level, x.data(), exponent);
+  const ThinPlateOptions::Pull& pull = solver.options_.pull;
+  if (!pull.of_points || levels().is_measured(level)) return;
+  if (level > base()) levels().start(level, data, below, x);
+  levels().measure(level, level > base() ? x.data() : goal.data(), pull);
 }
 
 void ThinPlateSolver::Run::start(int level, bool foretells) {
@@ -145,13 +145,13 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlHold hold
   return state;
 }
 
-void ThinPlateSolver::solve_moved(std::span<const Vec3> before, const PlateData& data,
-                                  double tolerance, PlateState& state, Array<double>& x,
+void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data, double tolerance,
+                                  PlateState& state, Array<double>& x,
                                   std::vector<LevelReport>& reports,
                                   const OnPrediction& on_prediction) {
   double farthest = 0;
   for (std::size_t v = 0; v < data.targets.size(); ++v)
-    farthest = std::max(farthest, (data.targets[v] - before[v]).lpNorm<Eigen::Infinity>());
+    farthest = std::max(farthest, (data.targets[v] - before.targets[v]).lpNorm<Eigen::Infinity>());
   // What coordinates in single precision leave anyway, the finest level takes in its stride.
   if (farthest > single_rounding && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
@@ -185,13 +185,19 @@ FeatureCurves moves_of_curves(const FeatureCurves& curves, const GridLevel& grid
 }  // namespace
 
 // The difference solves the same system, for the differences of what is fixed or weighted.
-void ThinPlateSolver::add_difference(std::span<const Vec3> before, const PlateData& data,
+void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& data,
                                      PlateState& state, Array<double>& x,
                                      std::vector<LevelReport>& reports) {
   std::vector<Vec3> moves(data.targets.size());
-  for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = data.targets[v] - before[v];
+  for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = data.targets[v] - before.targets[v];
   const FeatureCurves curves = moves_of_curves(data.curves, levels_.grid(levels_.top()), x);
-  const PlateData moving{moves, curves};
+  Array<double> goal;
+  if (data.goal) {
+    goal.resize(x.size());
+    for_each_index(levels_.workers(), x.size(),
+                   [&](std::size_t i) { goal[i] = (*data.goal)[i] - (*before.goal)[i]; });
+  }
+  const PlateData moving{moves, curves, data.goal ? &goal : nullptr};
   PcgLimits rough;
   rough.tolerance = difference_tolerance;
   rough.from_start = true;

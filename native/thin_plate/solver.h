@@ -45,9 +45,9 @@ class ThinPlateSolver {
                           std::vector<LevelReport>& reports, const OnPrediction& on_prediction,
                           const OnLevel& on_level);
 
-  // From x, a surface of the control positions `before` that has left this state, to that of `data`
+  // From x, a surface of `before`, whose curves do not count, that has left this state, to that of `data`
   // on the finest level, to `tolerance`: the difference first, roughly and level by level.
-  void solve_moved(std::span<const Vec3> before, const PlateData& data, double tolerance,
+  void solve_moved(const PlateData& before, const PlateData& data, double tolerance,
                    PlateState& state, Array<double>& x, std::vector<LevelReport>& reports,
                    const OnPrediction& on_prediction);
 
@@ -61,7 +61,7 @@ class ThinPlateSolver {
  private:
   struct Run;
   struct Rounds;
-  void add_difference(std::span<const Vec3> before, const PlateData& data, PlateState& state,
+  void add_difference(const PlateData& before, const PlateData& data, PlateState& state,
                       Array<double>& x, std::vector<LevelReport>& reports);
 
   ThinPlateOptions options_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/surface_differences.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "grid/ring_shape.h"
@@ -11,20 +12,16 @@
 namespace fairing {
 namespace {
 
-// Of the pull. At 300 no cage of benchmarks/limits.py crosses itself that does not under Subdivision
-// Surface; at 200 the fox does, from 600 on a fish's tip bends more.
-constexpr double pull_strength = 300;
-
-// How much longer than wide a ring is: 0 where it is as wide as long, 1 where it is a line. Of the
-// second moments' eigenvalues, their difference over their sum, squared.
-double slenderness(const Chart& chart) {
-  double u = 0, v = 0, across = 0;
-  for (const Vec2& at : chart.ring) {
-    u += at[0] * at[0];
-    v += at[1] * at[1];
-    across += at[0] * at[1];
+// The point's share of the ring's area, as Chart::area in the ring's own lengths.
+double area_of(const SpaceRing& ring) {
+  const std::size_t size = ring.offset.size();
+  double sum = 0;
+  for (std::size_t k = 0; k < (ring.closed ? size : size - 1); ++k) {
+    const std::size_t i = (ring.first + k) % size, j = (i + 1) % size;
+    const double faces = ring.far[i] || ring.far[j] ? 4 : 3;
+    sum += 0.5 * ring.offset[i].cross(ring.offset[j]).norm() / faces;
   }
-  return ((u - v) * (u - v) + 4 * across * across) / ((u + v) * (u + v));
+  return sum;
 }
 
 Unknowns everything(const ControlMesh& mesh) {
@@ -42,8 +39,8 @@ void for_each_point(Workers& workers, std::size_t points, Body&& body) {
 }  // namespace
 
 SurfaceDifferences::SurfaceDifferences(const GridLevel& grid, const Stencils& stencils,
-                                       double exponent, const Unknowns& unknowns, Workers& workers,
-                                       const double* x)
+                                       const SurfaceMetric& metric, const Unknowns& unknowns,
+                                       Workers& workers)
     : grid_(grid),
       stencils_(stencils),
       unknown_(unknown_points(grid, unknowns)),
@@ -52,10 +49,10 @@ SurfaceDifferences::SurfaceDifferences(const GridLevel& grid, const Stencils& st
   const RingTable::Ring& last = rings_.about(Index(rings_.points() - 1));
   row_.resize(3 * (last.member + last.size));
   pull_.resize(rings_.points());
-  write_rows(exponent, workers, x);
+  write_rows(metric, workers);
 }
 
-void SurfaceDifferences::write_rows(double exponent, Workers& workers, const double* x) {
+void SurfaceDifferences::write_rows(const SurfaceMetric& metric, Workers& workers) {
   struct Local {
     RunGather<double, 3> gather;
     RingShape shape{};
@@ -65,7 +62,7 @@ void SurfaceDifferences::write_rows(double exponent, Workers& workers, const dou
   const double n = double(grid_.n());
   const Array<double> weight = point_weights(grid_);
   for_each_run(
-      grid_, workers, [&] { return Local{{grid_, x}}; },
+      grid_, workers, [&] { return Local{{grid_, metric.surface}}; },
       [&](const Run& run, Local& local) {
         const EnergyRows usual(grid_.mesh(), stencils_, element_of(grid_.mesh(), run));
         const std::size_t ring = rings_.about(Index(run.first)).size - 1;
@@ -93,7 +90,7 @@ void SurfaceDifferences::write_rows(double exponent, Workers& workers, const dou
               to[c] = float(own);
             }
           };
-          if (!chart_in_space(in_space, exponent, local.chart)) {
+          if (!chart_in_space(in_space, metric.exponent, local.chart)) {
             put([&](std::size_t c, std::size_t s) { return usual[s][c]; });
             continue;
           }
@@ -102,10 +99,9 @@ void SurfaceDifferences::write_rows(double exponent, Workers& workers, const dou
           put([&](std::size_t c, std::size_t s) {
             return root * rows(Eigen::Index(c + 2), Eigen::Index(s));
           });
-          // over the square of the area that the ring would have on level 0: as stiff as bends that long
-          if (p >= std::size_t(grid_.mesh().vertex_count()))
-            pull_[p] = float(pull_strength * slenderness(local.chart) * share /
-                             (n * n * local.chart.area));
+          if (is_unknown(Index(p)))
+            pull_[p] = float(share * local.chart.area / (n * n) * std::pow(area_of(in_space), 2) *
+                             std::pow(metric.pull[p], 4));
         }
       });
 }
@@ -173,14 +169,15 @@ template void SurfaceDifferences::apply<double>(const std::vector<std::uint8_t>&
                                                 const VertexWeights&, Workers&, const double*,
                                                 double*);
 
-Array<float> SurfaceDifferences::diagonal(const VertexWeights& weights, Workers& workers) const {
+Array<float> SurfaceDifferences::diagonal(const std::vector<std::uint8_t>& vertices,
+                                          const VertexWeights& weights, Workers& workers) const {
   Array<float> out(rings_.points());
   for_each_point(workers, rings_.points(), [&](std::size_t p) {
     double sum = pull(Index(p)) + (p < weights.size() ? weights[p] : 0.0);
     for (const RingPlaces::Place& place : places_.of(Index(p)))
       for (const double number : column(place.centre, place.slot)) sum += number * number;
     sum += membrane(Index(p)).total();
-    out[p] = is_unknown(Index(p)) && sum > 0 ? float(sum) : 1.0f;
+    out[p] = (p < vertices.size() ? vertices[p] : unknown_[p]) && sum > 0 ? float(sum) : 1.0f;
   });
   return out;
 }

@@ -4,9 +4,9 @@
 // faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
 // that the plate is nearly its total curvature (docs/explanation/method.md).
 //
-// Where rings are long and thin such a plate swings farther than the mesh is thick. There it is drawn
-// to a calm surface, the goal: P, a weight a point, is part of the matrix, and P goal of what it is to
-// come up to.
+// Such a plate swings between the points that hold it, farther than a thin wall is thick. So it is drawn
+// to a surface that does not, the goal: P, a weight a point, is part of the matrix, and P goal of what
+// it is to come up to.
 #pragma once
 
 #include "sparse/matrix.h"
@@ -16,15 +16,23 @@
 
 namespace fairing {
 
+// The metric of a surface and the pull to the goal.
+struct SurfaceMetric {
+  const double* surface;  // 3 numbers a point
+  // One a point, k: the squared distance from the goal weighs k^4 S^2 a unit of the metric's area, with
+  // S the area that the point has at unit grid spacing.
+  const float* pull;
+  double exponent;  // as in flatten()
+};
+
 class SurfaceDifferences {
  public:
   using Column = EnergyRows::Column;
 
-  // About the surface x, 3 numbers a point; `exponent` as in flatten(). Where x has no shape, the
-  // control metric's rows stay. The references must outlive it. Throws where the run has been
-  // cancelled.
-  SurfaceDifferences(const GridLevel& grid, const Stencils& stencils, double exponent,
-                     const Unknowns& unknowns, Workers& workers, const double* x);
+  // `metric`: of this level. Where its surface has no shape, the control metric's rows stay. The other
+  // references must outlive it. Throws where the run has been cancelled.
+  SurfaceDifferences(const GridLevel& grid, const Stencils& stencils, const SurfaceMetric& metric,
+                     const Unknowns& unknowns, Workers& workers);
 
   // As PlateDifferences::column().
   Column column(Index centre, std::size_t slot) const {
@@ -40,8 +48,9 @@ class SurfaceDifferences {
   void apply(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
              Workers& workers, const T* x, T* y);
 
-  // The diagonal of K + P + W: 1 where the point is no unknown.
-  Array<float> diagonal(const VertexWeights& weights, Workers& workers) const;
+  // The diagonal of K + P + W, where these control vertices count as unknowns: 1 on what is none.
+  Array<float> diagonal(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
+                        Workers& workers) const;
 
   // r += P goal on the unknowns.
   void add_pull(const double* goal, Workers& workers, double* r) const;
@@ -66,7 +75,7 @@ class SurfaceDifferences {
   }
 
  private:
-  void write_rows(double exponent, Workers& workers, const double* x);
+  void write_rows(const SurfaceMetric& metric, Workers& workers);
   template <class T>
   Array<T>& moments();
   // moments <- rows x, 9 numbers a point.
@@ -84,7 +93,7 @@ class SurfaceDifferences {
   const RingTable rings_;                    // in which all points are
   const RingPlaces places_;
   Array<float> row_;   // 3 a member of a ring
-  Array<float> pull_;  // P, one a point: none at control vertices, which are held
+  Array<float> pull_;  // P, one a point: none where it is no unknown
   Array<double> moment_;
   Array<float> float_moment_;
 };

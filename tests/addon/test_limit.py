@@ -144,11 +144,17 @@ def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interp
     np.testing.assert_allclose(positions(result.data)[: len(given)], given, atol=1e-6)
 
 
-def test_follow_goes_from_the_cage_to_the_limit():
+def test_follow_leaves_the_limits_and_moves_what_is_between():
     source = add_suzanne()
-    cage, limit = positions(source.data), limits(source)
-    np.testing.assert_allclose(limits(source, limit=0.5), 0.5 * (cage + limit), atol=1e-6)
-    np.testing.assert_array_equal(limits(source, limit=0.0), cage)
+    count = len(source.data.vertices)
+    free, follows = limits(source, levels=1, limit=0.0), limits(source, levels=1)
+    np.testing.assert_array_equal(free, follows)
+    activate(source)
+    surfaces = []
+    for limit in (0.0, 1.0):
+        surfaces.append(positions(fair(levels=1, interpolation="LIMIT", limit=limit).data))
+        activate(source)
+    assert np.abs(surfaces[0] - surfaces[1])[count:].max() > 1e-3
 
 
 def test_shape_keys_go_to_their_own_limits():

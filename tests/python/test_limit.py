@@ -101,14 +101,54 @@ def test_the_surface_passes_exactly_through_them():
         assert fine.report["largest_deviation"] == pytest.approx(moved, rel=1e-12)
 
 
-def test_it_is_the_surface_through_a_mesh_of_the_limits():
-    """On level 1 in the control metric still: only finer ones have a surface to measure on."""
-    vertices, faces = octahedron()
-    here = limits(vertices, faces)
-    np.testing.assert_array_equal(
-        df.fair(vertices, faces, 1, interpolation="limit").vertices,
-        df.fair(here, faces, 1).vertices,
-    )
+def cup(around=12):
+    """Of sides of 20, with a lip of 3."""
+    turn = 2 * np.pi * np.arange(around) / around
+    profile = ((34, 0), (40, 6), (40, 60), (40, 95), (37, 95), (37, 60), (36, 9), (30, 4))
+    vertices = [
+        np.stack([r * np.cos(turn), r * np.sin(turn), np.full(around, float(z))], axis=1)
+        for r, z in profile
+    ]
+    faces = [
+        [low + i, low + (i + 1) % around, low + around + (i + 1) % around, low + around + i]
+        for low in range(0, 7 * around, around)
+        for i in range(around)
+    ]
+    faces += [list(range(around))[::-1], list(range(7 * around, 8 * around))]
+    return np.concatenate(vertices), faces
+
+
+def test_the_lip_of_a_thin_wall_does_not_wave():
+    """By 0.1 and more where nothing draws it to the subdivision surface, whose lip is level."""
+    mesh = cup()
+
+    def waves(**options):
+        found = df.fair(*mesh, 3, interpolation="limit", **options).vertices
+        x, y, z = found.T
+        sector = np.floor(np.degrees(np.arctan2(y, x)) / 7.5 + 0.5)
+        lip = [z[(sector == s) & (np.hypot(x, y) > 30)].max() for s in np.unique(sector)]
+        return np.ptp(lip)
+
+    assert waves() < 0.02
+    assert waves(limit=0.0) > 0.1
+
+
+@pytest.mark.parametrize("mesh", [CUBE, HOUSE, octahedron()], ids=["cube", "house", "triangles"])
+def test_the_surface_comes_near_to_the_subdivided_one(mesh):
+    """On quads, triangles and pentagons; the nearer the more it follows, and passes through the limit
+    positions however far it does."""
+    state = mesh
+    for _ in range(4):
+        state = subdivide(*state)
+    there = limits(state[0], state[1])
+
+    def mean_distance(limit):
+        found = df.fair(*mesh, 2, interpolation="limit", limit=limit).vertices
+        np.testing.assert_array_equal(found[: len(mesh[0])], limits(*mesh))
+        return np.mean([np.linalg.norm(there - p, axis=1).min() for p in found])
+
+    off = [mean_distance(limit) for limit in (0.0, 0.6, 1.0)]
+    assert off[0] > off[1] > off[2]
 
 
 @pytest.mark.parametrize("pad_size", [0.0, 1.0])
@@ -164,14 +204,47 @@ def test_long_thin_faces_do_not_swing_through_each_other(sides, thickness):
     assert not len(_native._crossings(found.vertices, triangles, 0, _native.Monitor(), None))
 
 
-def test_a_share_of_the_way_and_none():
-    vertices, faces = HOUSE
-    all_of_it = limits(vertices, faces)
-    np.testing.assert_allclose(
-        limits(vertices, faces, limit=0.25), 0.75 * vertices + 0.25 * all_of_it, atol=1e-15
+def test_a_release_goes_down_the_energy_that_is_solved():
+    """Each vertex by epsilon down the slope of the energy in the metric of the surface. It is quadratic,
+    so differences on both sides give the slope."""
+    vertices, faces = octahedron()
+    vertices = vertices + 0.3 * np.random.default_rng(3).normal(size=vertices.shape)
+    given = {"interpolation": "limit", "limit": 0.0, "pad_size": 0.0, "relative_residual": 1e-11}
+    held = np.stack(
+        [df.fair(vertices + np.eye(6)[[v]].T, faces, 0, **given).vertices for v in range(6)]
     )
-    none = df.fair(vertices, faces, 2, interpolation="limit", limit=0.0)
-    np.testing.assert_array_equal(none.vertices[:10], vertices)
+    at_limits = df.fair(vertices, faces, 0, **given).vertices
+    cage_of = np.linalg.inv((held - at_limits)[:, :, 0].T)  # moves of held positions to the cage's
+    solver = df.Solver(vertices, faces, 2, measure=True, **given)
+    solver.solve(vertices)
+
+    def energy(moves):
+        return solver.solve(vertices + cage_of @ moves).report["energy"]["result"]["thin_plate"]
+
+    slope = np.zeros((6, 3))
+    for v, a in np.ndindex(6, 3):
+        move = np.zeros((6, 3))
+        move[v, a] = 0.1
+        slope[v, a] = energy(move) - energy(-move)
+    epsilon = 1e-6
+    moved = df.fair(vertices, faces, 2, epsilon=epsilon, **given).vertices[:6] - at_limits
+    steepest = -slope / np.linalg.norm(slope, axis=1, keepdims=True)
+    np.testing.assert_allclose(moved / epsilon, steepest, atol=1e-3)
+
+
+def test_a_rebase_to_limits_without_shape_is_refused():
+    vertices, faces = grid(2, 2)
+    vertices = np.asarray(vertices) - np.mean(vertices, axis=0)
+    solver = df.Solver(vertices, faces, 1, interpolation="limit")
+    before = solver.solve(vertices).vertices.copy()
+    middle = int(np.linalg.norm(vertices, axis=1).argmin())
+    side = int(np.linalg.norm(vertices - (1, 0, 0), axis=1).argmin())
+    # its limit is (16 v + 4 (its neighbours) + (those across)) / 36, so here that of `side`
+    moved = vertices.copy()
+    moved[middle] = 36 / 16 * vertices[side]
+    with pytest.raises(df.FairingError, match="At the limit positions"):
+        solver.rebase(moved)
+    np.testing.assert_allclose(solver.solve(vertices).vertices, before, atol=1e-12)
 
 
 def test_shapes_mix_linearly():
@@ -183,10 +256,10 @@ def test_shapes_mix_linearly():
         2,
         interpolation="limit",
         shapes=[other, 0.5 * (vertices + other)],
-        relative_residual=1e-11,
+        pad_size=0.0,  # loads on pads are found to a tolerance of their own
     )
     mean = 0.5 * (result.vertices + result.shapes[0])
-    np.testing.assert_allclose(result.shapes[1], mean, atol=1e-9)
+    np.testing.assert_allclose(result.shapes[1], mean, atol=1e-12)
     np.testing.assert_allclose(result.shapes[0][:10], limits(other, faces), atol=1e-15)
 
 

@@ -43,6 +43,18 @@ def test_prediction_bounds_the_peak_of_approximation(option):
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
 
 
+@pytest.mark.parametrize("levels", [1, 2, 4])
+@pytest.mark.parametrize("name", ["icosahedron", "torus_quads", "wavy_patch", "dodecahedron"])
+def test_prediction_bounds_the_peak_of_limit(name, levels):
+    """With the subdivision surface, which the plate is drawn to; in later solves too."""
+    vertices, faces = meshes.ALL[name]()
+    solver = df.Solver(vertices, faces, levels, interpolation="limit", threads=1)
+    first = solver.solve(vertices).report
+    later = solver.solve(np.asarray(vertices) * [1, 1, 1.01]).report
+    assert first["peak_bytes"] <= first["predicted_bytes"] <= 2.5 * first["peak_bytes"]
+    assert later["peak_bytes"] <= later["predicted_bytes"]
+
+
 @pytest.mark.parametrize("name", sorted(meshes.OPEN))
 def test_predicted_size_counts_the_boundary(name):
     vertices, faces = meshes.OPEN[name]()

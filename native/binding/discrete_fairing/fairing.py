@@ -99,7 +99,8 @@ def fair(
         borders and corners have their own rules [DeRose, Kass, Truong 1998]; vertices at corners
         and on straight borders, and those not inside a region, stay.
     limit : float from 0 to 1
-        Limit: how far the vertices go, from the cage, 0, to their limit positions, 1.
+        Limit: how closely the thin plate follows the subdivision surface between the limit positions,
+        from 0, not at all, to 1: rims and thin walls then do not wave. Other energies do not follow.
     edge_sharpness : (edges, sharpness), (k, 2) int and (k,) float or one number, subdivision steps
         Limit: vertex pairs of semi-sharp edges, and for how many subdivision steps each is sharp; 10
         and more is for ever. It counts for a crease too, which otherwise is sharp for ever. Blender's

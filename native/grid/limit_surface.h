@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Catmull-Clark limit surface of the input's polygons at the points of a grid, and how strongly a plate
+// is to be drawn to it.
+#pragma once
+
+#include "grid/grid_level.h"
+#include "mesh/catmull_clark.h"
+#include "parallel/workers.h"
+
+namespace fairing {
+
+class LimitSurface {
+ public:
+  // `control` is made of `mesh`; `levels`: of the finest grid. Throws where the run has been cancelled.
+  LimitSurface(const PolygonMesh& mesh, const ControlMesh& control, const SharpRules& rules,
+               int levels);
+
+  // 3 numbers a point of the finest grid. `cage`: those of the input's vertices. Control vertices are
+  // where they are `held`. So are, on flat faces between them, the polygons that were cut otherwise
+  // than around their centre, but for quads: they have no such place for a point.
+  Array<double> at_points(const GridLevel& grid, std::span<const double> cage,
+                          std::span<const Vec3> held, Workers& workers) const;
+
+  // What is kept and taken at the most.
+  static std::int64_t bytes(const PolygonMesh& mesh, const ControlMesh& control, int levels);
+
+ private:
+  class FaceMap;
+  CatmullClark subdivision_;
+};
+
+// How a plate is to be held on a surface so that it does not wave where faces are thin. For a point
+// whose area is S at unit grid spacing, (pi / r^b)^4 (S / r^2)^2: the stiffness of a bend as long as r in
+// the metric of exponent b, the more the longer faces are than r. With r the shortest control edge at
+// the control vertices near the point: their geometric mean, smoothly from vertex to vertex. One number
+// a point, the fourth root of that over S^2. It falls to nothing where a region meets what is outside.
+Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
+                                double exponent, Workers& workers);
+
+}  // namespace fairing

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Catmull-Clark subdivision of a whole mesh, its points taken to the limit [Halstead, Kass, DeRose
+// 1993], with creases, borders, corners and semi-sharp edges as mesh/sharpness.h has them. A linear
+// map of the vertices: its tables serve for all positions of one mesh.
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/polygon_mesh.h"
+#include "mesh/sharpness.h"
+#include "parallel/memory.h"
+
+namespace fairing {
+
+class CatmullClark {
+ public:
+  // `control` is made of `mesh`. `steps`: 1 or more. Throws where the run has been cancelled.
+  CatmullClark(const PolygonMesh& mesh, const ControlMesh& control, const SharpRules& rules,
+               int steps);
+
+  // Polygon f has the corners corners(f) to corners(f + 1).
+  Index corners(Index f) const { return first_[std::size_t(f)]; }
+  Index vertex(Index corner) const { return levels_[0].vertex[std::size_t(corner)]; }
+
+  // Each side of the quad at a polygon's corner ends in so many pieces. That quad runs from the corner
+  // to the middle of the side to the next corner, the middle of the polygon, and the middle of the
+  // side from the corner before.
+  int pieces() const { return 1 << (levels_.size() - 1); }
+  // The point a pieces from that corner towards the next one, and b towards the one before.
+  Index point(Index polygon, Index corner, int a, int b) const;
+
+  // The limits of the points, 3 numbers each, of those of the vertices. With semi-sharp edges that
+  // the steps do not use up, and where creases end, this is the limit up to a trace of the last step.
+  Array<double> limits(std::span<const double> cage) const;
+
+  // What is kept and, for a moment, taken to compute limits, at the most.
+  static std::int64_t bytes(std::int64_t corners, int steps);
+
+ private:
+  // What is sharp about a vertex.
+  struct Special {
+    Index vertex;
+    AroundVertex sharp;
+    std::vector<Index> spokes;  // the sharp edges, as long as sharp.spokes
+  };
+  struct Level {
+    Index vertices = 0;
+    Array<Index> vertex, edge;         // of a corner: what is there, and the edge to the next one
+    Array<std::array<Index, 2>> ends;  // of an edge
+    std::vector<std::pair<Index, double>> sharp_edges;
+    std::vector<Special> specials;
+
+    std::size_t size() const { return std::size_t(vertices) + ends.size(); }  // without faces
+  };
+
+  void set_polygons(const PolygonMesh& mesh, const ControlMesh& control, const SharpRules& rules);
+  void refine();
+  // From sharp_edges and the sharpness of vertices.
+  static void set_specials(Level& level, const std::vector<std::pair<Index, double>>& vertices);
+  std::size_t faces(std::size_t level) const {
+    return level == 0 ? first_.size() - 1 : levels_[level].vertex.size() / 4;
+  }
+  // visit(face, first, last) with the face's corners; visit_corners(face, corner, before).
+  template <class Visit>
+  void for_each_face(std::size_t level, Visit&& visit) const;
+  template <class Visit>
+  void for_each_corner(std::size_t level, Visit&& visit) const;
+  Array<double> step(std::size_t level, std::span<const double> x) const;
+  Array<double> to_limit(std::span<const double> x) const;
+
+  Array<Index> first_;         // of the polygons' corners
+  std::vector<Level> levels_;  // before each step
+};
+
+}  // namespace fairing

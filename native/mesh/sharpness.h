@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Semi-sharp edges and vertices under Catmull-Clark subdivision [DeRose, Kass, Truong 1998, §3]: which
+// rule a vertex has, and for how many steps.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+#include "mesh/vertex_pair.h"
+
+namespace fairing {
+
+// For how many subdivision steps a rule stays sharp before it becomes smooth; from `always_sharp` on,
+// for ever, as OpenSubdiv has it.
+constexpr double always_sharp = 10;
+
+struct Sharpness {
+  // Vertex pairs in any order, and the sharpness of each: theirs counts, be they creases or not.
+  std::pair<std::vector<std::array<std::int64_t, 2>>, std::vector<double>> edges;
+  std::vector<double> vertices;  // one a vertex, or empty; 0: none is given
+};
+
+// Throws FairingError(bad_option) for values that are negative or NaN, or not one an edge;
+// index_out_of_range for edges of vertices that are not in the mesh.
+void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness);
+
+constexpr double sharp_for_ever = std::numeric_limits<double>::infinity();
+
+// How sharp something of this sharpness is after some steps.
+inline double after(double sharpness, int steps) { return std::max(0.0, sharpness - steps); }
+
+// The sharpness of a vertex and of its spokes.
+struct AroundVertex {
+  double vertex = 0;
+  std::vector<double> spokes;
+};
+
+enum class VertexRule { smooth, crease, corner };
+VertexRule rule_of(const AroundVertex& sharp, int steps);
+
+// While a vertex goes from one rule to the next its sharpness is between 0 and 1: the share that the
+// former has [DeRose, Kass, Truong 1998, §3], the mean of all that become smooth.
+double share_of_sharper(const AroundVertex& sharp, int steps);
+
+// What is how sharp on a polygon mesh: as given, and for ever on feature edges that are not given, at
+// corners, where a curve turns sharply, and on straight borders.
+class SharpRules {
+ public:
+  // `control` is made of the mesh.
+  SharpRules(const ControlMesh& control, std::span<const std::int64_t> corners,
+             const Sharpness& given);
+
+  double vertex(std::size_t v) const { return vertex_[v]; }
+  double edge(std::int64_t a, std::int64_t b) const;
+
+ private:
+  std::vector<std::pair<VertexPair, double>> edges_;  // ascending; of two alike the first counts
+  std::vector<double> vertex_;
+};
+
+}  // namespace fairing
