@@ -8,10 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
-from time import monotonic
 
 from debian_root import ROOTS
-from durations import REPORTS, write_report
 from extension import build
 from layout import OUT, ROOT
 from real_blender import TIME_LIMIT, RealBlender, places
@@ -74,37 +72,25 @@ def counting_allocator(script: Path) -> dict[str, str]:
     }
 
 
-def timed(text: str, script: str, whole: float) -> list[tuple[str, float]]:
-    """Names and seconds of a script's tests, by what it printed, and of what is around them."""
-    lines = re.findall(r"^(?:PASS|FAIL) (\S+) ([\d.]+) s$", text, re.MULTILINE)
-    tests = [(f"{script}: {name}", float(seconds)) for name, seconds in lines]
-    around = whole - sum(seconds for _, seconds in tests)
-    return [*tests, (f"{script}: start and end", around)]
-
-
-def run_script(blender: RealBlender, script: Path) -> tuple[Tally, list[tuple[str, float]]]:
-    """One script in one Blender, in a window if its name says so; and how long its tests took."""
+def run_script(blender: RealBlender, script: Path) -> Tally:
+    """One script in one Blender, in a window if its name says so."""
     say(f"Blender {blender.version}: {script.name}")
     start = blender.window if script.match(WINDOW) else blender.headless
     screenshots = blender.seen(blender.exchange / "screenshots")
     arguments = ["--python-exit-code", "1", "--python", blender.seen(script)]
     variables = {"DF_SCREENSHOTS": str(screenshots), **counting_allocator(script)}
-    begun = monotonic()
     code, text = output(*start(*arguments, **variables))
     print(text, flush=True)
-    seconds = timed(text, script.name, monotonic() - begun)
-    return count(code, text, script.name), seconds
+    return count(code, text, script.name)
 
 
-def run_in_lanes(
-    lanes: list[RealBlender], scripts: list[Path]
-) -> list[tuple[Tally, list[tuple[str, float]]]]:
+def run_in_lanes(lanes: list[RealBlender], scripts: list[Path]) -> list[Tally]:
     """Scripts in their order, each in the lane that is free first."""
     free: SimpleQueue[RealBlender] = SimpleQueue()
     for lane in lanes:
         free.put(lane)
 
-    def run_next(script: Path) -> tuple[Tally, list[tuple[str, float]]]:
+    def run_next(script: Path) -> Tally:
         lane = free.get()
         try:
             return run_script(lane, script)
@@ -143,13 +129,10 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     lanes = blender.lanes(LANES)
     done = run_in_lanes(lanes, [script for script in scripts if script.name not in TIMED])
     done += run_in_lanes(lanes[:1], [script for script in scripts if script.name in TIMED])
-    total = sum((tally for tally, _ in done), Tally())
-    seconds = [test for _, tests in done for test in tests]
-    write_report(REPORTS / f"blender-{blender.version}.xml", seconds)
     kept = SCREENSHOTS / blender.version
     shutil.rmtree(kept, ignore_errors=True)
     shutil.copytree(blender.exchange / "screenshots", kept)
-    return total
+    return sum(done, Tally())
 
 
 def or_why(get: Callable[[], RealBlender]) -> RealBlender | str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import monotonic, time
+from time import monotonic
 
 import blender_suite
 import fuzzing
@@ -15,8 +15,7 @@ import native_wheel
 import release_suite
 import style
 import system_packages
-from durations import REPORTS, slowest
-from layout import VENV_PYTHON
+from layout import BUILD, VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
 from stamp import alone
@@ -26,6 +25,7 @@ from tally import Tally, with_exit_code
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
 NIGHT_OF_FUZZING = 30.0  # minutes
+REPORTS = BUILD / "reports"
 
 
 def read_junit(report: Path) -> Tally:
@@ -81,7 +81,8 @@ def pytest_suite(name: str, *options: str, only: Iterable[str] = (), **environme
     native_wheel.install()
     report = fresh_report(name.replace("/", "-"))
     paths = [f"tests/{name}/test_{file}.py" for file in only] or [f"tests/{name}"]
-    command = [VENV_PYTHON, "-m", "pytest", "-q", f"--junitxml={report}", *paths]
+    shown = ["-q", "--durations=10", "--durations-min=1", f"--junitxml={report}"]
+    command = [VENV_PYTHON, "-m", "pytest", *shown, *paths]
     code = run(*command, *options, check=False, **environment)
     return with_exit_code(read_junit(report), code)
 
@@ -216,7 +217,7 @@ def run_all(names: list[str]) -> int:
     unknown = {name.partition(":")[0] for name in names} - set(known)
     if unknown:
         raise DevError(f"no suite {', '.join(sorted(unknown))}; there are {', '.join(known)}.")
-    rows, total, begun = [], Tally(), time()
+    rows, total = [], Tally()
     for name in names or SUITES:
         say(f"suite {name}")
         start = monotonic()
@@ -229,6 +230,6 @@ def run_all(names: list[str]) -> int:
             table_line(name, replace(whole, note="") if parts else whole, monotonic() - start)
         )
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]
-    print("\n".join(["", *slowest(begun), "", *rows]))
+    print("\n".join(["", *rows]))
     print(f"\n{total.passed} passed, {total.failed} failed", flush=True)
     return 1 if total.failed else 0
