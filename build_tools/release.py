@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A release as a folder that any static host can serve: Blender's repository of the zips, wheels, source, site, sums.
-
-Every time in it is that of the commit, so that the same commit and tools give the same bytes.
-"""
+"""A release as a folder that any static host can serve: Blender's repository of the zips, wheels, source, site, sums."""
 
 import hashlib
 import os
@@ -69,8 +66,6 @@ def build(zips: list[list[Path]]) -> Path:
     packed = extension.build_all(zips)
     shutil.rmtree(RELEASE, ignore_errors=True)
     (RELEASE / "wheels").mkdir(parents=True)
-    for path in packed:
-        blender_repository.settle(path, epoch)
     with alone("blender"):
         blender = next(iter(places().values()))()
         blender_repository.generate(blender, packed, RELEASE / REPOSITORY)

@@ -21,7 +21,6 @@ SCRIPTS = ROOT / "tests" / "release"
 SERVED = BUILD / "served"
 REPOSITORY = "served"  # as Blender calls it in its settings
 PACKAGE = "discrete_fairing"
-EPOCH = 1_700_000_000  # seconds since 1970: any will do
 PRESET = "scripts/presets/operator/object.fairing_surface/mine.py"
 
 
@@ -41,7 +40,6 @@ def newer(path: Path) -> Path:
             if name == "blender_manifest.toml":
                 data = data.replace(f'version = "{old}"'.encode(), f'version = "{new}"'.encode())
             copy.writestr(name, data, zipfile.ZIP_DEFLATED)
-    blender_repository.settle(made, EPOCH)
     return made
 
 
@@ -83,7 +81,6 @@ def live(blender: RealBlender) -> Tally:
     blender.clear()
     (folder := SERVED / blender.version).mkdir(parents=True, exist_ok=True)
     zipped = extension.build([blender.wheel()], blender)
-    blender_repository.settle(zipped, EPOCH)
     tests = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, tests, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(BLENDER_SCRIPTS / "harness.py", tests)

@@ -25,7 +25,6 @@ WHEELS = native_build.BUILD / "wheels" / "cross"
 METADATA = (
     "import sys, scikit_build_core.build as b; b.prepare_metadata_for_build_wheel(sys.argv[1])"
 )
-EPOCH = (2020, 1, 1, 0, 0, 0)  # the same bytes, whenever they are packed
 
 
 def metadata(folder: Path) -> dict[str, bytes]:
@@ -71,10 +70,7 @@ def pack(module: Path, info: dict[str, bytes], tag: str, folder: Path) -> Path:
     path = folder / f"discrete_fairing-{version}-{tag}.whl"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, data in files.items():
-            entry = zipfile.ZipInfo(name, EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o100644 << 16
-            archive.writestr(entry, data)
+            archive.writestr(name, data)
     return path
 
 

@@ -164,14 +164,6 @@ def test_a_packed_wheel_lists_every_file_with_its_hash(packed):
     assert not any("__pycache__" in name for name in files)
 
 
-def test_the_same_files_make_the_same_wheel(packed, tmp_path):
-    first = packed.read_bytes()
-    wheels.pack(
-        tmp_path / "_native.cp311-win_amd64.pyd", dict(INFO), "cp311-cp311-win_amd64", tmp_path
-    )
-    assert packed.read_bytes() == first
-
-
 def test_gcc_is_refused_for_windows(tmp_path):
     """It lays the packs of the inner loops where the instructions fault."""
     if shutil.which("g++") is None:
