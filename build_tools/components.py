@@ -61,7 +61,7 @@ def libraries() -> list[Component]:
         ),
         library(
             "Eigen",
-            version_in(".ci/dependencies/CMakeLists.txt", r"Eigen ([\d.]+),"),
+            version_in("cmake/dependencies.cmake", r"/eigen-([\d.]+)\.tar"),
             "MPL-2.0",
             "https://eigen.tuxfamily.org",
             "generic/eigen",

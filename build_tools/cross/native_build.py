@@ -40,7 +40,7 @@ def settings(target: Target) -> dict[str, str | Path]:
         "DF_ZIG": zig(),
         "DF_ZIG_TARGET": target.zig,
         "DF_WARNINGS_AS_ERRORS": "ON",
-        "DF_OPENMESH_SOURCE": openmesh(),
+        "FETCHCONTENT_SOURCE_DIR_OPENMESH": openmesh(),
         "pybind11_DIR": pybind11.strip(),
         "SKBUILD_PROJECT_VERSION_FULL": version(),
     }

@@ -4,7 +4,6 @@
 import re
 import subprocess
 import sys
-import tomllib
 
 import pytest
 import yaml
@@ -59,22 +58,3 @@ def test_the_workflow_runs_the_version_that_the_documents_name():
     lock = "build_tools/requirements_wheels.lock"
     assert lock in WHEELS.read_text()
     assert re.findall(pattern, (ROOT / lock).read_text()) == [named]
-
-
-def test_cibuildwheel_gives_options_that_exist():
-    known = {
-        name
-        for path in [
-            ROOT / "CMakeLists.txt",
-            *ROOT.glob("cmake/*.cmake"),
-            *ROOT.glob("native/**/CMakeLists.txt"),
-        ]
-        for name in re.findall(r"^(?:option|set)\((DF_\w+)", path.read_text(), re.MULTILINE)
-    }
-    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["cibuildwheel"]
-    given = {
-        name
-        for system in ("linux", "macos", "windows")
-        for name in re.findall(r"-D(DF_\w+)", settings[system]["environment"]["CMAKE_ARGS"])
-    }
-    assert given and given <= known
