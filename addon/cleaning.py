@@ -12,10 +12,37 @@ from . import core, errors, prediction
 from .blender import Context, Object
 from .check.defects import as_dicts, store_defects
 from .check.holes import listed
+from .mesh.begun import Begun
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import world_shape
 from .mesh.write_cleaned import Cleaned, write_cleaned
+from .units import Units
+
+# what can be turned off: name, label, what it does
+STEPS = (
+    (
+        "mend",
+        "Bad Faces",
+        "Duplicate faces go, and faces without area; vertices without a face too",
+    ),
+    ("join", "Join Borders", "Border edges that lie on one another become one"),
+    ("fins", "Fins", "Sheets that hang on an edge of the surface go"),
+    ("normals", "Normals", "Faces that point the wrong way are flipped"),
+    (
+        "inner",
+        "Inner Parts",
+        "Parts inside of others go, but for hollows with a surface of their own",
+    ),
+    ("pinched", "Pinched Vertices", "Parts that touch in a vertex or an edge are separated there"),
+    (
+        "spikes",
+        "Spikes",
+        "Tips higher than 1.6 edges are pressed down; creased and sharp ones stay",
+    ),
+    ("folds", "Folds", "Faces that point away from all faces around are laid flat"),
+    ("fill", "Holes", "Holes are closed by a surface that goes on from the faces around"),
+)
 
 
 @dataclass(frozen=True)
@@ -33,10 +60,11 @@ class CleanJob:
 
     def __init__(self, context: Context, target: Object, wish: Wish) -> None:
         self.name, self._target, self._wish = target.name, Reference(target), wish
-        self._mode, self._shape = target.mode, world_shape(target)
+        self._shape, self._units = world_shape(target), Units.of(context.scene)
         self.result: Any = None
         with control_mesh(context, target) as mesh:
             self._arrays = read_mesh(mesh)
+        self._begun = Begun.of("Run Clean Scan", target, self._arrays)
         self.triangles = int((self._arrays.face_sizes - 2).sum())
 
     @property
@@ -68,17 +96,7 @@ class CleanJob:
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        target = self._target.find()
-        if target is not None and target.mode == self._mode:
-            with control_mesh(context, target) as mesh:
-                now = read_mesh(mesh)
-            if (
-                core.same_faces(now, self._arrays)
-                and np.array_equal(now.positions, self._arrays.positions)
-                and self._shape == world_shape(target)
-            ):
-                return ""
-        return f"Run Clean Scan once more: {self.name} was edited during the run, and nothing has changed."
+        return self._begun.why_outdated(context)
 
     def apply(self, context: Context) -> list[str]:
         """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""
@@ -110,7 +128,7 @@ class CleanJob:
     def _end(self) -> str:
         found = self.result
         if found.watertight:
-            begin = f"Watertight: yes; volume {found.volume:.6g} in cubed scene units"
+            begin = f"Watertight: yes; volume {self._units.volume(found.volume)}"
         else:
             begin = "Watertight: no"
         left = "; ".join(errors.what(defect).rstrip(".") for defect in as_dicts(found.left))

@@ -7,6 +7,9 @@ from typing import Any
 
 from . import core
 
+VERTEX_ON_EDGE = (
+    "VERTEX_ON_EDGE"  # the core says DEGENERATE_FACE, of a hole whose rim has no width there
+)
 _OR_MEND = ", or let Defects be Mend"
 # Of every code that a user of Blender can meet; an order first, as refusals begin with it.
 REMEDIES = {
@@ -24,6 +27,7 @@ REMEDIES = {
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
     "OPEN_HOLE": "Fill them with Fill Hole Fair, unless the surface is meant to be open there",
     "CROSSING_FACES": "Select these and the faces around (Ctrl Numpad +), and replace them with Fill Hole Fair",
+    VERTEX_ON_EDGE: "Cut the edges there, and merge the new vertices with these, or fill by hand",
     "UNDERDETERMINED": "Set Vertices to Through, or a smaller tolerance",
     "TOO_EXTREME": "Move far vertices back to the others or delete them, and even out very thin faces",
     "TOO_LARGE": "Use fewer levels, or raise the Memory Limit",
@@ -67,6 +71,10 @@ _WHAT = {
     ),
     "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
     "OPEN_HOLE": ("edge is at a hole", "edges are at holes"),
+    VERTEX_ON_EDGE: (
+        "vertex lies on a border edge without being joined to it",
+        "vertices lie on border edges without being joined to them",
+    ),
     "CROSSING_FACES": ("face passes through others", "faces pass through others"),
     "UNRESOLVED": (
         "face has a surface that folds or turns too sharply for patches",

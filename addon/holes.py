@@ -13,6 +13,7 @@ from . import core, errors, prediction
 from .blender import Context, Object
 from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
+from .mesh.begun import Begun
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import WorldShape, world_shape
@@ -104,7 +105,7 @@ def _skipped(hole: Any, vertices: np.ndarray) -> dict[str, Any]:
     _, _, why = hole.message.partition(": ")  # behind the elements, by the numbers of the part
     ids = vertices[np.array(hole.elements, np.int64)].tolist()
     return {
-        "code": hole.code,
+        "code": errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code,
         "message": why,
         "kind": hole.kind,
         "elements": ids,
@@ -125,6 +126,7 @@ class HoleJob:
         self.error: JobError | None = None  # why nothing can be filled
         with control_mesh(context, target) as mesh:
             self._arrays = arrays = read_mesh(mesh)
+            self._begun = Begun.of("Fill", target, arrays)
             gone = np.zeros(len(arrays.face_sizes), bool)
             edges = np.zeros(len(arrays.edges), bool)
             if self._editing and wish.edge is None:
@@ -218,19 +220,7 @@ class HoleJob:
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        target = self._target.find()
-        if target is None:
-            return f"Fill once more: {self.name} was deleted or undone during the run, and nothing has changed."
-        if target.mode == self._mode:
-            with control_mesh(context, target) as mesh:
-                now = read_mesh(mesh)
-            if (
-                core.same_faces(now, self._arrays)
-                and np.array_equal(now.positions, self._arrays.positions)
-                and self._shape == world_shape(target)
-            ):
-                return ""
-        return f"Fill once more: {self.name} was edited during the run, and its holes are as they were."
+        return self._begun.why_outdated(context)
 
     def apply(self) -> Filling:
         """Makes the faces."""
@@ -269,10 +259,10 @@ class HoleJob:
 
     def check_again(self, context: Context) -> None:
         """Keeps the list of holes true, where one of them was filled from it, and lists what could not be
-        filled, with buttons that select and mend it.
+        filled, and edges around no hole, with buttons that select and mend them.
         """
         target = self._target.find()
-        if target is None or not (self.skipped or self._wish.edge is not None):
+        if target is None or not (self.skipped or self._unclear or self._wish.edge is not None):
             return
         known = check_object(context, target)
         if self.skipped:

@@ -20,6 +20,7 @@ from .blender import Context, Object
 from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
+from .mesh.begun import Begun
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.shape_keys import dependent_keys
@@ -80,10 +81,10 @@ class InPlaceJob:
         self.name, self._source, self._wish = source.name, Reference(source), wish
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the thread that computes
-        self._mode = source.mode
         self.result: Any = None
         self._arrays, chosen = self._read(context, source)
         self._shape = world_shape(source)
+        self._begun = Begun.of("Fair", source, self._arrays)
         near = grown(self._arrays, chosen, self._rings)
         free = inside(self._arrays, chosen)
         _refuse(source.name, self._arrays, chosen, free, wish)
@@ -217,25 +218,8 @@ class InPlaceJob:
         return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) taken off."]
 
     def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does. A long run
-        leaves time for edits, undo and other modes.
-        """
-        source = self._source.find()
-        if source is None:
-            return f"Fair once more: {self.name} was deleted or undone during the run, and nothing has changed."
-        if source.mode != self._mode:
-            return f"Fair once more: {self.name} changed its mode during the run, and nothing else."
-        with control_mesh(context, source) as mesh:
-            now = read_mesh(mesh)
-        if (
-            core.same_faces(now, self._arrays)
-            and np.array_equal(now.positions, self._arrays.positions)
-            and self._shape == world_shape(source)
-        ):
-            return ""
-        return (
-            f"Fair once more: {self.name} was edited during the run, and nothing more has changed."
-        )
+        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+        return self._begun.why_outdated(context)
 
     def apply(self) -> None:
         """Moves, and with levels refines, the faces."""

@@ -5,8 +5,11 @@ from collections.abc import Callable
 from typing import Any
 
 import bmesh
+import numpy as np
 
+from .. import core
 from ..blender import Object
+from ..errors import VERTEX_ON_EDGE
 from .defects import elements_of
 
 
@@ -53,6 +56,49 @@ def _delete_duplicates(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -
     bmesh.ops.delete(bm, geom=extra, context="FACES_ONLY")
 
 
+def _cut(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
+    """The border edge on which each of these lies, at that place: then both are joined there."""
+    for vertex in vertices:
+        found = [
+            (away, edge, share)
+            for edge in bm.edges
+            if edge.is_boundary and vertex not in edge.verts
+            for away, share in [_away(vertex, edge)]
+            if 0.0 < share < 1.0
+        ]
+        if found:
+            _, edge, share = min(found, key=lambda one: one[0])
+            _, fresh = bmesh.utils.edge_split(edge, edge.verts[0], share)
+            bmesh.ops.weld_verts(bm, targetmap={fresh: vertex})
+
+
+def _away(vertex: bmesh.types.BMVert, edge: bmesh.types.BMEdge) -> tuple[float, float]:
+    """The distance from an edge's line, and the place along the edge, from 0 to 1."""
+    begin, end = (v.co for v in edge.verts)
+    way = end - begin
+    share = float((vertex.co - begin) @ way) / (way.length_squared or 1.0)
+    return float((vertex.co - begin - share * way).length), share
+
+
+def _delete_surplus(bm: bmesh.types.BMesh, edges: list[bmesh.types.BMEdge]) -> None:
+    """Where more than two faces meet, the smaller sheets that end in a border, as Clean Scan does."""
+    faces = list(bm.faces)
+    bm.verts.index_update()
+    corners = np.array([v.index for face in faces for v in face.verts], np.int64)
+    offsets = np.concatenate([[0], np.cumsum([len(face.verts) for face in faces])])
+    steps = ("join", "normals", "inner", "pinched", "spikes", "folds", "fill")
+    kept = core.module().clean(
+        np.array([v.co for v in bm.verts], float),
+        (corners, offsets.astype(np.int64)),
+        islands=0.0,
+        **dict.fromkeys(steps, False),
+    )
+    gone = np.ones(len(faces), bool)
+    gone[kept.face_origin] = False
+    parts = [faces[f] for f in np.flatnonzero(gone).tolist()]
+    bmesh.ops.delete(bm, geom=parts, context="FACES")
+
+
 def _tiny(bm: bmesh.types.BMesh) -> float:
     """A distance that no one can see: a millionth of the mesh's size."""
     points: list[Any] = [v.co for v in bm.verts if all(abs(x) < 1e30 for x in v.co[:])]
@@ -70,4 +116,6 @@ _REPAIRS: dict[str, tuple[str, Callable[[bmesh.types.BMesh, list[Any]], None]]] 
     "DEGENERATE_FACE": ("Degenerate Dissolve", _dissolve),
     "ISOLATED_VERTICES": ("Delete Loose", _delete_loose),
     "DUPLICATE_FACE": ("Delete Extra Faces", _delete_duplicates),
+    "NONMANIFOLD_EDGE": ("Delete Extra Faces", _delete_surplus),
+    VERTEX_ON_EDGE: ("Cut Edges", _cut),
 }

@@ -65,8 +65,9 @@ def wanted_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wanted:
     eases = arguments.ease or bound is not None
     if eases or arguments.strain is not None:
         named = "--ease" if eases else "--strain"
-        if arguments.fill:
-            raise ValueError(f"{named} is for fairing, and --fill does not fair: call twice")
+        for other in ("fill", "clean"):
+            if getattr(arguments, other):
+                raise ValueError(f"{named} is for fairing, and --{other} does not fair: call twice")
         if arguments.pieces is not None:
             raise ValueError(f"{named} needs the whole mesh, and --pieces never has it")
     amount = "AUTOMATIC" if bound is None else "TOLERANCE"

@@ -32,6 +32,8 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
     """The mesh objects of a file, alone in an empty scene; the user's startup file stays out of it."""
     _readable(path)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    scene: Any = current_context().scene
+    scene.unit_settings.system = "NONE"  # numbers are those of the file, whatever it means by them
     operator: dict[str, Any] = {
         "obj": bpy.ops.wm.obj_import,
         "ply": bpy.ops.wm.ply_import,

@@ -2,26 +2,21 @@
 """`--fill` on the command line: its options, holes closed in the meshes of a file, what the report says."""
 
 import argparse
-from collections.abc import Sequence
-from math import inf
 from typing import Any
 
-from ..blender import Mesh, Object, current_context
+from ..blender import Object, current_context
 from ..choices import JOINTS
 from ..errors import JobError
 from ..holes import NO_HOLE, HoleJob, Wish, doubts
-from ..settings import NAMES
-from .places import Place, is_cad
+from .report import counts
 
-_DEFAULTS: dict[str, Any] = {
+DEFAULTS: dict[str, Any] = {
     "fill_joint": "curvature",
     "fill_density": 1.0,
     "fill_noisy": False,
     "fill_quads": False,
-    "largest_hole": 0.0,
 }
-_ENERGY = "TOTAL_CURVATURE"
-_OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
+ENERGY = "TOTAL_CURVATURE"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -32,26 +27,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="close the holes of each mesh, and write it otherwise as it is, in the place of fairing it; "
         "of the settings only --energy counts then [off; energy: total_curvature]",
     )
-    group.add_argument(
-        "--largest-hole",
-        type=_width,
-        metavar="LENGTH",
-        help="holes of which two vertices of the rim are farther apart stay open, in the file's unit; 0: the "
-        f"borders of sheets stay open, and no others [{_DEFAULTS['largest_hole']:g}]",
-    )
     names = [identifier.lower() for identifier, *_ in JOINTS]
     group.add_argument(
         "--fill-joint",
         choices=names,
         metavar="|".join(names),
-        help=f"how a filling meets the faces around [{_DEFAULTS['fill_joint']}]",
+        help=f"how a filling meets the faces around [{DEFAULTS['fill_joint']}]",
     )
     group.add_argument(
         "--fill-density",
         type=_density,
         metavar="X",
         help="new edges are so many times as short as those of the rim; 0: no new vertices "
-        f"[{_DEFAULTS['fill_density']:g}]",
+        f"[{DEFAULTS['fill_density']:g}]",
     )
     group.add_argument(
         "--fill-noisy",
@@ -67,28 +55,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wish_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wish | None:
-    """What is asked of holes; None where they stay. Raises ValueError where options contradict."""
-    given = {name: getattr(arguments, name) for name in _DEFAULTS}
-    if not arguments.fill:
-        for name, value in given.items():
-            if value is not None:
-                raise ValueError(f"{_option(name)} needs --fill")
-        return None
-    settings = [
-        name for name in vars(arguments) if name in NAMES and name not in (*_OTHERS, "energy")
-    ]
-    others = [name for name in _OTHERS if getattr(arguments, name) is not None]
-    if settings or others:
-        raise ValueError(
-            f"{_option((settings + others)[0])} is for fairing, and --fill does not fair: call twice"
-        )
-    if any(is_cad(way.target) for way in ways):
-        raise ValueError("--fill writes meshes: OUT cannot be a STEP file")
-    said = {name: _DEFAULTS[name] if value is None else value for name, value in given.items()}
+def wish_of(said: dict[str, Any]) -> Wish:
+    """From the options that were said, or their defaults."""
     return Wish(
         said["fill_joint"].upper(),
-        getattr(arguments, "energy", _ENERGY),
+        said["energy"],
         said["fill_density"],
         said["largest_hole"],
         False,
@@ -109,11 +80,11 @@ def shown(wish: Wish) -> dict[str, Any]:
     }
 
 
-def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
+def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
     """Closes the holes of an object; its entry for the report, and warnings. Raises JobError where
     they cannot be closed; to have none is no error.
     """
-    entry: dict[str, Any] = {"name": source.name, "control": _counts(source.data)}
+    entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     try:
         job = HoleJob(current_context(), source, wish)
     except JobError as error:
@@ -137,7 +108,7 @@ def fill(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], l
         }
         for hole in job.result.holes
     ]
-    entry |= {"result": _counts(source.data), "report": {"holes": holes}}
+    entry |= {"result": counts(source.data), "report": {"holes": holes}}
     said = [job.left_text, *doubts([done])]
     return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
 
@@ -157,24 +128,6 @@ def table_line(record: dict[str, Any], width: int) -> str:
         f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
         f"{len(holes):>7,} {sum(hole['folds'] > 0 for hole in holes):>7,}"
     )
-
-
-def _counts(mesh: Mesh) -> dict[str, int]:
-    return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
-
-
-def _option(name: str) -> str:
-    return "--" + name.removeprefix("use_").replace("_", "-")
-
-
-def _width(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length, 0 or more")
-    return value
 
 
 def _density(text: str) -> float:

@@ -15,11 +15,11 @@ from typing import Any, TextIO
 import bpy
 
 from .. import core, memory
-from ..blender import Mesh, Object, current_context
+from ..blender import Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
-from . import ease, engines, fill, report, step
+from . import ease, engines, mending, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -56,7 +56,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
             raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
         no_report_over(arguments.json, ways)
         arguments.patches = step.wanted_of(arguments, settings, ways)
-        arguments.holes = fill.wish_of(arguments, ways)
+        arguments.mending = mending.asked_of(arguments, ways)
         return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
@@ -70,8 +70,8 @@ def _run_all(
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
     told = shown(settings) | ease.shown(arguments.prepared)
-    if arguments.holes is not None:
-        told = fill.shown(arguments.holes)
+    if arguments.mending is not None:
+        told = arguments.mending.module.shown(arguments.mending.wish)
     records = [report.new_record(way, told) for way in ways]
     table = _Table(arguments, ways, records, settings.energy)
     spread = engines.is_spread(arguments)
@@ -115,15 +115,15 @@ class _Table:
         energy: str,
     ) -> None:
         self.is_wanted = not arguments.quiet
-        self._fills = arguments.holes is not None
+        self._mends = getattr(arguments.mending, "module", None)
         self._ways, self._records = ways, records
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
             _say(self._head(arguments, energy))
 
     def _head(self, arguments: argparse.Namespace, energy: str) -> str:
-        if self._fills:
-            return fill.table_head(self._width)
+        if self._mends:
+            return self._mends.table_head(self._width)
         if arguments.patches is not None:
             return step.table_head(self._width)
         return report.table_head(self._width, energy)
@@ -135,8 +135,8 @@ class _Table:
 
     def _of(self, index: int) -> Any:
         """The module that knows what a line of the table says."""
-        if self._fills:
-            return fill
+        if self._mends:
+            return self._mends
         return step if is_cad(self._ways[index].target) else report
 
 
@@ -181,10 +181,10 @@ def _run_one(
         for path in (way.target, arguments.tables.get(way)):
             if arguments.overwrite is False and path is not None and is_there(path):
                 raise FileError("EXISTS", f"{path} exists, and is kept.")
-        if arguments.holes is None:
+        if arguments.mending is None:
             _fair_file(way, record, arguments, settings)
         else:
-            _fill_file(way, record, arguments)
+            _mend_file(way, record, arguments)
         record["status"] = report.DONE
     except (FileError, JobError) as error:
         _fail(
@@ -246,7 +246,7 @@ def _fair_file(
         ease.write_table(arguments.tables[way], found)
 
 
-def _fill_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
+def _mend_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
     sources = read_file(way.source, arguments.merge)
     progress = Progress(sys.stderr, str(way.source), len(sources))
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
@@ -255,7 +255,7 @@ def _fill_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace
     warnings: list[str] = []
     try:
         for source in sources:
-            entry, said = fill.fill(source, arguments.holes, **watchers)
+            entry, said = arguments.mending.module.run(source, arguments.mending.wish, **watchers)
             record["objects"].append(entry)
             warnings += said
             progress.next_run()
@@ -277,15 +277,11 @@ def _replace(job: Job, source: Object) -> dict[str, Any]:
     """Puts a job's result in the place of its source, under its name, and returns the entry for the
     report.
     """
-    entry: dict[str, Any] = {"name": source.name, "control": _counts(source.data)}
+    entry: dict[str, Any] = {"name": source.name, "control": report.counts(source.data)}
     target = job.write(current_context())
     bpy.data.objects.remove(source)
     target.name = entry["name"]
-    return entry | {"result": _counts(target.data), "report": memory.recall(target, "report")}
-
-
-def _counts(mesh: Mesh) -> dict[str, int]:
-    return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
+    return entry | {"result": report.counts(target.data), "report": memory.recall(target, "report")}
 
 
 def _code_and_elements(error: Any) -> tuple[str, Sequence[Any]]:

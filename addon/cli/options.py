@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..settings import NAMES, OF_NEAR, FAIRING_PG_settings
-from . import ease, fill, step
+from . import ease, mending, step
 from .places import FORMATS
 
 # Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
@@ -64,6 +64,7 @@ examples:
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
   {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
   {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
+  {_PROGRAM} scan.stl closed.ply --clean --clean-noise 10
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
 exit codes:
@@ -297,7 +298,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_settings(made)
     step.add_options(made)
     ease.add_options(made)
-    fill.add_options(made)
+    mending.add_options(made)
     return made
 
 

@@ -111,7 +111,12 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
             self.report({"INFO"}, "There is nothing to repair here")
             return {"CANCELLED"}
         select_defects(context, target, defect["kind"], defect["elements"])
-        repair.repair(target, defect)
+        try:
+            with errors.explained(target.name):
+                repair.repair(target, defect)
+        except errors.JobError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         left = check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         store_defects(context, target, left)

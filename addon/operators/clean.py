@@ -8,36 +8,11 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from ..blender import Answer, Context, registration
-from ..cleaning import CleanJob, Wish
+from ..cleaning import STEPS, CleanJob, Wish
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
 from .fill_holes import LargestHole
-
-# name, label, what it does
-_STEPS = (
-    (
-        "mend",
-        "Bad Faces",
-        "Duplicate faces go, and faces without area; vertices without a face too",
-    ),
-    ("join", "Join Borders", "Border edges that lie on one another become one"),
-    ("fins", "Fins", "Sheets that hang on an edge of the surface go"),
-    ("normals", "Normals", "Faces that point the wrong way are flipped"),
-    (
-        "inner",
-        "Inner Parts",
-        "Parts inside of others go, but for hollows with a surface of their own",
-    ),
-    ("pinched", "Pinched Vertices", "Parts that touch in a vertex or an edge are separated there"),
-    (
-        "spikes",
-        "Spikes",
-        "Tips higher than 1.6 edges are pressed down; creased and sharp ones stay",
-    ),
-    ("folds", "Folds", "Faces that point away from all faces around are laid flat"),
-    ("fill", "Holes", "Holes are closed by a surface that goes on from the faces around"),
-)
 
 
 class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
@@ -48,15 +23,15 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     cancelled_text = "Cleaning was cancelled: nothing has changed"
 
-    mend: BoolProperty(name=_STEPS[0][1], description=_STEPS[0][2], default=True)
-    join: BoolProperty(name=_STEPS[1][1], description=_STEPS[1][2], default=True)
-    fins: BoolProperty(name=_STEPS[2][1], description=_STEPS[2][2], default=True)
-    normals: BoolProperty(name=_STEPS[3][1], description=_STEPS[3][2], default=True)
-    inner: BoolProperty(name=_STEPS[4][1], description=_STEPS[4][2], default=True)
-    pinched: BoolProperty(name=_STEPS[5][1], description=_STEPS[5][2], default=True)
-    spikes: BoolProperty(name=_STEPS[6][1], description=_STEPS[6][2], default=True)
-    folds: BoolProperty(name=_STEPS[7][1], description=_STEPS[7][2], default=True)
-    fill: BoolProperty(name=_STEPS[8][1], description=_STEPS[8][2], default=True)
+    mend: BoolProperty(name=STEPS[0][1], description=STEPS[0][2], default=True)
+    join: BoolProperty(name=STEPS[1][1], description=STEPS[1][2], default=True)
+    fins: BoolProperty(name=STEPS[2][1], description=STEPS[2][2], default=True)
+    normals: BoolProperty(name=STEPS[3][1], description=STEPS[3][2], default=True)
+    inner: BoolProperty(name=STEPS[4][1], description=STEPS[4][2], default=True)
+    pinched: BoolProperty(name=STEPS[5][1], description=STEPS[5][2], default=True)
+    spikes: BoolProperty(name=STEPS[6][1], description=STEPS[6][2], default=True)
+    folds: BoolProperty(name=STEPS[7][1], description=STEPS[7][2], default=True)
+    fill: BoolProperty(name=STEPS[8][1], description=STEPS[8][2], default=True)
     islands: FloatProperty(
         name="Islands",
         description="Parts shorter than this share of the longest go, by the diagonals of their boxes",
@@ -81,7 +56,7 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
     def draw(self, _context: Context) -> None:
         layout = cast(bpy.types.UILayout, self.layout)
         layout.use_property_split = True
-        for name, *_ in _STEPS:
+        for name, *_ in STEPS:
             layout.prop(self, name)
             if name == "join":
                 layout.prop(self, "islands")
@@ -90,7 +65,7 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
         layout.prop(self, "noise")
 
     def make_jobs(self, context: Context) -> list[Any]:
-        steps = {name: bool(getattr(self, name)) for name, *_ in _STEPS}
+        steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
         wish = Wish(steps, self.islands, self.largest, self.noise)
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, wish) for target in targets]

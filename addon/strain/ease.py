@@ -13,6 +13,7 @@ from ..blender import Context, Mesh, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
+from ..mesh.begun import Begun
 from ..mesh.object import Reference
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import EASED, key_positions, put_key
@@ -51,6 +52,7 @@ class _Moving:
         with control_mesh(context, source) as mesh:
             self.arrays = read_mesh(mesh)
             self.selected = _selected(mesh)
+        self._begun = Begun.of("Ease", source, self.arrays)
         count = len(self.arrays.positions)
         eased = key_positions(source, EASED, count) if go_on else None
         self._start = self.arrays.positions if eased is None else eased
@@ -87,16 +89,7 @@ class _Moving:
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        source = self.reference.find()
-        if source is None:
-            return f"Ease once more: {self.name} was deleted or undone during the run, and nothing has changed."
-        with control_mesh(context, source) as mesh:
-            now = read_mesh(mesh)
-        if core.same_faces(now, self.arrays) and np.array_equal(
-            now.positions, self.arrays.positions
-        ):
-            return ""
-        return f"Ease once more: {self.name} was edited during the run, and nothing has changed."
+        return self._begun.why_outdated(context)
 
     @property
     def longest(self) -> float:
@@ -198,12 +191,6 @@ class EaseSelectedJob(_Moving):
         sent = self._world.positions
         found = self.result.vertices[: len(sent)]
         return np.where(self._free[:, None], sent + self._factor * (found - sent), sent)
-
-    def why_outdated(self, context: Context) -> str:
-        source = self.reference.find()
-        if source is not None and source.mode != "EDIT":
-            return f"Ease once more: {self.name} left Edit Mode during the run, and nothing has changed."
-        return super().why_outdated(context)
 
     def said(self, text: words.Text) -> str:
         """What was done, in words."""

@@ -5,10 +5,13 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from fake_layout import draw
 from hole_scenes import ball, is_closed, radii
 from scenes import activate, positions
 
 from addon.check.defects import recall_cleaned, recall_defects
+from addon.cleaning import CleanJob, Wish
+from addon.ui.check import VIEW3D_PT_fairing_check
 
 
 def spoiled():
@@ -124,6 +127,39 @@ def test_each_step_can_be_turned_off(step):
         assert [d["code"] for d in defects] == ["OPEN_HOLE"]
         assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
         assert target.data.total_edge_sel == len(defects[0]["elements"]) > 0
+
+
+def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
+    """Two balls, one through the other: both are closed, and stay."""
+    target = ball()
+    bm = bmesh.new()
+    bm.from_mesh(target.data)
+    for vertex in bmesh.ops.create_icosphere(bm, subdivisions=3, radius=1.0)["verts"]:
+        vertex.co.x += 1.5
+    bm.to_mesh(target.data)
+    bm.free()
+    activate(target)
+    assert bpy.ops.object.fairing_clean(inner=False) == {"FINISHED"}
+    (defect,), stale = recall_defects(target)
+    assert defect["code"] == "CROSSING_FACES" and not stale
+    assert draw(VIEW3D_PT_fairing_check).count("object.fairing_select_defect") == 1
+    assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
+    chosen = [f for f in bmesh.from_edit_mesh(target.data).faces if f.select]
+    assert len(chosen) == len(defect["elements"]) > 10
+    # the circle in which two unit balls meet, 1.5 apart
+    assert all(abs(f.calc_center_median().x - 0.75) < 0.2 for f in chosen)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_a_run_whose_mesh_is_gone_says_so():
+    target = spoiled()
+    job = CleanJob(bpy.context, target, Wish({}, 0.1, 0.0, 0))
+    assert job.why_outdated(bpy.context) == ""
+    target.scale.x = 2.0
+    bpy.context.view_layer.update()
+    assert "was edited during the run" in job.why_outdated(bpy.context)
+    bpy.data.objects.remove(target)
+    assert "was deleted or undone during the run" in job.why_outdated(bpy.context)
 
 
 def test_parts_that_share_an_edge_are_separated_with_their_marks():

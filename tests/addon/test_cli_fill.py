@@ -138,8 +138,16 @@ def test_the_table_counts_holes(capsys):
 @pytest.mark.parametrize(
     "words, said",
     [
-        (("--largest-hole", 9), "--largest-hole needs --fill"),
+        (("--largest-hole", 9), "--largest-hole needs --fill or --clean"),
         (("--fill-noisy",), "--fill-noisy needs --fill"),
+        (("--fill", "--clean"), "give one of --fill and --clean"),
+        (("--fill", "--clean-noise", 3), "--clean-noise needs --clean"),
+        (("--clean", "--fill-noisy"), "--fill-noisy needs --fill"),
+        (("--clean", "--energy", "thin_plate"), "--energy is for fairing, and --clean does not"),
+        (("--clean", "--ease"), "--ease is for fairing, and --clean does not"),
+        (("--clean", "--clean-without", "junk"), "invalid choice: 'junk'"),
+        (("--clean", "--clean-islands", 2), "from 0 to 1"),
+        (("--clean", "--clean-noise", 1001), "from 0 to 1000"),
         (("--fill", "--levels", 2), "--levels is for fairing"),
         (("--fill", "--pieces", 2), "--pieces is for fairing"),
         (("--fill", "--largest-hole", -2), "is not a length"),

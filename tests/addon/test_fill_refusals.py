@@ -7,9 +7,13 @@ import bmesh
 import bpy
 import pytest
 from cli_runs import entries
+from fake_layout import draw
 from hole_scenes import ball, borders, edit, is_closed, without
+from scenes import add
 
+from addon.check import repair
 from addon.check.defects import recall_defects
+from addon.ui.check import VIEW3D_PT_fairing_check
 
 
 def with_a_fin():
@@ -45,6 +49,49 @@ def test_alone_it_is_refused_in_object_and_edit_mode():
         bpy.ops.object.fairing_fill()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert len(target.data.polygons) == faces
+
+
+def codes(target):
+    return [defect["code"] for defect in recall_defects(target)[0]]
+
+
+def test_a_fin_is_listed_and_a_button_deletes_it():
+    target = with_a_fin()
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert codes(target) == ["NONMANIFOLD_EDGE"]
+    faces = len(target.data.polygons)
+    assert bpy.ops.object.fairing_repair(index=0) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(target.data.polygons) == faces - 1
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert is_closed(target.data)
+
+
+def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
+    """Two quads beside a longer one, twice as high: the corner between them hangs on its edge."""
+    points = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
+    faces = [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)]
+    target = add("Hanging", [(*p, 0) for p in points], faces)
+    uv = target.data.uv_layers.new(name="Map")
+    for loop in target.data.loops:
+        uv.data[loop.index].uv = target.data.vertices[loop.vertex_index].co[:2]
+    with pytest.raises(RuntimeError, match="Hanging: 1 hole left, listed in the panel Check"):
+        bpy.ops.object.fairing_fill()
+    defects, stale = recall_defects(target)
+    assert not stale and defects[-1]["code"] == "VERTEX_ON_EDGE" and defects[-1]["elements"] == [4]
+    panel = draw(VIEW3D_PT_fairing_check)
+    assert panel.count("object.fairing_repair") == 1 and "object.fairing_select_defect" in panel
+    assert "1 vertex lies on a border edge" in " ".join(map(str, panel))
+    assert repair.label("VERTEX_ON_EDGE") == "Cut Edges"
+    assert bpy.ops.object.fairing_repair(index=len(defects) - 1) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(borders(target)) == 7 and len(target.data.vertices) == 8
+    assert sorted(len(face.vertices) for face in target.data.polygons) == [4, 4, 5]
+    uv = target.data.uv_layers["Map"]
+    for loop in target.data.loops:
+        assert tuple(uv.data[loop.index].uv) == tuple(
+            target.data.vertices[loop.vertex_index].co[:2]
+        )
 
 
 def test_an_edge_inside_is_no_hole():

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`--clean` on the command line: its options, scans made into closed surfaces, what the report says."""
+
+import argparse
+from math import inf, isfinite
+from typing import Any
+
+from ..blender import Object, current_context
+from ..cleaning import STEPS, CleanJob, Wish
+from .report import counts
+
+_NAMES = [name for name, *_ in STEPS]
+DEFAULTS: dict[str, Any] = {"clean_without": (), "clean_islands": 0.1, "clean_noise": 0}
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("scans")
+    group.add_argument(
+        "--clean",
+        action="store_true",
+        help="make a closed surface of each mesh, in the place of fairing it: what does not belong to it goes, what "
+        "is wrong is mended, holes are filled [off]",
+    )
+    group.add_argument(
+        "--clean-without",
+        action="append",
+        choices=_NAMES,
+        metavar="STEP",
+        help=f"leave a step out; can be said several times: {', '.join(_NAMES)} [all are taken]",
+    )
+    group.add_argument(
+        "--clean-islands",
+        type=_share,
+        metavar="X",
+        help="parts shorter than this share of the longest go, by the diagonals of their boxes; 0: none "
+        f"[{DEFAULTS['clean_islands']:g}]",
+    )
+    group.add_argument(
+        "--clean-noise",
+        type=_passes,
+        metavar="N",
+        help="passes of a filter that takes noise off, up to 1000; ten do for most scans "
+        f"[{DEFAULTS['clean_noise']}]",
+    )
+
+
+def wish_of(said: dict[str, Any]) -> Wish:
+    """From the options that were said, or their defaults."""
+    steps = {name: name not in said["clean_without"] for name in _NAMES}
+    return Wish(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
+
+
+def shown(wish: Wish) -> dict[str, Any]:
+    """For the report."""
+    return {
+        "clean_without": [name for name in _NAMES if not wish.steps[name]],
+        "clean_islands": wish.islands,
+        "clean_noise": wish.noise,
+        "largest_hole": wish.largest,
+    }
+
+
+def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
+    """Cleans the mesh of an object; its entry for the report, and what is left as a warning."""
+    entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
+    job = CleanJob(current_context(), source, wish)
+    job.compute(**watchers)
+    said, found = job.apply(current_context()), job.result
+    entry["result"] = counts(source.data)
+    entry["report"] = {
+        "done": [{"step": act.step, "count": act.count, "text": act.text} for act in found.done],
+        "watertight": found.watertight,
+        "volume": found.volume if isfinite(found.volume) else None,
+        "left": [{"code": d.code, "count": len(d.elements)} for d in found.left],
+        "said": said,
+    }
+    good = found.watertight and not found.left
+    return entry, [] if good else [f"{source.name}: {said[-1]}."]
+
+
+def table_head(width: int) -> str:
+    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'watertight':>11} {'left':>7}"
+
+
+def table_line(record: dict[str, Any], width: int) -> str:
+    """A finished input's line: sums over its objects."""
+    objects = record["objects"]
+    faces_in, faces_out = (
+        sum(item[side]["faces"] for item in objects) for side in ("control", "result")
+    )
+    closed = all(item["report"]["watertight"] for item in objects)
+    left = sum(part["count"] for item in objects for part in item["report"]["left"])
+    return (
+        f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
+        f"{'yes' if closed else 'no':>11} {left:>7,}"
+    )
+
+
+def _share(text: str) -> float:
+    value = _float(text)
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 1")
+    return value
+
+
+def _passes(text: str) -> int:
+    if not text.isdecimal() or int(text) > 1000:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to 1000")
+    return int(text)
+
+
+def _float(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return -inf
