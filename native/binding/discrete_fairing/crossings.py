@@ -22,8 +22,26 @@ def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> li
     return [Filling(f.own, places[f.faces], f.first + shift, f.made) for f in numbered]
 
 
+class Surroundings:
+    """What a filling may pass through, of a mesh: the whole is asked once, not for each of its shapes."""
+
+    def __init__(self, whole: MeshPart) -> None:
+        self.whole = whole
+        self._low = self._high = np.full(3, np.nan)
+        self._faces = np.empty((0, 3), np.int64)
+
+    def near(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """(t, 3) triangles of all faces that may come into a box, and of others around it."""
+        if not ((self._low <= low).all() and (high <= self._high).all()):
+            margin = np.linalg.norm(high - low) / 2.0
+            self._low, self._high = low - margin, high + margin
+            faces = _overlapping(self.whole, self._low, self._high)
+            self._faces = self.whole.corner_fans(faces)
+        return self._faces
+
+
 def crossing_faces(
-    whole: MeshPart,
+    around: Surroundings,
     fillings: Sequence[Filling],
     watched: SeveralRuns,
     rows: Sequence[int] | None = None,
@@ -32,11 +50,11 @@ def crossing_faces(
     of the mesh or of a filling. Faces that share a vertex do not.
     """
     rows = range(len(fillings)) if rows is None else rows
-    points = np.concatenate([whole.points, *(f.own for f in fillings)])
+    points = np.concatenate([around.whole.points, *(f.own for f in fillings)])
     split = [_split(f.faces) for f in fillings]
     new = np.concatenate([split[row] for row in rows])
-    around = points[np.unique(new)]
-    near = whole.corner_fans(_overlapping(whole, around.min(axis=0), around.max(axis=0)))
+    places = points[np.unique(new)]
+    near = around.near(places.min(axis=0), places.max(axis=0))
     near = np.concatenate([near, *(s for row, s in enumerate(split) if row not in rows)])
     quiet = watched.run(1.0, 1.0)
     found = _native._crossings(
@@ -82,10 +100,11 @@ def with_less_crossing(
     """
     chosen = list(fillings)
 
-    def crossing(rows: Sequence[int] | None = None) -> list[np.ndarray]:
-        return crossing_faces(whole, in_whole(whole, part, chosen), watched, rows)
+    def crossing(around: Surroundings, rows: Sequence[int] | None = None) -> list[np.ndarray]:
+        return crossing_faces(around, in_whole(whole, part, chosen), watched, rows)
 
-    counts = list(map(len, crossing())) if chosen else []
+    everything = Surroundings(whole)
+    counts = list(map(len, crossing(everything))) if chosen else []
     first = len(part.points)
     tried = False
     for row, (own, triangles) in enumerate(triangulated):
@@ -97,14 +116,17 @@ def with_less_crossing(
         ):
             tried = True
             near = NearHole(part, own, triangles, first)
-            run = watched.run(1.0, 1.0)
+            run, around = watched.run(1.0, 1.0), Surroundings(whole)
             best, least = chosen[row], (counts[row], chosen[row].made.folds)
             ways = near.other_ways(wanted.energy, wanted.joint, wanted.noisy, run)
+            last = len(triangles), 0
             for moved, made in ways:
                 chosen[row] = Filling(moved, triangles, first, made)
-                (faces,) = crossing([row])
-                near.hold(faces, moved)
+                (faces,) = crossing(around, [row])
                 now = len(faces), made.folds
+                if sum(now) < sum(last):
+                    near.hold(faces, moved)
+                last = now
                 if sum(now) < sum(least) or (best.made.stands_in and now <= least):
                     best, least = chosen[row], now
                 if not any(now):
@@ -112,5 +134,5 @@ def with_less_crossing(
             chosen[row] = best
         first += len(own)
     if tried:
-        counts = list(map(len, crossing()))
+        counts = list(map(len, crossing(everything)))
     return chosen, counts

@@ -13,22 +13,32 @@
 namespace fairing {
 namespace {
 
-// Corners up to which all pairs are looked at: 0.4 s. A longer polygon loses ears first; where it is
+// Corners up to which all pairs are looked at: 0.2 s. A longer polygon loses ears first; where it is
 // too long even then, it is looked at through a window of so many corners, which doubles its stride
 // whenever it is full: 5,000 corners in 7 s.
 constexpr std::size_t longest_whole = 400, window_size = 128;
 
-struct Best {
+// What triangles cost: the least of these comes first.
+struct Cost {
   double folding = std::numeric_limits<double>::infinity();  // sum over folds, of their cosines
   double cosine = -2;                                        // of the largest angle
   double area = std::numeric_limits<double>::infinity();
+
+  bool is_less_than(const Cost& other) const {
+    if (folding != other.folding) return folding < other.folding;
+    return cosine > other.cosine || (cosine == other.cosine && area < other.area);
+  }
+
+  // Of two parts together, without what is between them.
+  Cost operator+(const Cost& other) const {
+    return {folding + other.folding, std::min(cosine, other.cosine), area + other.area};
+  }
+};
+
+struct Best {
+  Cost cost;
   Index middle = -1;  // the third corner of the triangle on this chord; -1: none
   Vec3 normal = Vec3::Zero();
-
-  bool is_worse_than(double other_folding, double other_cosine, double other_area) const {
-    if (other_folding != folding) return other_folding < folding;
-    return other_cosine > cosine || (other_cosine == cosine && other_area < area);
-  }
 };
 
 // Which chords there are, and where each is kept. Corner i is at the place i of a line, the last one
@@ -44,6 +54,8 @@ class Chords {
       begin_.push_back(kept_.size());
       kept_.resize(kept_.size() + ((end_ >> level) + 1) * window_);
     }
+    by_start_.resize((end_ + 1) * window_);
+    by_end_.resize((end_ + 1) * window_);
   }
 
   std::size_t top() const { return top_; }
@@ -62,10 +74,20 @@ class Chords {
     return &kept_[begin_[level] + (low >> level) * window_ + ((high - low) >> level) - 1];
   }
 
+  // Of chords no longer than the window, copies in the order in which look_at() reads them: of all from
+  // `low` on by their length, and of all to `high`.
+  void note(std::size_t low, std::size_t high, const Cost& cost) {
+    if (high - low > window_) return;
+    by_start_[low * window_ + high - low - 1] = by_end_[high * window_ + high - low - 1] = cost;
+  }
+  const Cost* from(std::size_t low) const { return &by_start_[low * window_]; }
+  const Cost* to(std::size_t high) const { return &by_end_[high * window_]; }
+
  private:
   std::size_t corners_, window_ = 0, top_ = 0, end_ = 0;
   std::vector<std::size_t> begin_;
   std::vector<Best> kept_;
+  std::vector<Cost> by_start_, by_end_;
 };
 
 class Search {
@@ -76,9 +98,11 @@ class Search {
   std::vector<Triangle> run() {
     const std::size_t size = polygon_.points.size();
     for (std::size_t i = 0; i + 1 < size; ++i) {
-      Best* side = chords_.find(chords_.place(i), chords_.place(i) + 1);
-      if (i + 2 == size) side = chords_.find(i, chords_.last_place());
-      if (side) *side = {0, 1, 0, Index(i), polygon_.normals[i]};
+      const std::size_t end = i + 2 == size ? chords_.last_place() : i + 1;
+      Best* side = chords_.find(i, end);
+      if (!side) continue;
+      *side = {{0, 1, 0}, Index(i), polygon_.normals[i]};
+      chords_.note(i, end, side->cost);
     }
     for (std::size_t level = 0; level <= chords_.top(); ++level)
       for (std::size_t gap = level ? chords_.window() / 2 + 1 : 2; gap <= chords_.window(); ++gap)
@@ -102,35 +126,44 @@ class Search {
     if (last == first + 1) return;  // the last side, where it is long
     Best& best = *chords_.find(low, high);
     if (!whole && !polygon_.may_join(first, last)) return;
+    if (level == 0) {
+      const Cost *from = chords_.from(low), *to = chords_.to(high);
+      for (std::size_t middle = low + 1; middle < high; ++middle) {
+        const Cost parts = from[middle - low - 1] + to[high - middle - 1];
+        if (parts.is_less_than(best.cost)) consider(low, middle, high, parts, best);
+      }
+      chords_.note(low, high, best.cost);
+      return;
+    }
     // the longer of the other two sides spans half of this one at least
-    const std::size_t stride = level ? std::size_t(1) << (level - 1) : 1;
+    const std::size_t stride = std::size_t(1) << (level - 1);
     for (std::size_t middle = low + stride; middle < high; middle += stride) {
       if (!chords_.is_corner(middle)) continue;
       const Best *left = chords_.find(low, middle), *right = chords_.find(middle, high);
-      if (!left || !right || left->middle < 0 || right->middle < 0) continue;
-      const double folding = left->folding + right->folding;
-      if (folding > best.folding) continue;
-      if (folding == best.folding && std::min(left->cosine, right->cosine) < best.cosine) continue;
-      consider(first, chords_.corner(middle), last, *left, *right, best);
+      if (!left || !right) continue;
+      const Cost parts = left->cost + right->cost;
+      if (parts.is_less_than(best.cost)) consider(low, middle, high, parts, best);
     }
   }
 
-  void consider(std::size_t i, std::size_t j, std::size_t k, const Best& left, const Best& right,
-                Best& best) const {
+  // The triangle between three places, with these `parts` beyond its other two sides.
+  void consider(std::size_t low, std::size_t middle, std::size_t high, const Cost& parts,
+                Best& best) {
     const std::vector<Vec3>& p = polygon_.points;
+    const std::size_t i = chords_.corner(low), j = chords_.corner(middle), k = chords_.corner(high);
     Vec3 normal = (p[j] - p[i]).cross(p[k] - p[i]);
     const double length = normal.norm();
     if (length > 0) normal /= length;
-    double turns[] = {turn(normal, left.normal), turn(normal, right.normal), 1};
+    double turns[] = {turn(normal, chords_.find(low, middle)->normal),
+                      turn(normal, chords_.find(middle, high)->normal), 1};
     if (i == 0 && k + 1 == p.size()) turns[2] = turn(normal, polygon_.normals[k]);
-    double folding = left.folding + right.folding, cosine = std::min(left.cosine, right.cosine);
+    Cost cost = parts;
     for (const double t : turns) {
-      folding += std::max(0.0, -t);
-      cosine = std::min(cosine, t);
+      cost.folding += std::max(0.0, -t);
+      cost.cosine = std::min(cost.cosine, t);
     }
-    const double area = left.area + right.area + length / 2;
-    if (best.middle < 0 || best.is_worse_than(folding, cosine, area))
-      best = {folding, cosine, area, Index(j), normal};
+    cost.area += length / 2;
+    if (cost.is_less_than(best.cost)) best = {cost, Index(j), normal};
   }
 
   // The cosine between two normals, in steps: the rounding of flat holes must not decide. A triangle
