@@ -15,6 +15,7 @@ from ..errors import JobError
 from ..job import Job
 from ..memory import source_of
 from ..mesh.object import Reference, new_object
+from ..mesh.shape_keys import ShapeKeys
 from ..mesh.world_shape import world_matrix
 from ..settings import Settings, is_evaluated, snapshot
 from . import colours, words
@@ -56,14 +57,16 @@ class PatchJob(Job):
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)
+        # of the mesh shown; None: it is the control mesh
+        self.levels_shown = None if source is None else int(shown.discrete_fairing.levels)
         self.apart: float | None = None  # as `distance` says, in Blender units of the world
         self.refused: list[int] = []  # faces because of which no patches are fitted
 
     def _blend(self, shown: Object) -> None:
         """Has patches fitted to what the sliders of `shown` make of the shape keys."""
-        used: dict[int, Any] = {}
-        if self.keys is not None:
-            used = shares_of(shown, self.keys, self.data.groups, len(self.arrays.positions))
+        keys = self.keys or ShapeKeys((), np.empty((0, 0, 3)), True, 0.0, 0, False)
+        count = len(self.arrays.positions)
+        used: dict[int, Any] = shares_of(shown, keys, self.data.groups, count)
         given = self.arguments.pop("shapes", ())
         if used:
             self.arguments["shapes"] = np.stack([given[place - 1] for place in used])

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import core, vertex_values
 from ..blender import Context, Object
+from ..errors import JobError
 from ..inspection.curvature import cross, unit
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import ShapeKeys, mixed, read_shape_keys, shares
@@ -43,27 +44,28 @@ def shares_of(
     shown: Object, keys: ShapeKeys, groups: Sequence[Any], vertex_count: int
 ) -> dict[int, Share]:
     """As `shares` has them: how much of each of the source's `keys` the sliders of `shown`, by the same
-    names, mix. `groups`: the vertex groups of the source.
+    names, mix. `groups`: the vertex groups of the source. Raises JobError where keys of `shown` itself
+    take part: the surface that is fitted knows nothing of them.
     """
-    owner: Any = shown.data.shape_keys
-    blocks = {} if owner is None else {block.name: block for block in owner.key_blocks}
-    names = [key.name for key in keys.keys]
-    set_up = []
-    for key in keys.keys:
-        block = blocks.get(key.name)
-        its = {"mute": block is None, "value": 0.0, "vertex_group": ""}
-        if block is not None:
-            its = {name: getattr(block, name) for name in its}
-        set_up.append(replace(key, settings={**key.settings, **its}))
-    active = getattr(shown.active_shape_key, "name", "")
-    mixing = replace(
-        keys,
-        keys=tuple(set_up),
-        active=names.index(active) if active in names else 0,
-        show_only=shown.show_only_shape_key,
-    )
+    its = read_shape_keys(shown, len(shown.data.vertices))
+    if its is None:
+        return {}
     dense = {group.name: group.dense(vertex_count) for group in groups}
-    return shares(mixing, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
+    found = shares(its, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
+    places = {key.name: place for place, key in enumerate(keys.keys)}
+    names = {place: its.keys[place].name for place in found}
+    own = [name for name in names.values() if name not in places]
+    if own:
+        raise JobError(own_keys_text(shown.name, own))
+    return {places[name]: found[place] for place, name in names.items() if places[name]}
+
+
+def own_keys_text(name: str, own: Sequence[str]) -> str:
+    keys = f"{'key' if len(own) == 1 else 'keys'} {', '.join(own)}"
+    return (
+        f"{name}: Set the {keys} to 0, or give the source such a key and make the surface anew. Patches are fitted to "
+        f"the fair surface, which knows nothing of the {keys} of its mesh."
+    )
 
 
 class Blend:

@@ -26,15 +26,24 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
     """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`, of all jobs, the worst of
-    them; the last where a surface is fitted.
+    them; the last where a surface is fitted, and at which levels the mesh would show it, where it has fewer.
     """
     told, each = _TOLD.get(unit, ("mm", "MM"))
     factor = scale * METRES[unit] / METRES[each]
     apart = [job.apart for job in jobs if job.apart is not None]
+    farthest = max(jobs, key=lambda job: job.apart or 0.0)
     return words.summary(
         sum(len(job.patches) for job in jobs),
         max(job.off for job in jobs) * factor,
         told,
         max(job.angle for job in jobs),
         max(apart) * factor if apart else None,
-    )
+    ) + _finer_text(farthest)
+
+
+def _finer_text(job: PatchJob) -> str:
+    """Where the mesh shown is coarser than the surface that patches were fitted to, what shows that one."""
+    has, needs = job.levels_shown, job.patches.levels
+    if has is None or has >= needs or (job.apart or 0.0) <= job.off:
+        return ""
+    return f", as {job.name} has {has} levels: {needs} show what CAD gets"

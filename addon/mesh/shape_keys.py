@@ -34,6 +34,7 @@ class ShapeKey:
     settings: (
         dict  # by the names in SETTINGS that this Blender has, in an order that is safe to write
     )
+    frame: float = 0.0  # of an absolute key
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def read_shape_keys(source: Object, vertex_count: int) -> ShapeKeys | None:
 
 def _key(block: bpy.types.ShapeKey, place: dict[str, int]) -> ShapeKey:
     settings = {name: getattr(block, name) for name in SETTINGS if hasattr(block, name)}
-    return ShapeKey(block.name, place[block.relative_key.name], settings)
+    return ShapeKey(block.name, place[block.relative_key.name], settings, block.frame)
 
 
 def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
@@ -86,12 +87,14 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
 
 
 def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, float | np.ndarray]:
-    """How much of each key but the first, by its place, the sliders mix: the shape is the first key
-    plus so much of what the others differ from it, a number or one a vertex. `weights`: (n,) of a
-    vertex group by its name.
+    """How much of each key but the first, by its place, the sliders mix, or the time of absolute keys:
+    the shape is the first key plus so much of what the others differ from it, a number or one a vertex.
+    `weights`: (n,) of a vertex group by its name.
     """
-    if keys.show_only or not keys.use_relative:
-        return {keys.active: 1.0} if keys.show_only and keys.active else {}
+    if keys.show_only:
+        return {keys.active: 1.0} if keys.active else {}
+    if not keys.use_relative:
+        return _absolute_shares(keys)
     found: dict[int, float | np.ndarray] = {}
     for place, key in enumerate(keys.keys):
         value = 0.0 if key.settings["mute"] else key.settings["value"]
@@ -103,6 +106,46 @@ def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, f
             if at:
                 found[at] = found.get(at, 0.0) + part
     return found
+
+
+def _absolute_shares(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
+    """The same of absolute keys: between two of them, by the curve that each of the two asks for."""
+    frames = [key.frame for key in keys.keys]
+    kinds = [key.settings["interpolation"] for key in keys.keys]
+    last = len(frames) - 1
+    time = min(max(keys.eval_time, frames[0]), frames[-1])
+    begin = 0
+    while begin + 1 < last and frames[begin + 1] < time:
+        begin += 1
+    end = min(begin + 1, last)
+    span = frames[end] - frames[begin]
+    if "KEY_BSPLINE" not in (kinds[begin], kinds[end]) and (span == 0.0 or not 0.0 < time - frames[begin] < span):  # fmt: skip
+        return {end: 1.0} if end and time >= frames[end] else {}
+    at = (time - frames[begin]) / span if span else 0.0
+    of_begin, of_end = (_curve_weights(at, kinds[place]) for place in (begin, end))
+    places = max(begin - 1, 0), begin, end, min(end + 1, last)
+    found: dict[int, float | np.ndarray] = {}
+    for place, a, b in zip(places, of_begin, of_end, strict=True):
+        if place:
+            found[place] = found.get(place, 0.0) + (1.0 - at) * a + at * b
+    return {place: share for place, share in found.items() if share}
+
+
+def _curve_weights(at: float, kind: str) -> tuple[float, float, float, float]:
+    """Of four keys in turn, `at` 0 to 1 between the middle ones: a cardinal spline, whose tangents are so
+    much of the chord beside, or a uniform cubic B-spline, or linear.
+    """
+    square, cube = at * at, at * at * at
+    if kind == "KEY_BSPLINE":
+        outer = (1.0 - at) ** 3 / 6.0, cube / 6.0
+        inner = 0.5 * cube - square + 2.0 / 3.0
+        return outer[0], inner, 1.0 - inner - outer[0] - outer[1], outer[1]
+    tight = {"KEY_CARDINAL": 0.71, "KEY_CATMULL_ROM": 0.5}.get(kind)
+    if tight is None:
+        return 0.0, 1.0 - at, at, 0.0
+    first, fourth = tight * (2.0 * square - cube - at), tight * (cube - square)
+    hermite = 3.0 * square - 2.0 * cube
+    return first, 1.0 - hermite - fourth, hermite - first, fourth
 
 
 def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:

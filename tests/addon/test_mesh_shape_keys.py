@@ -8,7 +8,7 @@ from refined import refine
 from scenes import CUBE, add, positions
 
 from addon.mesh.layers import read_data
-from addon.mesh.shape_keys import write_shape_keys
+from addon.mesh.shape_keys import mixed, read_shape_keys, write_shape_keys
 
 
 @pytest.fixture
@@ -97,3 +97,23 @@ def test_animation_is_noted(source):
 
 def test_evaluated_meshes_have_none(source):
     assert read_data(source, source.data, evaluated=True).shape_keys is None
+
+
+@pytest.mark.parametrize("time", [-5.0, 0.0, 3.0, 10.0, 14.0, 27.0, 30.0, 99.0])
+@pytest.mark.parametrize("kinds", ["LLLL", "CCCC", "RRRR", "BBBB", "LCRB", "BLBL", "RLCB"])
+def test_absolute_keys_are_mixed_as_blender_does(kinds, time):
+    """As the mesh that Blender shows, by each kind of curve between keys, and of two kinds."""
+    names = {"L": "LINEAR", "C": "CARDINAL", "R": "CATMULL_ROM", "B": "BSPLINE"}
+    made = add("Cube", *CUBE)
+    rng = np.random.default_rng(1)
+    for kind in kinds:
+        key = made.shape_key_add(from_mix=False)
+        key.data.foreach_set("co", rng.standard_normal(24).astype(np.float32))
+        key.interpolation = f"KEY_{names[kind]}"
+    made.data.shape_keys.use_relative = False
+    made.data.shape_keys.eval_time = time
+    bpy.context.view_layer.update()
+    seen = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    shown = np.array([vertex.co[:] for vertex in seen.vertices])
+    found = mixed(read_shape_keys(made, 8), lambda _: np.ones(8))
+    assert np.abs(found - shown).max() < 1e-5

@@ -9,6 +9,7 @@ import pytest
 from scenes import CUBE, activate, add
 
 from addon.cad.fit import PatchJob
+from addon.errors import JobError
 
 WANTED = SimpleNamespace(fit_tolerance=1e-4, fit_angle=1e-3, fit_levels=4)
 
@@ -126,6 +127,39 @@ def test_patches_pass_where_shape_keys_have_the_surface(of_source):
         assert job.apart < 0.02
 
 
+def test_absolute_keys_are_mixed_by_their_time():
+    _, surface = with_keys()
+    keys = surface.data.shape_keys
+    keys.use_relative, keys.eval_time = False, 15.0  # keys are 10 apart, from 0 on
+    bpy.context.view_layer.update()
+    shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    wanted = np.array([vertex.co[:] for vertex in shown.vertices[:8]])
+    assert np.allclose(np.abs(wanted), [1.5, 1.0, 1.5], atol=1e-6)  # between Tall and Wide
+    job = PatchJob(bpy.context, surface, WANTED)
+    job.compute()
+    apart = np.linalg.norm(job.patches.vertices[:, None] - wanted, axis=2).min(axis=1)
+    assert apart.max() < 1e-3 and job.apart < 0.02
+
+
+def test_keys_of_the_surface_alone_are_refused_with_a_cure():
+    box = add("Box", *CUBE)
+    assert bpy.ops.object.fairing_surface(levels=2) == {"FINISHED"}
+    surface = bpy.context.active_object
+    surface.shape_key_add(name="Basis")
+    key = surface.shape_key_add(name="Dent")
+    key.data[20].co *= 0.8
+    key.value = 0.5
+    with pytest.raises(JobError, match="Set the key Dent to 0"):
+        PatchJob(bpy.context, surface, WANTED)
+    key.value = 0.0
+    job = PatchJob(bpy.context, surface, WANTED)
+    job.compute()  # as far as the mesh of two levels is from the fair surface
+    assert job.apart < 0.1
+    box.shape_key_add(name="Basis")  # of a mesh itself they are in what is faired
+    box.shape_key_add(name="Up").value = 1.0
+    PatchJob(bpy.context, box, WANTED)
+
+
 def test_the_largest_distance_from_the_mesh_shown_is_told(capfd):
     box = add("Box", *CUBE)
     assert bpy.ops.object.fairing_surface(energy="TOTAL_CURVATURE", levels=2) == {"FINISHED"}
@@ -138,6 +172,7 @@ def test_the_largest_distance_from_the_mesh_shown_is_told(capfd):
     job.compute()
     assert job.apart == pytest.approx(3 * 0.1 * np.sqrt(3), rel=0.02)
     assert "5e+02" not in told and "520 mm from the mesh shown" in told
+    assert "520 mm from the mesh shown, as Box Fair has 2 levels: " in told
     box.data.vertices[0].co *= 2  # the surface is that of the mesh before
     job = PatchJob(bpy.context, surface, WANTED)
     job.compute()
