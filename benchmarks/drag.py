@@ -30,10 +30,6 @@ def run() -> dict[str, Any]:
         for name, (mesh, levels) in MESHES.items()
         for size in (0.0, 1.0)
     }
-    rows = [[name, *(str(value) for value in entry.values())] for name, entry in result.items()]
-    heads = ["mesh, pad size", "first, ms", "following, ms", "most, ms"]
-    heads += ["iterations of the first", "of those that follow"]
-    table.show("A move in a drag", heads, rows)
     return result
 
 
@@ -58,6 +54,25 @@ def _drag(vertices: np.ndarray, faces: np.ndarray, levels: int, size: float) -> 
         "most": max(following),
         "first_iterations": max(i for i, first in zip(iterations, is_first) if first),
         "iterations": max(i for i, first in zip(iterations, is_first) if not first),
+    }
+
+
+def drag_table(result: dict[str, Any]) -> str:
+    """Moves of a vertex by a `Solver`."""
+    heads = ["control mesh, level", "pad size", "first moves", "following", "slowest of these"]
+    rows = []
+    for key, d in result.items():
+        name, pad = key.rsplit(", ", 1)
+        first = f"{d['first']:.0f} ms, {d['first_iterations']} iterations"
+        following = f"{d['following']:.1f} ms, {d['iterations']}"
+        rows.append([name, f"{float(pad):.0f}", first, following, f"{d['most']:.0f} ms"])
+    return table.markdown(heads, rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "drag": drag_table(result),
     }
 
 

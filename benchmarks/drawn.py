@@ -107,7 +107,6 @@ def run() -> dict[str, Any]:
     """All of examples/panel_meshes.py."""
     meshes = from_tests.drawn_panels()
     result: dict[str, Any] = {}
-    rows = []
     for job, models in (("panel", meshes.PANELS), ("hull", meshes.HULLS)):
         for name, make in models.items():
             sheet = make()
@@ -115,6 +114,35 @@ def run() -> dict[str, Any]:
             for setting in ("Subdivision Surface", *SETTINGS):
                 found = judged(sheet, setting, flat)
                 result.setdefault(job, {}).setdefault(name, {})[setting] = found
-                rows.append([job, name, setting, *found.values()])
-    table.show("Drawn panels and hulls", ["job", "model", "surface", "roughness", "swing"], rows)
     return result
+
+
+DRAWN = {
+    "minimum variation": "minimum variation",
+    "minimum variation, near": "*Near*",
+    "thin plate": "thin plate",
+    "thin plate, limit": "thin plate, *Limit*",
+    "total curvature, limit": "total curvature, *Limit*",
+    "minimum variation, limit": "minimum variation, *Limit*",
+}
+
+
+def drawn_table(result: dict[str, Any], job: str) -> str:
+    """Roughness in that of Subdivision Surface, and how much more than the cage surfaces turn."""
+    rows = []
+    for model, found in result[job].items():
+        theirs = found["Subdivision Surface"]
+        row = [model, f"{100 * theirs['swing']:.0f} %"]
+        for tool in DRAWN:
+            ratio = found[tool]["roughness"] / theirs["roughness"]
+            row.append(f"{ratio:.2g} · {100 * found[tool]['swing']:.0f} %")
+        rows.append(row)
+    return table.markdown(["model", "Subdivision Surface", *DRAWN.values()], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "drawn.panels": drawn_table(result, "panel"),
+        "drawn.hulls": drawn_table(result, "hull"),
+    }

@@ -125,12 +125,43 @@ def caps() -> list[tuple[Any, ...]]:
 def run() -> dict[str, Any]:
     """All three tables."""
     result = {"spheres": spheres(2) + spheres(3), "clifford": clifford(), "caps": caps()}
-    head = ["mesh", "pads"]
-    table.show(
-        "Spheres, error of a radius, by default steps",
-        ["vertices", "level", "pads", "meshes", "within 1e-5", "median", "largest"],
-        result["spheres"],
-    )
-    table.show("Distance from the Clifford torus", [*head, "1", "2", "3", "4"], result["clifford"])
-    table.show("Caps, error of a radius", [*head, "30°", "60°", "90°"], result["caps"])
     return result
+
+
+def exact_table(result: dict[str, Any]) -> str:
+    """Spheres and tori that are known, on point forces and on pads."""
+    found = result
+    rows = []
+    spheres: dict[tuple[str, int], dict[float, list[Any]]] = {}
+    for name, level, size, *rest in found["spheres"]:
+        spheres.setdefault((name, level), {})[size] = rest
+    for (name, level), sizes in spheres.items():
+        cells = [f"{sizes[s][1]} of {sizes[s][0]}" for s in (0.0, 1.0)]
+        rows.append([f"{name}, level {level}", "spheres met", *cells])
+    tori: dict[str, dict[float, list[float]]] = {}
+    for name, size, *by_level in found["clifford"]:
+        tori.setdefault(name, {})[size] = by_level
+    for name, sizes in tori.items():
+        cells = [f"{sizes[s][2]:.2e}".replace("e-0", "e-") for s in (0.0, 1.0)]
+        rows.append([f"Clifford torus, {name}, level 3", "distance", *cells])
+    return table.markdown(["known surface", "measure", "point forces", "pads of 1"], rows)
+
+
+def caps_table(result: dict[str, Any]) -> str:
+    """Caps of a sphere on their boundary circle: how far surfaces are off, in shares of the radius."""
+    rows = []
+    for name, size, *errors in result["caps"]:
+        if size == 0.0:
+            continue  # point forces
+        mesh, energy = name.split(", ")
+        cells = [f"{100 * e:.2g} %" if e > 1e-4 else table.short(e) for e in errors]
+        rows.append([mesh, energy.replace("_", " "), *cells])
+    return table.markdown(["control mesh", "energy", "cap of 30°", "60°", "90°"], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "exact": exact_table(result),
+        "exact.caps": caps_table(result),
+    }

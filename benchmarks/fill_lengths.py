@@ -65,12 +65,30 @@ def run(edges: tuple[int, ...] = EDGES) -> dict[str, Any]:
         entry |= {"folds": hole.folds, "energy": hole.energy}
         result[str(len(loop))] = entry
         print(len(loop), entry, flush=True)
-    heads = ["triangulated", "folds of these", "filled", "faces", "folds"]
-    rows = [[length, *(entry[h] for h in heads)] for length, entry in result.items()]
-    table.show(
-        "Ragged holes by the edges around, seconds of the processor", ["edges", *heads], rows
-    )
     return result
+
+
+def lengths_table(result: dict[str, Any]) -> str:
+    """Seconds of the processor against the length of a ragged loop."""
+    heads = ["edges", "triangles between them alone", "all of it", "new faces", "folds"]
+    rows = [
+        [
+            f"{int(edges):,}",
+            f"{table.short(entry['triangulated'])} s",
+            f"{table.short(entry['filled'])} s",
+            f"{entry['faces']:,}",
+            str(entry["folds"]),
+        ]
+        for edges, entry in result.items()
+    ]
+    return table.markdown(heads, rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "fill.lengths": lengths_table(result),
+    }
 
 
 if __name__ == "__main__":

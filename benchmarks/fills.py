@@ -47,8 +47,6 @@ def _shapes() -> dict[str, Any]:
                 "new faces": int(new.sum()),
                 "seconds": seconds,
             }
-    _show(result, "off", "Largest distance from the surface, over the hole's diameter")
-    _show(result, "rim", "Largest angle across the rim, over the 99th percentile of the mesh's own")
     return result
 
 
@@ -67,15 +65,6 @@ def _rim(vertices: np.ndarray, faces: np.ndarray, new: np.ndarray) -> dict[str, 
     if not len(across):
         return {"rim": None, "own": own}
     return {"rim": float(across.max()) / own, "degrees": float(across.max()), "own": own}
-
-
-def _show(result: dict[str, Any], key: str, title: str) -> None:
-    names = (["as it was"] if key == "off" else []) + list(fill_rivals.MAKERS)
-    rows = []
-    for shape, entries in result.items():
-        values = [entries[name].get(key) for name in names]
-        rows.append([shape, entries["edges"], *("–" if v is None else v for v in values)])
-    table.show(title, ["shape", "edges", *names], rows)
 
 
 def _islands() -> dict[str, Any]:
@@ -99,7 +88,6 @@ def _islands() -> dict[str, Any]:
         "folds": hole.folds,
         "closed": not df.find_holes(filled.vertices, filled.faces),
     }
-    table.show("Three islands in a hole of a sphere", list(entry), [list(map(str, entry.values()))])
     return entry
 
 
@@ -127,9 +115,76 @@ def _seconds() -> dict[str, Any]:
                 new = len(found[1]) - len(kept)
                 entry[name] = {"seconds": found[2], "new faces": new}
         result[str(len(hole))] = entry
-    rows = [
-        [edges, *(entry.get(n, {}).get("seconds", "–") for n in TIMED)]
-        for edges, entry in result.items()
-    ]
-    table.show("Seconds of the processor by the edges around", ["edges", *TIMED], rows)
     return result
+
+
+# as the documents call the shapes and tools of `fills`
+SHAPE_NAMES = {
+    "half sphere": "half sphere",
+    "60° cap": "cap of 60°",
+    "cylinder side": "side of a cylinder",
+    "torus, bite": "torus, a bite",
+    "saddle": "saddle",
+    "paraboloid": "paraboloid",
+    "cylinder, 220°": "cylinder, 220° around",
+}
+
+
+TOOL_NAMES = {
+    "total curvature": "total curvature",
+    "thin plate": "thin plate",
+    "minimum variation": "minimum variation",
+    "CGAL, C1": "CGAL, C1",
+    "CGAL, C2": "CGAL, C2",
+    "MeshLib": "MeshLib",
+    "PyMeshLab": "PyMeshLab",
+    "Blender, Fill": "Blender, Fill",
+    "Blender, Grid Fill": "Grid Fill",
+}
+
+
+def least_marked(values: list[str]) -> list[str]:
+    """Numbers of one row, the least of them in bold."""
+    least = min(map(float, values))
+    return [f"**{value}**" if float(value) == least else value for value in values]
+
+
+def distances_table(result: dict[str, Any]) -> str:
+    """How far fillings are from the surface that was cut, in thousandths of the hole's diameter."""
+    rows = []
+    for shape, name in SHAPE_NAMES.items():
+        found = result["shapes"][shape]
+        off = [table.short(1000 * found[tool]["off"]) for tool in TOOL_NAMES]
+        before = table.short(1000 * found["as it was"]["off"])
+        rows.append([name, str(found["edges"]), before, *least_marked(off)])
+    return table.markdown(["hole", "edges", "as it was", *TOOL_NAMES.values()], rows)
+
+
+def rims_table(result: dict[str, Any]) -> str:
+    """The largest angle across the rim, in those of the mesh."""
+    shapes = result["shapes"]
+    rows = [
+        [name, *least_marked([table.short(shapes[shape][tool]["rim"], 3) for tool in TOOL_NAMES])]
+        for shape, name in SHAPE_NAMES.items()
+    ]
+    return table.markdown(["hole", *TOOL_NAMES.values()], rows)
+
+
+def seconds_table(result: dict[str, Any]) -> str:
+    """Seconds of the processor against the length of a round rim."""
+    found = result["seconds"]
+    tools = [TOOL_NAMES[tool] for tool in next(iter(found.values()))]
+    rows = [
+        [edges, *(table.short(each["seconds"]) for each in entry.values())]
+        for edges, entry in found.items()
+    ]
+    return table.markdown(["edges", *tools], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "fills.distances": distances_table(result),
+        "fills.rims": rims_table(result),
+        "fills.seconds": seconds_table(result),
+    }

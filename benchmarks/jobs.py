@@ -97,16 +97,33 @@ def surfaces(points: np.ndarray, faces: list[list[int]]) -> Iterator[tuple[str, 
 def run() -> dict[str, Any]:
     """All models."""
     result: dict[str, Any] = {}
-    rows = []
     for name, (job, height) in MODELS.items():
         points, faces = grid(height)
         for surface, mesh, taken in surfaces(points, faces):
             found = {**judged(*mesh, height), "seconds": taken}
             result.setdefault(job, {}).setdefault(name, {})[surface] = found
-            rows.append([job, name, surface, *found.values()])
-    table.show(
-        "Known panels and hulls: degrees between normals",
-        ["job", "model", "surface", "rms", "largest", "at corners", "distance", "seconds"],
-        rows,
-    )
     return result
+
+
+def jobs_table(result: dict[str, Any]) -> str:
+    """Known panels and hulls: angles to the true normals."""
+    tools = {
+        "Subdivision Surface": "Subdivision Surface",
+        "thin plate, limit": "thin plate, *Limit*",
+        "thin plate": "thin plate",
+        "total curvature": "total curvature",
+        "minimum variation": "minimum variation",
+    }
+    rows = [
+        [job, model, *(f"{found[t]['rms']:.2g} · {found[t]['at corners']:.2g}" for t in tools)]
+        for job, models in result.items()
+        for model, found in models.items()
+    ]
+    return table.markdown(["job", "model", *tools.values()], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "jobs": jobs_table(result),
+    }

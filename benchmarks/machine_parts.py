@@ -44,13 +44,33 @@ def surface(vertices: np.ndarray, faces: list[tuple[int, ...]], tool: str) -> np
 def run() -> dict[str, Any]:
     """All parts: distances in thousandths of the largest extent."""
     result: dict[str, Any] = {}
-    rows = []
     for name, make in from_tests.machine_parts().PARTS.items():
         vertices, faces, off = make()
         for tool in ("Subdivision Surface", *ENERGIES):
             away = 1e3 * off(surface(vertices, faces, tool)) / np.ptp(vertices, axis=0).max()
             found = {"rms": float(np.sqrt((away**2).mean())), "largest": float(away.max())}
             result.setdefault(name, {})[tool] = found
-            rows.append([name, tool, *found.values()])
-    table.show("Machine parts: off, ‰ of the size", ["part", "surface", "rms", "largest"], rows)
     return result
+
+
+def machine_parts_table(result: dict[str, Any]) -> str:
+    """Distances from parts that are known."""
+    tools = ("Subdivision Surface", "thin_plate", "total_curvature", "minimum_variation")
+    rows = [
+        [
+            part,
+            *(
+                " · ".join(f"{d:.2g}" if d > 1e-3 else "0" for d in found[tool].values())
+                for tool in tools
+            ),
+        ]
+        for part, found in result.items()
+    ]
+    return table.markdown(["part", *(tool.replace("_", " ") for tool in tools)], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "machine_parts": machine_parts_table(result),
+    }

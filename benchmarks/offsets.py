@@ -23,7 +23,6 @@ AMOUNTS = (0.5, 1, 2, 4, 8, 16, 32, 64)
 WRONG = 0.018  # metres: three of a hull's vertices are off by that, to one side or the other
 NETS = ((9, 7), (15, 9))  # stations and lines of such hulls
 OF_NETS = (0.001, 0.003)  # metres, their scatter
-OF_EACH = 20  # vertices of each mesh that are let go
 ONE = {"threads": 1, "levels": 2}
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -82,17 +81,6 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "fender": pads.fender,
     "fender, triangles": lambda: cut(pads.fender()),
     "sphere": sphere,
-}
-
-
-UNEVEN: dict[str, Callable[[], Mesh]] = {
-    **{name: MESHES[name] for name in ("bump", "wave, triangles", "hull", "hull, triangles")},
-    "fender": pads.fender,
-    "sphere": sphere,
-    "torus": lambda: control_meshes.quad_torus(12, 8, 0),
-    "torus, triangles": lambda: control_meshes.torus(12, 8, 0),
-    "random hull": lambda: control_meshes.hull(60),
-    "sphere of quads": lambda: control_meshes.quad_sphere(4, 0),
 }
 
 
@@ -198,45 +186,6 @@ def planted_in_hull(stations: int, lines: int, scatter: float, half: bool) -> di
     }
 
 
-def let_go(points: np.ndarray, faces: Any, vertex: int) -> np.ndarray:
-    """The way by which a vertex moves where all but it are held: what strain is, by its definition."""
-    weights = np.full(len(points), np.inf)
-    weights[vertex] = 0.0
-    settings: dict[str, Any] = {"interpolation": "approximate", "relative_residual": 1e-6}
-    result = df.fair(points, faces, weights=weights, **settings, **ONE)
-    return result.vertices[vertex] - points[vertex]
-
-
-def against_let_go() -> dict[str, Any]:
-    """Of random vertices of ten meshes: how far strain is from a vertex that is let go."""
-    rows, all_errors = [], []
-    for name, make in UNEVEN.items():
-        points, faces = make()
-        random = np.random.default_rng(1)
-        points = points + 0.1 * edge((points, faces)) * random.normal(size=points.shape)
-        found = df.strain(points, faces, threads=1, relative_residual=1e-6)
-        held = inside((points, faces))
-        held = held[~np.isnan(found.lengths[held])]
-        ids = random.permutation(held)[:OF_EACH]
-        ways = np.array([let_go(points, faces, vertex) for vertex in ids])
-        off = np.linalg.norm(found.ways[ids] - ways, axis=1)
-        # of strains that are next to none, a share says nothing
-        least = 0.1 * np.linalg.norm(found.ways[held], axis=1).max()
-        errors = off / np.maximum(np.linalg.norm(ways, axis=1), least)
-        all_errors += errors.tolist()
-        rows.append([name, len(ids), *np.quantile(errors, (0.5, 1)), int((errors > 0.05).sum())])
-    table.show(
-        "Strain against vertices that are let go, relative errors",
-        ["mesh", "vertices", "median", "largest", "over 5 %"],
-        rows,
-    )
-    return {
-        "vertices": len(all_errors), "largest": max(all_errors),
-        "median": float(np.median(all_errors)),
-        "within": sum(error <= 0.05 for error in all_errors),
-    }  # fmt: skip
-
-
 def means(trials: list[dict[str, Any]]) -> dict[str, Any]:
     return {name: np.mean([trial[name] for trial in trials], axis=0).tolist() for name in trials[0]}
 
@@ -244,7 +193,6 @@ def means(trials: list[dict[str, Any]]) -> dict[str, Any]:
 def run() -> dict[str, Any]:
     """One row a shape and scatter."""
     result: dict[str, Any] = {}
-    rows = []
     for name, make in MESHES.items():
         mesh = make()
         unit = edge(mesh)
@@ -260,19 +208,7 @@ def run() -> dict[str, Any]:
                 "edge": unit, "clean_move": clean, "found": found, "moved_back": share,
                 "ratio": mean["automatic"] / best,
             }  # fmt: skip
-            told = (mean["before"], min(mean["near"]), min(mean["tolerance"]), best)
-            rows.append(
-                [f"{name}, {scatter:g}", *(1e3 * e / unit for e in told)]
-                + [1e3 * mean["automatic"] / unit, mean["automatic"] / best, mean["noise"]]
-                + [found, share, 1e3 * clean]
-            )
-    table.show(
-        f"Offsets, means of {SEEDS} seeds, errors in thousandths of a control edge",
-        ["shape, scatter", "before", "Near", "by tolerance", "best amount", "automatic"]
-        + ["over best", "noise read", f"found of {SEEDS}", "moved back", "clean moves"],
-        rows,
-    )
-    return {"shapes": result, "hulls": hulls(), "let_go": against_let_go()}
+    return {"shapes": result, "hulls": hulls()}
 
 
 def hulls() -> dict[str, Any]:
@@ -285,15 +221,52 @@ def hulls() -> dict[str, Any]:
         for scatter in OF_NETS
         for half in (False, True)
     }
-    table.show(
-        f"Three wrong vertices in half a hull, means of {SEEDS} seeds",
-        ["net, scatter", "of the worst 3", "of the worst 6", "largest clean", "median clean, mm"],
-        [
-            [name, each["found"], each["of_six"], 1e3 * each["largest"], 1e3 * each["median"]]
-            for name, each in found.items()
-        ],
-    )
     return found
+
+
+def offsets_table(result: dict[str, Any]) -> str:
+    """Scattered control vertices, eased: errors in thousandths of an edge."""
+    rows = []
+    for name, found in result["shapes"].items():
+        errors = (
+            found["before"],
+            min(found["near"]),
+            min(found["tolerance"]),
+            min(found["amount"]),
+            found["automatic"],
+        )
+        back = "–" if found["moved_back"] is None else f"{found['moved_back']:.2f}"
+        cells = [f"{1e3 * e / found['edge']:.1f}" for e in errors]
+        ratio, noise = f"{found['ratio']:.2f}", f"{found['noise']:.2f}"
+        rows.append([name, *cells, ratio, noise, str(found["found"]), back])
+    return table.markdown(
+        ["shape, scatter", "as measured", "Near", "within a tolerance", "best amount", "automatic"]
+        + ["over best", "scatter read", "found of 20", "back"],
+        rows,
+    )
+
+
+def offsets_hulls_table(result: dict[str, Any]) -> str:
+    """Three wrong vertices of half a hull: how many are among the most strained."""
+    rows = [
+        [name, *(f"{each[k]:.2f}" for k in ("found", "of_six"))]
+        + [f"{1e3 * each[k]:.1f}" for k in ("largest", "median")]
+        for name, each in result["hulls"].items()
+    ]
+    heads = [
+        "stations × lines, scatter in m, border at the keel",
+        "of the worst 3",
+        "of the worst 6",
+    ]
+    return table.markdown([*heads, "largest strain without scatter, mm", "median, mm"], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "offsets": offsets_table(result),
+        "offsets.hulls": offsets_hulls_table(result),
+    }
 
 
 if __name__ == "__main__":

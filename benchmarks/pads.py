@@ -10,7 +10,6 @@ from typing import Any
 
 import curvature_peaks
 import discrete_fairing as df
-import from_tests
 import numpy as np
 import table
 from from_tests import measures
@@ -18,7 +17,6 @@ from from_tests import measures
 SIZES = (0.0, 0.25, 0.5, 1.0)
 LEVELS = 3
 ROUNDS = 3
-SHARES = (0.001, 0.01, 0.1, 0.3)
 ARCH = np.array([0.0, 0.0, 0.64, 1.88, 2.1, 1.88, 0.64, 0.0, 0.0])
 
 
@@ -117,29 +115,9 @@ def scallop(result: df.Result) -> float:
     return float(np.abs(between - profiles[1][:, 2])[inner].max())
 
 
-def energies_of_inscribed() -> dict[str, Any]:
-    """Thin plate on meshes whose vertices lie on a sphere, by level: E / 8 pi."""
-    meshes = from_tests.small_meshes()
-    result: dict[str, Any] = {}
-    rows = []
-    for name in ("cube", "octahedron", "tetrahedron", "icosahedron"):
-        for levels in (2, 3, 4, 5):
-            found = {}
-            for size in SIZES:
-                surface = df.fair(
-                    *getattr(meshes, name)(), levels=levels, pad_size=size, measure=True
-                )
-                found[size] = surface.report["energy"]["result"]["total_curvature"] / (8 * np.pi)
-            result[f"{name}, {levels}"] = found
-            rows.append([name, levels, *(f"{e:.3f}" for e in found.values())])
-    table.show("Thin plate, E / 8π, by pad size", ["mesh", "L", *map(str, SIZES)], rows)
-    return result
-
-
 def peaks_and_costs() -> dict[str, Any]:
     """Thin plate on real meshes: curvature at control vertices over their ring's mean; cost."""
     result: dict[str, Any] = {}
-    rows = []
     for name, vertices, faces, levels in curvature_peaks.control_meshes():
         seconds = {size: float("inf") for size in SIZES}
         for size in SIZES * ROUNDS:  # in turn, so that whatever else the machine does meets all
@@ -156,50 +134,6 @@ def peaks_and_costs() -> dict[str, Any]:
         for size in SIZES:
             entry = result[f"{name}, {size}"]
             entry["seconds"], entry["times"] = seconds[size], seconds[size] / seconds[0.0]
-            peaks = f"{entry['peaks']} of {entry['vertices']}"
-            cost = (entry["iterations"], entry["pad_corrections"], entry["times"])
-            rows.append([f"{name}, L = {levels}", size, *entry["over_mean"], peaks, *cost])
-    heads = ["mesh", "pad size", "median", "95 %", "largest", "peaks"]
-    heads += ["iterations", "corrections", "time, of needles'"]
-    table.show("Thin plate: curvature at a control vertex over its ring's mean; cost", heads, rows)
-    return result
-
-
-def near() -> dict[str, Any]:
-    """Thin plate on pads: control vertices within a tolerance, beside those that stay.
-
-    Tolerances are shares of the mean control edge.
-    """
-    result: dict[str, Any] = {}
-    rows = []
-    for name, vertices, faces, levels in curvature_peaks.control_meshes():
-        sides = [(face[i - 1], face[i]) for face in faces for i in range(len(face))]
-        corners = vertices[np.array(sides)]
-        edge = np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1).mean()
-        runs = {0.0: {}} | {
-            share: {"interpolation": "approximate", "tolerance": share * edge} for share in SHARES
-        }
-        for finest in (levels, levels + 1):
-            seconds = {share: float("inf") for share in runs}
-            for share in list(runs) * ROUNDS:
-                report = df.fair(
-                    vertices, faces, finest, pad_size=0.5, measure=False, threads=1, **runs[share]
-                ).report
-                seconds[share] = min(seconds[share], report["seconds"]["solve"])
-                result[f"{name}, {finest}, {share}"] = {
-                    "gap": report["constraint_gap"],
-                    "rounds": [level["constraint_rounds"] for level in report["levels"]],
-                    "iterations": report["levels"][-1]["iterations"],
-                }
-            for share in runs:
-                entry = result[f"{name}, {finest}, {share}"]
-                entry["times"] = seconds[share] / seconds[0.0]
-                rounds = " ".join(map(str, entry["rounds"]))
-                gap = f"{entry['gap']:.0e}"
-                cost = (entry["iterations"], f"{entry['times']:.2f}")
-                rows.append([f"{name}, L = {finest}", share, rounds, gap, *cost])
-    heads = ["mesh", "tolerance, of an edge", "rounds by level", "gap", "iterations"]
-    table.show("Near on pads of ½", [*heads, "time, of exact interpolation's"], rows)
     return result
 
 
@@ -209,7 +143,6 @@ def near_along_normals() -> dict[str, Any]:
     Solves are linear ones, on all levels. Tolerances are shares of the mean control edge.
     """
     result: dict[str, Any] = {}
-    rows = []
     meshes = [*curvature_peaks.control_meshes(), ("fender", *fender(), LEVELS)]
     for name, vertices, faces, levels in meshes:
         sides = [(face[i - 1], face[i]) for face in faces for i in range(len(face))]
@@ -239,24 +172,13 @@ def near_along_normals() -> dict[str, Any]:
                 ]
                 entry["gap"] = surface.report["constraint_gap"]
                 result[f"{name}, {size}, {share}"] = entry
-                cost = [" ".join(map(str, entry[key])) for key in ("steps", "solves")]
-                peaks = f"{entry['peaks']} of {entry['vertices']}"
-                figures = [f"{x:.2f}" for x in entry["over_mean"]]
-                energy = f"{entry['energy']:.4f}"
-                rows.append([f"{name}, L = {levels}", size, share, *figures, peaks, energy, *cost])
-    heads = ["mesh", "pad size", "tolerance, of an edge", "median", "95 %", "largest", "peaks"]
-    table.show(
-        "Near under total curvature", [*heads, "E / 8π", "steps by level", "solves by level"], rows
-    )
     return result
 
 
 def run() -> dict[str, Any]:
     """All tables."""
-    result: dict[str, Any] = {"inscribed": energies_of_inscribed(), "real": peaks_and_costs()}
-    result["near"] = near()
+    result: dict[str, Any] = {"real": peaks_and_costs()}
     result["near along normals"] = near_along_normals()
-    rows = []
     for energy in ("thin_plate", "total_curvature", "minimum_variation"):
         for size in SIZES[:1] if energy == "minimum_variation" else SIZES:
             surface = df.fair(
@@ -267,10 +189,45 @@ def run() -> dict[str, Any]:
                 df.fair(*step(), levels=LEVELS, energy=energy, pad_size=size)
             )
             result[f"fender, {energy}, {size}"] = found
-            rows.append([energy, size, *(f"{x:.4g}" for x in found.values())])
-    heads = ["energy", "pad size", "Dirichlet of H", "largest H", "E / 8π", "scallop of a step"]
-    table.show("Fender, straight border, L = 3", heads, rows)
     return result
+
+
+def fender_table(result: dict[str, Any]) -> str:
+    """Dirichlet energy of the mean curvature on the fender."""
+    found = result
+    rows = []
+    for energy in ("thin_plate", "total_curvature", "minimum_variation"):
+        cells = [found.get(f"fender, {energy}, {size}") for size in ("0.0", "0.5", "1.0")]
+        rows.append(
+            [
+                energy.replace("_", " "),
+                *(table.short(c["dirichlet"], 3) if c else "" for c in cells),
+            ]
+        )
+    return table.markdown(["", "point forces", "pads of ½", "pads of 1"], rows)
+
+
+def near_on_pads_table(result: dict[str, Any]) -> str:
+    """Total curvature with a tolerance of 2 % of an edge, on points and on pads."""
+    found = result["near along normals"]
+    heads = ["", "points", "pads", "energy: Through, points, pads", "solves: Through, Near"]
+    rows = []
+    for name in dict.fromkeys(key.rsplit(", ", 2)[0] for key in found):
+        through, points, near = (
+            found[f"{name}, {k}"] for k in ("1.0, 0.0", "0.0, 0.02", "1.0, 0.02")
+        )
+        row = [" / ".join(f"{v:.2f}" for v in f["over_mean"][1:]) for f in (points, near)]
+        row.append(", ".join(table.short(f["energy"], 3) for f in (through, points, near)))
+        rows.append([name, *row, f"{through['solves'][-1]}, {near['solves'][-1]}"])
+    return table.markdown(heads, rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "pads.fender": fender_table(result),
+        "pads.near": near_on_pads_table(result),
+    }
 
 
 if __name__ == "__main__":

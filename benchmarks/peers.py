@@ -221,30 +221,67 @@ def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All sizes; the ratios are to ours on as many threads."""
+    """All sizes."""
     result: dict[str, Any] = {"blas": cholesky.blas()}
-    rows: list[list[Any]] = []
     slow: set[str] = set()
     for name, case in CASES.items():
         found = result[name] = measure(case, slow)
-        base = {on: statistics.median(found[f"ours{on}"]["wall"]) for on in THREADS.values()}
         for peer, entry in found.items():
             if "note" in entry:
                 slow |= {peer} if "over" in entry["note"] else set()
-                rows.append([name, peer, entry["note"], "", "", ""])
                 continue
             seconds = statistics.median(entry["wall"])
             slow |= {peer} if 4 * seconds > LIMIT else set()
-            ratio = seconds / base[THREADS[2] if peer.endswith(THREADS[2]) else THREADS[1]]
-            spread = f"{min(entry['wall']):.3g} … {max(entry['wall']):.3g}"
-            iterations = " ".join(map(str, entry.get("iterations", [])))
-            rows.append([name, peer, seconds, spread, ratio, iterations])
-    table.show(
-        f"The same job, seconds (median) and times ours; CHOLMOD on {result['blas']}",
-        ["mesh", "by", "seconds", "from … to", "ratio", "iterations a level"],
-        rows,
-    )
     return result
+
+
+def wall(result: dict[str, Any], size: str, tool: str) -> float | None:
+    """The median time of a tool in `peers`; None where it took too long to be run."""
+    times = result[size].get(tool, {}).get("wall")
+    return statistics.median(times) if times else None
+
+
+def sizes_of_peers(result: dict[str, Any]) -> list[str]:
+    return [name for name, found in result.items() if isinstance(found, dict)]
+
+
+def peers_table(result: dict[str, Any]) -> str:
+    """The same job by other tools; in brackets the ratio to ours on one thread."""
+    ours = {
+        "ours, one thread": "ours, one thread",
+        "ours, two threads": "ours, two",
+        "ours, default settings, two threads": "ours, default settings, two",
+        "ours, warm, one thread": "ours, warm, one thread",
+    }
+    theirs = {
+        "CHOLMOD": "CHOLMOD, one thread",
+        "CHOLMOD, analysis kept": "CHOLMOD without analysis, one thread",
+        "Eigen LDLT": "Eigen SimplicialLDLT",
+        "CGAL": "CGAL fair",
+        "libigl": "libigl harmonic",
+        "Manifold": "manifold3d smooth",
+    }
+    sizes = sizes_of_peers(result)
+    rows = []
+    for label, tool in {**ours, **theirs}.items():
+        row = [label]
+        for size in sizes:
+            time, unit = wall(result, size, tool), wall(result, size, "ours, one thread")
+            assert unit
+            ratio = f" ({table.short(time / unit)})" if time and label in theirs else ""
+            row.append(f"{table.short(time)}{ratio}" if time else "–")
+        rows.append(row)
+    heads = [
+        size.replace(",", " triangles,", 1).replace("faces", "control faces") for size in sizes
+    ]
+    return table.markdown(["seconds", *heads], rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "peers": peers_table(result),
+    }
 
 
 if __name__ == "__main__":

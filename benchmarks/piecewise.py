@@ -211,49 +211,47 @@ def run() -> dict[str, Any]:
         finally:
             shutil.rmtree(folder)
     result["two_workers"] = two_workers(10_000, 8)
-    table.show(
-        "In pieces, L = 5: a worker's memory and time against size",
-        [
-            "triangles",
-            "pieces",
-            "worker MB",
-            "planner MB",
-            "wall",
-            "processor",
-            "jump",
-            "MB on disk",
-        ],
-        [
-            [
-                entry["triangles"],
-                entry["pieces"],
-                entry["work"]["resident_bytes"] / 1e6,
-                entry["plan"]["resident_bytes"] / 1e6,
-                entry["work"]["wall"],
-                entry["work"]["processor"],
-                entry["judge"]["jump"]["share"],
-                entry["bytes_of_parts"] / 1e6,
-            ]
-            for entry in result["sizes"]
-        ],
-    )
-    table.show(
-        "Rings against the difference to the whole",
-        ["energy, mesh", *map(str, RINGS)],
-        [
-            [
-                f"{energy}, {mesh}",
-                *(
-                    entry["difference"]
-                    for entry in result["rings"]
-                    if (entry["energy"], entry["mesh"]) == (energy, mesh)
-                ),
-            ]
-            for energy, mesh in dict.fromkeys((e["energy"], e["mesh"]) for e in result["rings"])
-        ],
-    )
     print(f"Two workers: efficiency {result['two_workers']['efficiency']:.2f}")
     return result
+
+
+def pieces_table(result: dict[str, Any]) -> str:
+    """Surfaces made in pieces, by their size."""
+    heads = ["triangles", "pieces", "a worker's peak, all its memory"]
+    heads += ["time", "processor", "on disk", "largest jump / size"]
+    rows = []
+    for s in result["sizes"]:
+        work, share = s["work"], s["judge"]["jump"]["share"]
+        row = [f"{s['triangles'] / 1e6:.3g} million", str(s["pieces"])]
+        row += [f"{work['resident_bytes'] / 1e6:,.0f} MB"]
+        row += [
+            f"{work[clock]:,.3g} s" if work[clock] < 1000 else f"{work[clock]:,.0f} s"
+            for clock in ("wall", "processor")
+        ]
+        rows.append(
+            [*row, f"{s['bytes_of_parts'] / 1e6:,.0f} MB", table.short(share) if share else "–"]
+        )
+    return table.markdown(heads, rows)
+
+
+def rings_table(result: dict[str, Any]) -> str:
+    """How far pieces are from the whole, by rings."""
+    found = result["rings"]
+    rings = sorted({r["rings"] for r in found})
+    rows: dict[str, list[str]] = {}
+    for r in found:
+        name = f"{r['energy'].replace('_', ' ')}, {r['mesh']}"
+        rows.setdefault(name, []).append(f"{r['difference']:.1e}".replace("e-0", "e-"))
+    heads = ["rings", *(str(r) for r in rings)]
+    return table.markdown(heads, [[name, *cells] for name, cells in rows.items()])
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "pieces": pieces_table(result),
+        "pieces.rings": rings_table(result),
+    }
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/images/pieces/rings.png from results/piecewise.json. Needs matplotlib, which nothing else
+"""docs/images/pieces/rings.png from out/bench/piecewise.json. Needs matplotlib, which nothing else
 here does: run it with a Python that has it.
 """
 
@@ -49,4 +49,4 @@ def draw(source: Path) -> None:
 
 
 if __name__ == "__main__":
-    draw(Path(sys.argv[1]) if sys.argv[1:] else HERE / "results" / "piecewise.json")
+    draw(Path(sys.argv[1]) if sys.argv[1:] else HERE.parent / "out" / "bench" / "piecewise.json")

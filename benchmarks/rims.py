@@ -244,9 +244,17 @@ def run() -> dict[str, Any]:
         result[name] = {"Subdivision Surface": of_subdivision(model, LEVELS)}
         for setting, options in SETTINGS.items():
             result[name][setting] = of_surface(model, LEVELS, interpolation="limit", **options)
-    table.show(
-        "How far rims turn, degrees",
-        ["model", "Subdivision Surface", *SETTINGS],
-        [[name, *found.values()] for name, found in result.items()],
-    )
     return result
+
+
+def rims_table(result: dict[str, Any]) -> str:
+    """How far rims turn once around, degrees."""
+    rows = [[name, *(f"{angle:.1f}" for angle in found.values())] for name, found in result.items()]
+    return table.markdown(
+        ["model", "Subdivision Surface", "thin plate", "*Character*", "*Follow* at 0"], rows
+    )
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {"rims": rims_table(result)}

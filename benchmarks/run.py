@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The benchmarks: python3 build_tools/dev.py bench [NAME…]. Each prints a table and writes
-out/bench/NAME.json."""
+"""The benchmarks: python3 build_tools/dev.py bench [NAME…]. Each writes what it
+measured to out/bench/NAME.json, and prints its tables, which are also files under out/bench/tables/."""
 
 import argparse
 import json
@@ -29,29 +29,29 @@ import side_by_side
 import sizes
 import step_distances
 import subdivision
+import table
 
-OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 BENCHMARKS = {
-    "peers": peers.run,
-    "piecewise": piecewise.run,
-    "sizes": sizes.run,
-    "step_distances": step_distances.run,
-    "side_by_side": side_by_side.run,
-    "subdivision": subdivision.run,
-    "limits": limits.run,
-    "rims": rims.run,
-    "jobs": jobs.run,
-    "drawn": drawn.run,
-    "machine_parts": machine_parts.run,
-    "measured_points": measured_points.run,
-    "peaks": curvature_peaks.run,
-    "pads": pads.run,
-    "offsets": offsets.run,
-    "energies": energies.run,
-    "exact": exactness.run,
-    "fills": fills.run,
-    "fill_lengths": fill_lengths.run,
-    "drag": drag.run,
+    "peers": peers,
+    "piecewise": piecewise,
+    "sizes": sizes,
+    "step_distances": step_distances,
+    "side_by_side": side_by_side,
+    "subdivision": subdivision,
+    "limits": limits,
+    "rims": rims,
+    "jobs": jobs,
+    "drawn": drawn,
+    "machine_parts": machine_parts,
+    "measured_points": measured_points,
+    "peaks": curvature_peaks,
+    "pads": pads,
+    "offsets": offsets,
+    "energies": energies,
+    "exact": exactness,
+    "fills": fills,
+    "fill_lengths": fill_lengths,
+    "drag": drag,
 }
 
 
@@ -83,14 +83,16 @@ def main() -> None:
     unknown = [name for name in names if name not in BENCHMARKS]
     if unknown:
         parser.error(f"no such benchmark: {', '.join(unknown)}; there are {', '.join(BENCHMARKS)}.")
-    OUT.mkdir(parents=True, exist_ok=True)
+    folder = table.OUT / "tables"
+    folder.mkdir(parents=True, exist_ok=True)
     for name in names:
         before = circumstances()
-        result = BENCHMARKS[name]()
-        text = json.dumps(
-            {"before": before, "load_after": circumstances()["load"], "result": result}, indent=1
-        )
-        (OUT / f"{name}.json").write_text(text + "\n")
+        result = BENCHMARKS[name].run()
+        found = {"before": before, "load_after": circumstances()["load"], "result": result}
+        (table.OUT / f"{name}.json").write_text(json.dumps(found, indent=1) + "\n")
+        for title, text in BENCHMARKS[name].tables(result).items():
+            print(f"{title}{text}")
+            (folder / f"{title}.md").write_text(text.strip() + "\n")
         print(f"{name}: {before['cores']} cores, load {before['load']} when it began", flush=True)
 
 

@@ -31,10 +31,9 @@ REPEATS, ENOUGH = (
     3,
     1.0,
 )  # runs, of which the shortest counts; processor seconds after which one will do
+
+
 # seconds are the processor's, of all threads together: other work on the machine hardly moves them
-HEADS = ("least r", "largest r", "off", "dihedral°", "E/8π", "triangles", "seconds")
-
-
 def control_meshes() -> dict[str, tuple[np.ndarray, list[list[int]], int, bool]]:
     """By name: vertices, polygons, levels, and whether all vertices are on the unit sphere."""
     rivals.load_early()
@@ -128,23 +127,6 @@ def entry(
     return measured(points, surface, inscribed) | {"wall": times[0], "seconds": times[1]}
 
 
-def cells(found: dict[str, Any]) -> list[str]:
-    """One row."""
-    if "absent" in found:
-        return [found["absent"], *[""] * (len(HEADS) - 1)]
-    radii = [
-        "" if found[k] is None else f"{found[k]:.5f}" for k in ("least_radius", "largest_radius")
-    ]
-    return [
-        *radii,
-        "0" if found["off"] < 5e-7 else f"{found['off']:.3f}",
-        f"{found['dihedral']:.2f}",
-        f"{found['energy']:.4f}",
-        str(found["triangles"]),
-        "" if found["seconds"] is None else f"{found['seconds']:.3f}",
-    ]
-
-
 def run(without: Collection[str] = ()) -> dict[str, Any]:
     """All tools but those `without`; prints a table for each control mesh."""
     result: dict[str, Any] = {"versions": rivals.versions(), "levels": {}, "meshes": {}}
@@ -163,8 +145,6 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
             exact = measured(points, projected(points, polygons, levels), True)
             found["(exact sphere)"] = exact | {"seconds": None}
         result["meshes"][name], result["levels"][name] = found, levels
-        rows = [[tool, *cells(figures)] for tool, figures in found.items()]
-        table.show(f"{name}, {levels} levels", ["tool", *HEADS], rows)
     for line in sorted(told):
         print(f"side_by_side: left out, {line}")
     return result
@@ -183,6 +163,71 @@ def main() -> None:
     out = ROOT / "out" / "bench"
     out.mkdir(parents=True, exist_ok=True)
     (out / "side_by_side.json").write_text(json.dumps(result, indent=1) + "\n")
+
+
+# Of the tools in `side_by_side`, those whose surface misses the control vertices.
+MISSES = ("Catmull-Clark", "Loop", "(exact sphere)")
+
+
+MEASURES = ("least_radius", "largest_radius", "off", "dihedral", "energy", "triangles", "seconds")
+
+
+COLUMNS = (
+    "",
+    "least radius",
+    "largest radius",
+    "off",
+    "dihedral",
+    "E / 8π",
+    "triangles",
+    "seconds",
+)
+
+
+def table_cells(figures: dict[str, Any]) -> list[str]:
+    """The cells of one tool's surface, in the order of MEASURES."""
+    forms = ("{:.5f}", "{:.5f}", "{:.3g}", "{:.2f}", "{:.4f}", "{:,}", "{:.3f}")
+    values = [figures[key] for key in MEASURES]
+    return ["" if v is None else form.format(v) for form, v in zip(forms, values, strict=True)]
+
+
+def table_of(result: dict[str, Any], name: str) -> str:
+    """The surfaces of all tools over one mesh; bold is the best of those through the vertices."""
+    found = result["meshes"][name]
+    rows = {tool: table_cells(f) for tool, f in found.items() if "absent" not in f}
+    ours = [cells for tool, cells in rows.items() if tool not in MISSES]
+    best = {
+        k: min((cells[k] for cells in ours), key=float)
+        for k in (MEASURES.index("dihedral"), MEASURES.index("energy"))
+    }
+    shown = range(len(MEASURES)) if "(exact sphere)" in found else range(2, len(MEASURES))
+    lines = []
+    for tool, figures in found.items():
+        if tool not in rows:
+            lines.append([tool, f"*{figures['absent']}*", *[""] * (len(shown) - 1)])
+            continue
+        cells = list(rows[tool])
+        cells[3] += "°"
+        for k, value in best.items():
+            if tool not in MISSES and rows[tool][k] == value:
+                cells[k] = f"**{cells[k]}**"
+        lines.append([tool, *(cells[k] for k in shown)])
+    levels = result["levels"][name]
+    heading = f"\n\n### {name[0].upper()}{name[1:]}, {levels} levels"
+    return heading + table.markdown([COLUMNS[0], *(COLUMNS[k + 1] for k in shown)], lines)
+
+
+def all_tables(result: dict[str, Any]) -> str:
+    """All meshes, each under a heading."""
+    parts = [table_of(result, name).strip() for name in result["meshes"]]
+    return "\n\n" + "\n\n".join(parts) + "\n\n"
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "comparison": all_tables(result),
+    }
 
 
 if __name__ == "__main__":

@@ -65,7 +65,6 @@ def run() -> dict[str, Any]:
     """All series."""
     hundred = os.environ.get("BENCH_HUNDRED") == "1"
     result: dict[str, Any] = {}
-    rows, exponents = [], []
     for name, cases in SERIES.items():
         points = [
             measure(case) for case in [*cases, HUNDRED_MILLIONS[name]][: None if hundred else -1]
@@ -77,31 +76,36 @@ def run() -> dict[str, Any]:
             "processor": exponent(sizes, [p["processor"] for p in points]),
         }
         result[name] = {"points": points, "exponents": slopes}
-        exponents.append([name, *slopes.values()])
-        for p in points:
-            one, two = p["wall"][1], p["wall"][2]
-            memory = [p[k] for k in ("predicted", "ledger", "resident")]
-            steps = " ".join(map(str, p["iterations"]))
-            rows.append([name, p["triangles"], one, two, one / two, *memory, steps, p["same_bits"]])
-    table.show(
-        "Seconds on one thread and two, bytes a triangle",
-        [
-            "series",
-            "triangles",
-            "one",
-            "two",
-            "ratio",
-            "predicted",
-            "ledger",
-            "resident",
-            "iterations",
-            "same bits",
-        ],
-        rows,
-    )
-    table.show(
-        "Time exponents",
-        ["series", "one thread", "two", "processor"],
-        exponents,
-    )
     return result
+
+
+LABELS = {
+    "L = 3": "small faces: level 3",
+    "by levels": "large faces: more levels",
+    "quads, L = 2": "quads, level 2",
+}
+
+
+def sizes_table(result: dict[str, Any]) -> str:
+    """Processor time and memory by the number of triangles."""
+    heads = ["control mesh", "triangles", "seconds of the processor"]
+    heads += ["iterations", "bytes a triangle"]
+    rows = [
+        [
+            label,
+            f"{p['triangles']:,}",
+            table.short(p["processor"]),
+            str(p["iterations"][-1]),
+            f"{p['resident']:.0f}",
+        ]
+        for key, label in LABELS.items()
+        for p in result[key]["points"]
+    ]
+    return table.markdown(heads, rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "sizes": sizes_table(result),
+    }

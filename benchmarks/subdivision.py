@@ -2,7 +2,7 @@
 """Beside Blender's Subdivision Surface, on organic cages: ours passes every vertex within half of the
 largest distance at which the other misses one. Which bends less, and has the smaller folds?"""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import discrete_fairing as df
@@ -64,7 +64,6 @@ def figures(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
 def run() -> dict[str, Any]:
     """All cages."""
     result: dict[str, Any] = {}
-    rows = []
     for name, vertices, faces in cages():
         polygons = [list(map(int, face)) for face in faces]
         points, triangles = rivals.catmull_clark(vertices, polygons, LEVELS)
@@ -82,13 +81,37 @@ def run() -> dict[str, Any]:
             )
             entry[setting] = figures(ours.vertices, ours.triangles.astype(np.int64))
         result[name] = {"deviation": float(deviation), **entry}
-        other = entry["Subdivision Surface"]
-        for setting, own in entry.items():
-            better = sum(own[figure] < other[figure] for figure in FIGURES)
-            rows.append([name, setting, *own.values(), "" if own is other else f"{better} of 4"])
-    table.show(
-        "Near, at half the largest deviation of Subdivision Surface",
-        ["cage", "surface", *FIGURES, "smaller"],
-        rows,
-    )
     return result
+
+
+def four(figures: dict[str, float]) -> str:
+    """Total curvature and angles, in one cell."""
+    text = " · ".join(f"{figures[key]:.3g}" for key in FIGURES)
+    return text + (f" ({figures['crossing']:.0f} cross)" if figures.get("crossing") else "")
+
+
+def beside_subdivision(result: dict[str, Any], ours: Sequence[tuple[str, str]]) -> str:
+    """Each cage's four figures, Subdivision Surface's first; how many of ours are smaller."""
+    heads = ["cage", "Subdivision Surface"]
+    for _, label in ours:
+        heads += [label, "smaller"]
+    rows = []
+    for cage, found in result.items():
+        theirs = found["Subdivision Surface"]
+        if not isinstance(theirs, dict):
+            continue
+        row = [f"`{cage}`", four(theirs)]
+        for key, _ in ours:
+            row += [four(found[key]), str(sum(found[key][k] < theirs[k] for k in FIGURES))]
+        rows.append(row)
+    return table.markdown(heads, rows)
+
+
+def tables(result: dict[str, Any]) -> dict[str, str]:
+    """Those of the documents, by their names."""
+    return {
+        "subdivision": beside_subdivision(
+            result,
+            [("thin plate", "thin plate, near"), ("total curvature", "total curvature, near")],
+        ),
+    }

@@ -1,30 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables on the terminal."""
+"""Tables in Markdown, for the documents and the terminal."""
 
-from collections.abc import Sequence
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
-
-def cell(value: Any) -> str:
-    """One value, four digits of a number at most."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-    return str(value)
+OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 
 
-def show(title: str, heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
-    """Prints a table: the first column to the left, numbers to the right."""
-    lines = [list(heads), *[[cell(v) for v in row] for row in rows]]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(heads))]
-    print(f"\n{title}\n")
-    for line in lines:
-        first, *others = (
-            text.ljust(w) if not k else text.rjust(w)
-            for k, (text, w) in enumerate(zip(line, widths))
-        )
-        print("  ".join([first, *others]))
-        if line is lines[0]:
-            print("  ".join("-" * w for w in widths))
-    print(flush=True)
+def measured(name: str) -> Any:
+    """What another benchmark has measured on this machine."""
+    return json.loads((OUT / f"{name}.json").read_text("utf-8"))["result"]
+
+
+def short(value: float, digits: int = 2) -> str:
+    """A number with so many digits, never with an exponent from a thousandth to a million."""
+    if value and not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits - 1}e}".replace("e-0", "e-")
+    text = f"{value:.{digits}g}"
+    return f"{float(text):,.0f}" if "e" in text or abs(value) >= 1000 else text
+
+
+def markdown(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in lines of its own."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n\n"

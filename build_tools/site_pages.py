@@ -29,7 +29,7 @@ def stage() -> None:
     for name in STAGED:
         shutil.copy(ROOT / name, SOURCE)
     for name in STAGED_FOLDERS:
-        shutil.copytree(ROOT / name, SOURCE / name, ignore=shutil.ignore_patterns("site"))
+        shutil.copytree(ROOT / name, SOURCE / name, ignore=shutil.ignore_patterns("site", "tables"))
     site_models.add_three(SOURCE / "_static")
     site_models.add_models(SOURCE / "_static")
 
