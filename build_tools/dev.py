@@ -13,6 +13,7 @@ python3 build_tools/dev.py bench [NAME…]  the benchmarks; JSON under out/bench
 python3 build_tools/dev.py extension      the extension's zips under out/extension/
 python3 build_tools/dev.py extension --all          one for each platform: Windows, macOS and ARM are cross-compiled
 python3 build_tools/dev.py extension --wheels DIR   the same, of wheels that were made elsewhere
+python3 build_tools/dev.py wheels         wheels for machines of this kind under out/wheels/, by cibuildwheel
 python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
 python3 build_tools/dev.py release        all that is published, as a folder for any static host under out/release/
 python3 build_tools/dev.py release --platforms linux-x64 …   the same for these alone; --wheels DIR as for extension
@@ -100,6 +101,13 @@ def extension(wheels: Path | None, all_platforms: bool) -> int:
     return 0
 
 
+def wheels_of_this_machine() -> int:
+    """Wheels for every Python, by cibuildwheel in the Python that runs this; on Linux in a container."""
+    lock = ROOT / "build_tools" / "requirements_wheels.lock"
+    run(sys.executable, "-m", "pip", "install", "--require-hashes", "--requirement", lock)
+    return run(sys.executable, "-m", "cibuildwheel", "--output-dir", OUT / "wheels", check=False)
+
+
 def release(wheels: Path | None, platforms: list[str] | None) -> int:
     """Everything that is published, of the wheels in a folder or compiled here for the platforms."""
     import extension as packing
@@ -136,7 +144,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "command",
         choices=["setup", "test", "demo", "fuzz", "bench"]
-        + ["extension", "docs", "release", "format"],
+        + ["extension", "wheels", "docs", "release", "format"],
     )
     parser.add_argument(
         "names",
@@ -176,6 +184,7 @@ def main() -> int:
         "fuzz": lambda: fuzz(given.minutes),
         "bench": lambda: bench(given.names),
         "extension": lambda: extension(given.wheels, given.all),
+        "wheels": wheels_of_this_machine,
         "docs": docs,
         "release": lambda: release(given.wheels, given.platforms),
         "format": format_sources,

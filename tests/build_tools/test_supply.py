@@ -55,8 +55,7 @@ def test_a_workflow_names_commits_and_hashes(path):
     for step in steps:
         if "uses" in step:
             assert re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", step["uses"]), step
-        elif "pip install" in step["run"]:
-            assert "--require-hashes -r build_tools/" in step["run"], step
+        assert "pip install" not in step.get("run", ""), step
 
 
 def test_cibuildwheel_installs_nothing_without_hashes():
