@@ -11,7 +11,6 @@ from dunes import OFF, WRONG, add_dune, dune
 from scenes import activate, fair, positions, snapshot
 
 from addon.mesh.shape_keys import EASED
-from addon.strain import words
 from addon.strain.ease import EaseJob, Wish
 
 NAN = float("nan")
@@ -196,31 +195,6 @@ def test_edit_mode_has_its_own(core):
     add_dune()
     bpy.ops.object.mode_set(mode="EDIT")
     assert not bpy.ops.object.fairing_ease.poll()
-
-
-def test_words():
-    def text(length):
-        return f"{length:g}"
-
-    strain = np.array([NAN, 0.042, -0.001, 0.002])
-    moves = np.array([0.0, 0.03, 0.001, 0.0])
-    said = words.eased(0.008, moves, strain, np.array([1]), 0.01, text)
-    assert said == (
-        "Offsets are scattered by about 0.008. 1 of 3 vertices is off by more: 1 by 0.042. "
-        "The largest move is 0.03, at vertex 1."
-    )
-    none = words.eased(0.008, moves, strain, np.array([], int), 0.05, text)
-    assert "No vertex is off by more than scatter explains, 0.05." in none
-    assert words.eased(0.0, 0 * moves, strain, np.array([1]), 0.01, text).startswith(
-        "No vertex moved"
-    )
-    assert words.moved(moves, text) == "2 vertices moved: 1 by 0.03 and 2 by 0.001"
-    assert words.moved(0 * moves, text).startswith("No vertex moved")
-    within = words.moved_within(moves, 0.03, strain, text)
-    assert within.startswith(
-        "2 vertices moved by at most 0.03. The largest move is 0.03, at vertex 1."
-    )
-    assert within.endswith(" 1 vertex strained by more than the tolerance before.")
 
 
 def test_the_words_are_those_of_the_run(core):

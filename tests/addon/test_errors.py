@@ -9,7 +9,7 @@ import bpy
 import pytest
 from scenes import CUBE, add, fair
 
-from addon import errors, size
+from addon import errors
 
 
 def expect_refusal(match, **settings):
@@ -116,11 +116,6 @@ def test_no_remedy_is_given_twice():
     said = str(refusal.value)
     assert said.count("elete") == 1 and "Delete one of each pair." in said
     assert "same vertices" in said, "and what is wrong"
-
-
-def test_size_sentence():
-    assert size.why_too_large(10**6) == ""
-    assert "fewer levels" in size.why_too_large(10**9)
 
 
 def test_an_error_leaves_edit_mode_as_it_was():

@@ -3,7 +3,6 @@
 
 import bpy
 import numpy as np
-import pytest
 from live_scenes import follow, live, move
 from scenes import CUBE, activate, add, add_attribute, fair, positions
 
@@ -90,15 +89,3 @@ def test_smooth_meshes_have_no_attribute(capfd):
     add("Box", *CUBE)
     assert "fair_pad_size" not in fair(levels=1).data.attributes
     assert "Pads" not in capfd.readouterr().out
-
-
-@pytest.mark.parametrize(
-    "gone, text",
-    [
-        (1200, "Not held softly at 1,200 vertices, where faces turn sharply."),
-        (1, "Not held softly at 1 vertex, where faces turn sharply."),
-        (0, ""),
-    ],
-)
-def test_how_it_is_said(gone, text):
-    assert pads_text({"gone": gone, "widths": []}) == text

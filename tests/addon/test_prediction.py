@@ -39,15 +39,6 @@ def test_what_cannot_be_read_is_nothing(text, monkeypatch):
     assert prediction.seconds("THIN_PLATE", 10**6) > 1.0
 
 
-def test_text():
-    assert [prediction.text(t) for t in (0.4, 0.7, 34.4, 3600.0)] == [
-        "",
-        "about 1 s",
-        "about 34 s",
-        "about 60 min",
-    ]
-
-
 def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
     source = add("Box", *CUBE)
     monkeypatch.setattr(prediction, "_BRIEF", 0.0)

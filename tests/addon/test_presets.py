@@ -6,15 +6,12 @@ from pathlib import Path
 import bpy
 import pytest
 from bl_operators.presets import AddPresetOperator
-from fake_layout import Layout
 from scenes import CUBE, add, fair
 
 import addon
 from addon.operators.presets import NOT_KEPT
-from addon.purposes import PRESET_FOLDER, PURPOSES, preset_values
-from addon.purposes import stem as stem_of
+from addon.purposes import PRESET_FOLDER, preset_values
 from addon.settings import NAMES, FairingSettings
-from addon.ui import pictures
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
 SHIPPED = ("Default", "Character", "Hull", "Mechanical", "Panel", "Points")
@@ -95,22 +92,3 @@ def test_a_preset_is_applied_to_the_surface_that_is_active():
     assert target.discrete_fairing.interpolation == "LIMIT"
     assert bpy.context.scene.discrete_fairing.interpolation == "AUTO"
     assert bpy.context.scene.discrete_fairing.levels == levels
-
-
-def test_each_picture_has_its_preset():
-    folder = pictures.PRESETS
-    stems = {stem_of(purpose) for purpose, *_ in PURPOSES}
-    assert {path.stem for path in folder.glob("*.png")} == stems
-    assert stems - {"Scan_Patch"} == set(SHIPPED) - {"Default"}
-    for stem in stems:
-        assert tuple(pictures._loaded[stem].image_size) == (112, 112)
-    assert sum(path.stat().st_size for path in folder.glob("*.png")) < 60_000
-    layout = Layout()
-    pictures.draw_pictures(layout)
-    assert layout.log.count("object.fairing_preset_apply") == len(stems) - 1
-    assert Path(Layout.button.filepath).is_file()
-
-
-def test_menus_show_them_in_proper_case():
-    shown = [bpy.path.display_name(path.name, title_case=False) for path in FOLDER.glob("*.py")]
-    assert set(shown) == set(SHIPPED)

@@ -11,7 +11,6 @@ from cli_runs import entries, imported, run
 from live_scenes import follow, live, move
 from scenes import CUBE, activate, add, fair, positions, snapshot
 
-from addon.errors import repairs_text
 from addon.memory import recall
 from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES
@@ -180,21 +179,6 @@ def test_symmetry_is_kept_where_a_vertex_was_merged():
 
 def test_presets_keep_it():
     assert "repair" in NAMES and "repair" not in NOT_KEPT and "repair_orientation" not in NAMES
-
-
-@pytest.mark.parametrize(
-    "acts, text",
-    [
-        ([], ""),
-        (
-            [("DUPLICATE_FACE", 3), ("INCONSISTENT_ORIENTATION", 12)],
-            "3 duplicate faces dropped, 12 faces turned; Check Mesh shows them.",
-        ),
-        ([("COINCIDENT_VERTICES", 1200)], "1,200 vertices merged; Check Mesh shows them."),
-    ],
-)
-def test_how_it_is_said(acts, text):
-    assert repairs_text([{"code": c, "elements": list(range(n))} for c, n in acts]) == text
 
 
 def write_apart(path, gap=0.0):

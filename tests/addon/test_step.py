@@ -14,7 +14,6 @@ from fake_layout import draw
 from scenes import CUBE, activate, add, fair
 
 from addon import core
-from addon.cad import words
 from addon.ui import main
 
 # two faces folded onto one another but for a little: no surface through them is resolved
@@ -224,11 +223,3 @@ def test_the_button_stands_with_a_faired_surface_only():
     assert "export_scene.fairing_step" not in draw(main.VIEW3D_PT_fairing)
     fair(levels=1)
     assert "export_scene.fairing_step" in draw(main.VIEW3D_PT_fairing)
-
-
-def test_numbers_are_said_shortly():
-    assert [words.short(x) for x in (0.0, 0.00823, 12.3, 3412, 2e-14)] == [
-        "0", "0.0082", "12", "3,400", "2e-14",
-    ]  # fmt: skip
-    assert words.faces_text([4]) == "Face 4" and words.faces_text([4, 7, 9]) == "Faces 4, 7 and 9"
-    assert words.faces_text(range(9)).endswith("7, …")

@@ -7,7 +7,7 @@ import io
 import numpy as np
 import pytest
 
-from addon.strain import drawn, table, words
+from addon.strain import drawn, table
 from addon.strain.strained import Strained, above
 
 NAN = float("nan")
@@ -81,15 +81,6 @@ def test_labels_stand_at_the_tips_of_the_worst():
     assert (said, second) == ("1: 0.04", "3: 0.02")
     assert wrong and not fair, "0.02 is below the floor"
     assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])
-
-
-def test_words():
-    lengths = np.array([0.01, -0.04, NAN, 0.02])
-    assert words.found(np.array([1]), lengths, text) == "1 of 3 vertices selected: 1 by 0.04"
-    many = np.linspace(1.0, 2.0, 8)
-    said = words.listed(np.arange(7, -1, -1), many, text)
-    assert said.startswith("7 by 2, 6 by 1.85714, ") and said.endswith(" and 3 more")
-    assert words.listed([1, 3], lengths, text) == "1 by 0.04 and 3 by 0.02"
 
 
 def test_the_table_can_be_read_back():

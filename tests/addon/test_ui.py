@@ -17,12 +17,11 @@ from addon.choices import (
     INTERPOLATIONS,
     SHORT_INTERPOLATIONS,
 )
-from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED
 from addon.operators.fair import FairSurface
 from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
 from addon.settings import NAMES, copy_settings, fill_in, snapshot
 from addon.ui import layout as settings_layout
-from addon.ui import main, menus, notice, pictures
+from addon.ui import main, menus, pictures
 from addon.ui.layout import Sidebar
 
 
@@ -96,14 +95,6 @@ def test_a_group_that_is_not_there_is_said():
     assert "Not in Box" not in near(tolerance_group="Made by a modifier", mesh_source="EVALUATED")
 
 
-def test_pads_of_minimum_variation_are_said_to_be_its_start():
-    add("Box", *CUBE)
-    said = "It helps the start only"
-    assert said not in draw(main.VIEW3D_PT_fairing)
-    bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
-    assert said in draw(main.VIEW3D_PT_fairing) and len(said) <= notice.WIDTH
-
-
 def test_triangle_count_stands_under_the_levels():
     add("Box", *CUBE)
     shown = draw(main.VIEW3D_PT_fairing)
@@ -173,12 +164,6 @@ def test_a_slider_shows_both_its_ends(named, energy):
     assert f"{energy}_SOFTLY".title() in pictures._loaded
 
 
-def test_pictures_are_small_and_the_panel_does_without():
-    files = list(pictures.SETTINGS.glob("*.png"))
-    assert len(files) == 9 and sum(path.stat().st_size for path in files) < 60_000
-    assert pictures.icon("NO_SUCH_CHOICE") == 0
-
-
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
 def test_a_beginner_has_fairness_levels_and_vertices_above_the_button(energy):
     add("Box", *CUBE)
@@ -188,17 +173,6 @@ def test_a_beginner_has_fairness_levels_and_vertices_above_the_button(energy):
     places = [shown.index(name) for name in order]
     assert places == sorted(places)
     assert shown[shown.index("energy") : places[2]][-1] == ENERGY_MEANINGS[energy]
-
-
-def test_what_an_energy_costs_is_said_once():
-    said = [*ENERGY_MEANINGS.values(), *(text for _, _, text, *_ in ENERGIES)]
-    for word in ("fast", "slow", "longer", "while"):
-        assert not [text for text in said if word in text.lower().split()]
-
-
-def test_what_an_energy_means_fits_the_sidebar():
-    assert set(ENERGY_MEANINGS) == {key for key, *_ in ENERGIES}
-    assert all(len(meaning) <= notice.WIDTH for meaning in ENERGY_MEANINGS.values())
 
 
 class Given(SimpleNamespace):
@@ -291,12 +265,6 @@ def test_coarse_triangles(sizes, triangles):
     assert size.coarse_triangles(sizes) == triangles
 
 
-def test_count_text():
-    assert size.count_text(12345) == "12,345 triangles"
-    assert size.count_text(12_345_678) == "12.3 M triangles"
-    assert size.count_text(1_015_021_568) == "1,015 M triangles"
-
-
 def test_copy_settings():
     class Target:
         pass
@@ -326,8 +294,3 @@ def test_what_is_grey_says_why():
     bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
     said = draw(main.VIEW3D_PT_fairing)
     assert "It helps the start only" in said and "Not with this fairness" in said
-
-
-@pytest.mark.parametrize("reason", [SOURCE_CHANGED, SETTINGS_CHANGED])
-def test_the_badge_fits_a_sidebar(reason):
-    assert len(f"Out of date: {reason}") < notice.WIDTH

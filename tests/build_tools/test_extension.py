@@ -100,15 +100,6 @@ def test_wheels_that_make_no_zip_are_refused(tags):
         extension.name([wheel(tag) for tag in tags])
 
 
-def test_the_permission_has_a_reason():
-    """Commands, exports and presets read and write files; Blender shows the reason to who installs."""
-    text = extension.staged_manifest([wheel("cp311-cp311-win_amd64")])
-    reasons = tomllib.loads(text)["permissions"]
-    assert all(word in reasons["files"] for word in ("command", "export", "preset"))
-    assert "--scheduler" in reasons["network"]
-    assert all(len(reason) <= 64 and reason[-1].isalnum() for reason in reasons.values())
-
-
 def test_wheels_of_a_folder_are_sorted_by_platform(tmp_path):
     tags = ["cp311-cp311-win_amd64", "cp313-cp313-win_amd64", "cp311-cp311-macosx_11_0_arm64"]
     for tag in tags:

@@ -20,15 +20,6 @@ def fair(name, **options):
 
 
 @pytest.mark.parametrize("name", MOST)
-def test_smooth_meshes_take_few_steps_and_iterations(name):
-    level = fair(name).report["curvature"][-1]
-    assert level["converged"]
-    most_steps, most_iterations = MOST[name]
-    assert level["work"]["steps"] <= most_steps
-    assert level["work"]["iterations"] <= most_iterations
-
-
-@pytest.mark.parametrize("name", MOST)
 def test_what_is_left_cannot_be_seen(name):
     usual, exact = fair(name), fair(name, relative_residual=1e-8)
     farthest = np.linalg.norm(usual.vertices - exact.vertices, axis=1).max()
@@ -38,21 +29,3 @@ def test_what_is_left_cannot_be_seen(name):
     units = [n / np.linalg.norm(n, axis=1)[:, None] for n in normals]
     turned = 2 * np.arcsin(np.linalg.norm(units[0] - units[1], axis=1) / 2)
     assert np.degrees(turned).max() <= 0.05
-
-
-def test_loads_go_along_with_accelerated_steps():
-    """Where they lagged behind, level 1 took 18 steps and level 2 took 39."""
-    mesh = meshes.creature()
-    levels = df.fair(*mesh, levels=2, energy="total_curvature").report["curvature"]
-    assert levels[-1]["converged"]
-    one, two = (level["work"]["steps"] for level in levels)
-    assert one <= 12 and two <= 24
-
-
-def test_work_counts_what_was_tried_as_well():
-    for level in fair("creature").report["curvature"][1:]:
-        work = level["work"]
-        assert work["steps"] >= len(level["steps"])
-        assert work["linearizations"] > work["steps"]
-        assert work["iterations"] >= sum(step["iterations"] for step in level["steps"])
-        assert work["pad_corrections"] >= sum(step["pad_corrections"] for step in level["steps"])
