@@ -13,7 +13,7 @@ TESTS = Path(__file__).resolve().parent.parent / "tests" / "python"
 sys.path.append(str(TESTS))  # last: benchmarks has a control_meshes of its own
 
 measures = importlib.import_module("surface_measures")
-catmull_clark = importlib.import_module("catmull_clark")
+thin_walls = importlib.import_module("thin_walls")
 judge = importlib.import_module("surface_judge")
 
 

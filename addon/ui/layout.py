@@ -63,7 +63,9 @@ def draw_job(
     if not job:
         draw_fairness(layout, settings, known)
     if is_limit(settings) or known.follows:
-        layout.prop(settings, "limit", slider=True)
+        follow = layout.row()
+        follow.active = settings.energy == "THIN_PLATE"  # others do not follow
+        follow.prop(settings, "limit", slider=True)
     elif is_near(settings):
         _draw_tolerance(layout, settings, known)
 

@@ -235,6 +235,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     systems_->plate();
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
+    take_metric(watch);
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
     if (report.warm)
       systems_->report_held(report);
@@ -259,6 +260,18 @@ std::vector<Vec3> FairSolver::positions_of(const ControlPositions& control) cons
     out.insert(out.end(), cage.begin(), cage.end());
   }
   return out;
+}
+
+// That of a surface is that of the basis, whatever is solved first: then shapes mix, and nothing depends
+// on what was solved before.
+void FairSolver::take_metric(Stopwatch& watch) {
+  const ControlPositions& basis = problem_->basis;
+  if (!problem_->held.surface || systems_->plate().levels().is_measured(problem_->options.levels) ||
+      positions_of(control_) == positions_of(basis))
+    return;
+  Report unused = built_;
+  recent_.state() = systems_->solve(basis, false, watch, unused, recent_.surface());
+  recent_.remember(positions_of(basis));
 }
 
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {

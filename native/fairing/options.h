@@ -120,8 +120,8 @@ struct FairOptions {
 // (stencil/membrane.h), for FairOptions::tension.
 double membrane_strength(double tension);
 
-// What the plate is drawn to the subdivision surface with, relative to a plate that bends over a control
-// edge (grid/limit_surface.h), for FairOptions::limit.
+// What the plate is drawn to the subdivision surface with, relative to its own bending
+// (grid/limit_surface.h), for FairOptions::limit.
 double pull_to_limits(double limit);
 
 // Throws FairingError(bad_option), naming the option and its range.

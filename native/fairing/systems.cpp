@@ -44,9 +44,8 @@ ThinPlateSolver& FairingSystems::plate() {
     own.normals = problem_.normals.fixed;
     own.starts_steps = options.energy != Energy::thin_plate;
     if (problem_.held.surface) {
-      auto pull = std::make_shared<Array<float>>(
-          hold_of_thin_faces(GridLevel(problem_.mesh, options.levels), problem_.basis.working,
-                             problem_.exponent, *problem_.workers));
+      auto pull = std::make_shared<Array<float>>(hold_of_thin_faces(
+          GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
       const double strength = std::pow(pull_to_limits(options.limit), 0.25);
       for (float& p : *pull) p *= float(strength);
       own.pull = {std::move(pull), problem_.exponent};

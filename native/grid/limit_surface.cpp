@@ -2,7 +2,6 @@
 #include "grid/limit_surface.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/points.h"
 #include "grid/linear.h"
@@ -159,7 +158,7 @@ std::int64_t LimitSurface::bytes(const PolygonMesh& mesh, const ControlMesh& con
 }
 
 Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
-                                double exponent, Workers& workers) {
+                                Workers& workers) {
   const ControlMesh& mesh = grid.mesh();
   const auto vertices = std::size_t(mesh.vertex_count());
   std::vector<double> shortest(vertices, INFINITY);
@@ -187,8 +186,7 @@ Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> con
   Array<float> out(grid.size());
   for_each_run(grid, workers, [&](const Run& run) {
     for (std::size_t p = run.first; p < run.first + run.count; ++p)
-      out[p] = float(std::pow(at_point[3 * p + 1], 0.25) * std::numbers::pi *
-                     std::exp(-(1 + exponent) * at_point[3 * p]));
+      out[p] = float(std::pow(at_point[3 * p + 1], 0.25) * std::exp(-1.5 * at_point[3 * p]));
   });
   return out;
 }

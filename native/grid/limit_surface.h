@@ -29,12 +29,13 @@ class LimitSurface {
   CatmullClark subdivision_;
 };
 
-// How a plate is to be held on a surface so that it does not wave where faces are thin. For a point
-// whose area is S at unit grid spacing, (pi / r^b)^4 (S / r^2)^2: the stiffness of a bend as long as r in
-// the metric of exponent b, the more the longer faces are than r. With r the shortest control edge at
-// the control vertices near the point: their geometric mean, smoothly from vertex to vertex. One number
-// a point, the fourth root of that over S^2. It falls to nothing where a region meets what is outside.
+// How a plate is to be held on a surface so that it does not wave where faces are thin. At a point whose
+// area is S at unit grid spacing, distances d from the surface weigh as much as its own bending times
+// (d / r)^2 (S / r^2)^2: the more the longer faces are than r, and the more they turn. With r the
+// shortest control edge at the control vertices near the point: their geometric mean, smoothly from
+// vertex to vertex. One number a point, the fourth root of 1 / r^6. It falls to nothing where a region
+// meets what is outside.
 Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
-                                double exponent, Workers& workers);
+                                Workers& workers);
 
 }  // namespace fairing

@@ -24,6 +24,16 @@ double area_of(const SpaceRing& ring) {
   return sum;
 }
 
+// What the point adds to the energy of its ring, by its rows, which begin with its own numbers.
+double bending_of(const SpaceRing& ring, const float* rows) {
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const Vec3& offset : ring.offset) {
+    rows += 3;
+    moments += offset * Vec3(rows[0], rows[1], rows[2]).transpose();
+  }
+  return moments.squaredNorm();
+}
+
 Unknowns everything(const ControlMesh& mesh) {
   return {std::vector<std::uint8_t>(std::size_t(mesh.vertex_count()), 1),
           std::vector<std::uint8_t>(mesh.edges.size(), 1), true};
@@ -100,7 +110,7 @@ void SurfaceDifferences::write_rows(const SurfaceMetric& metric, Workers& worker
             return root * rows(Eigen::Index(c + 2), Eigen::Index(s));
           });
           if (is_unknown(Index(p)))
-            pull_[p] = float(share * local.chart.area / (n * n) * std::pow(area_of(in_space), 2) *
+            pull_[p] = float(bending_of(in_space, to) / (n * n) * std::pow(area_of(in_space), 2) *
                              std::pow(metric.pull[p], 4));
         }
       });

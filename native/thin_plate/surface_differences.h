@@ -19,8 +19,8 @@ namespace fairing {
 // The metric of a surface and the pull to the goal.
 struct SurfaceMetric {
   const double* surface;  // 3 numbers a point
-  // One a point, k: the squared distance from the goal weighs k^4 S^2 a unit of the metric's area, with
-  // S the area that the point has at unit grid spacing.
+  // One a point, k: the squared distance from the goal weighs k^4 S^2 times what the surface itself bends
+  // at the point, with S the area that this has at unit grid spacing.
   const float* pull;
   double exponent;  // as in flatten()
 };

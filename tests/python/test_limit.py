@@ -4,6 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+import thin_walls
 from catmull_clark import subdivide
 from control_meshes import cube, grid, octahedron
 from discrete_fairing import _native
@@ -101,26 +102,9 @@ def test_the_surface_passes_exactly_through_them():
         assert fine.report["largest_deviation"] == pytest.approx(moved, rel=1e-12)
 
 
-def cup(around=12):
-    """Of sides of 20, with a lip of 3."""
-    turn = 2 * np.pi * np.arange(around) / around
-    profile = ((34, 0), (40, 6), (40, 60), (40, 95), (37, 95), (37, 60), (36, 9), (30, 4))
-    vertices = [
-        np.stack([r * np.cos(turn), r * np.sin(turn), np.full(around, float(z))], axis=1)
-        for r, z in profile
-    ]
-    faces = [
-        [low + i, low + (i + 1) % around, low + around + (i + 1) % around, low + around + i]
-        for low in range(0, 7 * around, around)
-        for i in range(around)
-    ]
-    faces += [list(range(around))[::-1], list(range(7 * around, 8 * around))]
-    return np.concatenate(vertices), faces
-
-
 def test_the_lip_of_a_thin_wall_does_not_wave():
     """By 0.1 and more where nothing draws it to the subdivision surface, whose lip is level."""
-    mesh = cup()
+    mesh = thin_walls.cup()[:2]
 
     def waves(**options):
         found = df.fair(*mesh, 3, interpolation="limit", **options).vertices
@@ -131,6 +115,14 @@ def test_the_lip_of_a_thin_wall_does_not_wave():
 
     assert waves() < 0.02
     assert waves(limit=0.0) > 0.1
+
+
+@pytest.mark.parametrize("name", thin_walls.MODELS)
+def test_rims_turn_as_they_do_when_subdivided(name):
+    """Waves add to how far a rim turns; free, by a half and more on most."""
+    model = thin_walls.MODELS[name]()
+    subdivided = thin_walls.of_subdivision(model, 2)
+    assert thin_walls.of_surface(model, 2, interpolation="limit") < 1.006 * subdivided
 
 
 @pytest.mark.parametrize("mesh", [CUBE, HOUSE, octahedron()], ids=["cube", "house", "triangles"])
@@ -204,6 +196,15 @@ def test_long_thin_faces_do_not_swing_through_each_other(sides, thickness):
     assert not len(_native._crossings(found.vertices, triangles, 0, _native.Monitor(), None))
 
 
+@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
+def test_other_energies_do_not_follow(energy):
+    free, follows = (
+        df.fair(*CUBE, 1, energy, interpolation="limit", limit=limit).vertices
+        for limit in (0.0, 1.0)
+    )
+    np.testing.assert_array_equal(free, follows)
+
+
 def test_a_release_goes_down_the_energy_that_is_solved():
     """Each vertex by epsilon down the slope of the energy in the metric of the surface. It is quadratic,
     so differences on both sides give the slope."""
@@ -245,6 +246,16 @@ def test_a_rebase_to_limits_without_shape_is_refused():
     with pytest.raises(df.FairingError, match="At the limit positions"):
         solver.rebase(moved)
     np.testing.assert_allclose(solver.solve(vertices).vertices, before, atol=1e-12)
+
+
+def test_the_first_surface_of_a_solver_is_in_the_metric_of_its_mesh():
+    """As all later ones: what is solved first makes no difference."""
+    vertices, faces = HOUSE
+    other = vertices * [1, 1, 1.5]
+    given = {"interpolation": "limit", "pad_size": 0.0, "relative_residual": 1e-10}
+    shape = df.fair(vertices, faces, 2, shapes=[other], **given).shapes[0]
+    found = df.Solver(vertices, faces, 2, **given).solve(other).vertices
+    np.testing.assert_allclose(found, shape, atol=1e-8)
 
 
 def test_shapes_mix_linearly():
