@@ -8,20 +8,20 @@ done when somebody asks. What is only carried, such as UV maps, does not count.
 import zlib
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import astuple
-from typing import Any, cast
+from dataclasses import dataclass, fields
+from typing import Any
 
 import bpy
 import numpy as np
-from bpy.app.handlers import persistent
 
-from . import curve_cage, memory, place
+from . import curve_cage, events, memory, place
 from .blender import Context, Mesh, Object, Scene, all_objects, current_context
+from .core import ControlArrays
 from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
-from .mesh.object import Reference, session_key
+from .mesh.object import Reference, changed_keys, session_key
 from .mesh.read import control_mesh, read_mesh, tolerance_shares, vertex_pulls
-from .mesh.shape_keys import read_shape_keys
+from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
 from .settings import NAMES, Settings, is_evaluated
@@ -40,9 +40,40 @@ _unread: set[int | str] = set()  # surfaces whose source may have changed since
 _watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces
 
 
-def made_of(context: Context, source: Object, settings: Settings) -> dict[str, Any]:
-    """What a surface is made of at this moment, to be kept with it by `note`."""
-    return {"settings": _that_count(settings), "source": _checksum(context, source, settings)}
+@dataclass(frozen=True)
+class OwnMesh:
+    """What of a source's own mesh, as modelled, goes into a surface."""
+
+    arrays: ControlArrays
+    selection: np.ndarray | None  # (m,) bool, where the settings ask for it
+    values: tuple[np.ndarray | None, ...]  # those of groups; without those that are not there
+    keys: ShapeKeys | None  # where the settings ask for them
+
+    @classmethod
+    def read(cls, context: Context, source: Object, settings: Settings) -> "OwnMesh":
+        values: list[np.ndarray | None] = []
+        with control_mesh(context, source) as mesh:
+            arrays = read_mesh(mesh)
+            selection = shown_selection(mesh) if settings.use_selection else None
+            with suppress(JobError):
+                values.append(tolerance_shares(source, mesh, settings))
+                values.append(vertex_pulls(source, mesh, settings))
+        keys = read_shape_keys(source, len(arrays.positions)) if settings.use_shape_keys else None
+        return cls(arrays, selection, tuple(values), keys)
+
+    @property
+    def parts(self) -> list[np.ndarray | None]:
+        arrays = [getattr(self.arrays, field.name) for field in fields(self.arrays)]
+        keys = None if self.keys is None else self.keys.shapes
+        return [*arrays, self.selection, *self.values, keys]
+
+
+def made_of(
+    context: Context, source: Object, settings: Settings, read: OwnMesh | None
+) -> dict[str, Any]:
+    """What a surface is made of at this moment, to be kept with it by `note`. `read`: None: to be read."""
+    total = _checksum(context, source, settings, read)
+    return {"settings": _that_count(settings), "source": total}
 
 
 def note(target: Object, made: dict[str, Any]) -> None:
@@ -132,17 +163,11 @@ def _look() -> None:
     tag_outliners(context)
 
 
-def _checksum(context: Context, source: Object, settings: Settings) -> int:
+def _checksum(
+    context: Context, source: Object, settings: Settings, read: OwnMesh | None = None
+) -> int:
     """Of all of the source that goes into a surface."""
-    with control_mesh(context, source) as mesh:
-        arrays = read_mesh(mesh)
-        parts = [*astuple(arrays), _selection(mesh) if settings.use_selection else None]
-        with suppress(JobError):
-            parts.append(tolerance_shares(source, mesh, settings))
-            parts.append(vertex_pulls(source, mesh, settings))
-    if settings.use_shape_keys:
-        keys = read_shape_keys(source, len(arrays.positions))
-        parts.append(keys.shapes if keys is not None else None)
+    parts = (read or OwnMesh.read(context, source, settings)).parts
     words: list[Any] = [world_shape(source).rows]
     if curve_cage.is_cage(source):
         pieces, wish = curve_cage.made_of(source)
@@ -156,7 +181,8 @@ def _checksum(context: Context, source: Object, settings: Settings) -> int:
     return total
 
 
-def _selection(mesh: Mesh) -> np.ndarray:
+def shown_selection(mesh: Mesh) -> np.ndarray:
+    """(m,) bool: faces that are selected and to be seen."""
     flags = np.empty((2, len(mesh.polygons)), bool)
     for row, name in zip(flags, ("select", "hide"), strict=True):
         mesh.polygons.foreach_get(name, row)
@@ -170,22 +196,18 @@ def _values(modifier: Any) -> list[Any]:
     return [value for value in found if isinstance(value, plain)]
 
 
-@persistent
 def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not _watched:
         return
-    for update in depsgraph.updates:
-        if update.is_updated_geometry or update.is_updated_transform:
-            _unread.update(_watched.get(session_key(cast(Any, update.id).original), ()))
+    for key in changed_keys(depsgraph, moved=True):
+        _unread.update(_watched.get(key, ()))
 
 
-@persistent
 def _distrust(*_: Any) -> None:
     """After undo anything may have changed."""
     _unread.update(_surfaces)
 
 
-@persistent
 def _begin(*_: Any) -> None:
     """With the surfaces of the file that was just opened."""
     for known in (_surfaces, _sums, _unread, _watched):
@@ -204,13 +226,11 @@ _HANDLERS = {
 
 
 def register() -> None:
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).append(handler)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)
     for known in (_surfaces, _sums, _unread, _watched):

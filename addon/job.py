@@ -65,11 +65,14 @@ class Job:
             self.data = read_data(source, mesh, evaluated)
             shares = tolerance_shares(source, mesh, self.settings)
             pulls = vertex_pulls(source, mesh, self.settings)
-            if not self.settings.use_selection:
+            selection = freshness.shown_selection(mesh) if self.settings.use_selection else None
+            if selection is None:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
-        self._made = freshness.made_of(context, source, self.settings)
+        self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
+        own = freshness.OwnMesh(self.arrays, selection, (shares, pulls), self.keys)
+        self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
         self.shape = world_shape(source)
         world = self.shape.of_arrays(self.arrays)
         self.edge_length = core.mean_edge_length(world)
@@ -77,7 +80,6 @@ class Job:
         too_large = size.why_too_large(self.triangles)
         if too_large:
             raise JobError(f"{self.name}: {too_large}.", code="TOO_LARGE")
-        self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
         self.arguments = core.fair_arguments(
             world,
             self.settings,

@@ -10,10 +10,9 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 import bpy
-from bpy.app.handlers import persistent
 from bpy.props import BoolProperty, FloatVectorProperty, PointerProperty, StringProperty
 
-from . import records
+from . import events, records
 from .blender import Context, Object, all_objects, all_scenes, attach, detach
 from .settings import FairingSettings, Settings, copy_settings
 
@@ -177,7 +176,6 @@ _GROUPS = (
 )
 
 
-@persistent
 def unset_unsound_settings(*_: Any) -> None:
     """Settings without a meaning become those that nobody has set, of linked data too: panels show
     these as well.
@@ -212,18 +210,17 @@ def _is_sound(known: Any, value: Any) -> bool:
 
 
 # linking and appending has a handler since Blender 4.3
-_HANDLERS = [
-    getattr(bpy.app.handlers, name)
+_HANDLERS = {
+    name: unset_unsound_settings
     for name in ("load_post", "blend_import_post")
     if hasattr(bpy.app.handlers, name)
-]
+}
 
 
 def register() -> None:
     attach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
     attach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
-    for handlers in _HANDLERS:
-        handlers.append(unset_unsound_settings)
+    events.listen(_HANDLERS)
     # the file that is open now, as in preferences.py
     if not bpy.app.background:
         bpy.app.timers.register(unset_unsound_settings, first_interval=0.0)
@@ -232,7 +229,6 @@ def register() -> None:
 def unregister() -> None:
     if bpy.app.timers.is_registered(unset_unsound_settings):
         bpy.app.timers.unregister(unset_unsound_settings)
-    for handlers in _HANDLERS:
-        handlers.remove(unset_unsound_settings)
+    events.ignore(_HANDLERS)
     detach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
     detach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)

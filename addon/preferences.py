@@ -5,9 +5,9 @@ from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 import bpy
-from bpy.app.handlers import persistent
 from bpy.props import IntProperty, StringProperty
 
+from . import events
 from .blender import Context, Scene, all_scenes, current_context
 
 
@@ -75,7 +75,6 @@ def of_runs() -> SimpleNamespace:
     return SimpleNamespace(memory_limit=now.memory_limit, threads=now.threads)
 
 
-@persistent
 def give_scenes_default_levels(*_: Any) -> None:
     """Scenes whose levels nobody has chosen get the user's default."""
     for scene in all_scenes():
@@ -89,16 +88,17 @@ def _give_default_levels(scene: Scene) -> None:
         settings.levels = levels
 
 
-@persistent
 def _look_at_scene(scene: Scene, _depsgraph: Any = None) -> None:
     """A scene that was added meanwhile: Blender tells of it by its first update."""
     _give_default_levels(scene)
 
 
+_HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _look_at_scene}
+
+
 def register() -> None:
     bpy.utils.register_class(DiscreteFairingPreferences)
-    bpy.app.handlers.load_post.append(give_scenes_default_levels)
-    bpy.app.handlers.depsgraph_update_post.append(_look_at_scene)
+    events.listen(_HANDLERS)
     # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
     # Without a window no timer
     # ever runs, and one that waits would keep the bpy module from ending.
@@ -109,6 +109,5 @@ def register() -> None:
 def unregister() -> None:
     if bpy.app.timers.is_registered(give_scenes_default_levels):
         bpy.app.timers.unregister(give_scenes_default_levels)
-    bpy.app.handlers.depsgraph_update_post.remove(_look_at_scene)
-    bpy.app.handlers.load_post.remove(give_scenes_default_levels)
+    events.ignore(_HANDLERS)
     bpy.utils.unregister_class(DiscreteFairingPreferences)

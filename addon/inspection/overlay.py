@@ -12,12 +12,12 @@ from typing import Any, cast
 import bpy
 import gpu as _gpu
 import numpy as np
-from bpy.app.handlers import persistent
 from gpu_extras import batch as _batch
 from mathutils import Matrix
 
+from .. import events
 from ..blender import Object, all_objects, current_context
-from ..mesh.object import Reference, session_key
+from ..mesh.object import Reference, changed_keys, session_key
 from .drawn import Drawn
 from .overlay_arrays import lines_of, pulled, surface_of, uniforms
 from .stripes import STRIPES
@@ -228,23 +228,17 @@ def _make_shader() -> Any:
     return gpu.shader.create_from_info(info)
 
 
-@persistent
 def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
     """Throws away what no longer fits, also where a modifier has looked at another object."""
     if not _entries:
         return
-    changed = {
-        session_key(cast(Any, update.id).original)
-        for update in depsgraph.updates
-        if update.is_updated_geometry
-    }
+    changed = changed_keys(depsgraph, moved=False)
     for reference in _shown or ():
         target = reference.find()
         if target is None or changed & {session_key(target), session_key(target.data)}:
             _entries.pop(reference.key, None)
 
 
-@persistent
 def _forget(*_: Any) -> None:
     global _shown
     _shown = None
@@ -273,16 +267,14 @@ def register() -> None:
         return
     # persistent: Blender may be about to open a file, which ends other timers
     bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).append(handler)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
     global _shader, _handle
     if bpy.app.background:
         return
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(_start):
         bpy.app.timers.unregister(_start)
     if _handle is not None:

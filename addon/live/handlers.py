@@ -9,15 +9,15 @@ runs, so there is none.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.app.handlers import persistent
 
+from .. import events
 from ..blender import Context, Scene, current_context
+from ..mesh.object import changed_keys
 from ..redraw import Progress, tag_sidebars
 from . import curve_cages, registry
-from .registry import session_key
 
 if TYPE_CHECKING:
     from .session import Session
@@ -95,21 +95,13 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
         raise
 
 
-@persistent
 def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not registry.sessions() or registry.is_quiet():
         return
-    reshaped = {
-        session_key(cast(Any, change.id).original)
-        for change in depsgraph.updates
-        if change.is_updated_geometry
-    }
-    moved = {
-        session_key(cast(Any, change.id).original)
-        for change in depsgraph.updates
-        if change.is_updated_transform
-    }
-    reshaped |= curve_cages.refreshed(filter(_is_awake, registry.sessions()), reshaped | moved)
+    reshaped = changed_keys(depsgraph, moved=False)
+    reshaped |= curve_cages.refreshed(
+        filter(_is_awake, registry.sessions()), changed_keys(depsgraph, moved=True)
+    )
 
     def step(session: Session) -> None:
         session.stand()
@@ -121,7 +113,6 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
             guarded(session, step)
 
 
-@persistent
 def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Shape keys, armatures and drivers of another frame: Blender does not name all that they
     change.
@@ -147,26 +138,22 @@ def _is_awake(session: Session) -> bool:
     return not _rendering or (_locked and wanted)
 
 
-@persistent
 def _before_undo(*_: Any) -> None:
     for session in registry.sessions():
         session.cancel_full(wait=True)
 
 
-@persistent
 def _distrust_all(*_: Any) -> None:
     for session in registry.sessions():
         session.distrust()
 
 
-@persistent
 def _render_begins(scene: Scene | None = None, *_: Any) -> None:
     global _rendering, _locked
     _locked = bpy.app.background or (scene is not None and scene.render.use_lock_interface)
     _rendering = True
 
 
-@persistent
 def _render_ends(*_: Any) -> None:
     """May come on another thread: the timer does the rest."""
     global _rendering
@@ -174,7 +161,6 @@ def _render_ends(*_: Any) -> None:
     _distrust_all()
 
 
-@persistent
 def _end_all(*_: Any) -> None:
     """Before another file is loaded: nothing of this one may be touched any more."""
     global _rendering
@@ -199,11 +185,9 @@ _HANDLERS = {
 
 
 def register() -> None:
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).append(handler)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
     _end_all()
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+    events.ignore(_HANDLERS)

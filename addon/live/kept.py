@@ -4,13 +4,12 @@
 from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
+from .. import events
 from ..blender import Object, all_objects
 from . import cage, registry, switch
 
 
-@persistent
 def _note(*_: Any) -> None:
     """Which surfaces are live, before the file is written; it gets their own shape keys too."""
     for session in registry.sessions():
@@ -19,7 +18,6 @@ def _note(*_: Any) -> None:
         registry.note(target, switch.is_on(target))
 
 
-@persistent
 def _restore(*_: Any) -> None:
     """Of the file that was opened. Objects that cannot be live any more stay as they are, and so
     does everything where there is no window, but for renders.
@@ -41,11 +39,12 @@ def _surfaces() -> list[Object]:
     ]
 
 
+_HANDLERS = {"save_pre": _note, "load_post": _restore}
+
+
 def register() -> None:
-    bpy.app.handlers.save_pre.append(_note)
-    bpy.app.handlers.load_post.append(_restore)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    bpy.app.handlers.load_post.remove(_restore)
-    bpy.app.handlers.save_pre.remove(_note)
+    events.ignore(_HANDLERS)

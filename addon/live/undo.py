@@ -7,14 +7,13 @@ A step of Blender's undo holds `was_on`, which follows the switch, but no sessio
 from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
+from .. import events
 from . import registry, switch
 
 _SOON = 0.0  # seconds; not from within undo, whose objects Blender has not looked at yet
 
 
-@persistent
 def _agree(*_: Any) -> None:
     """Ends what is not to be on any more. Nothing is written: its mesh is what it was before."""
     for target in registry.known():
@@ -32,13 +31,14 @@ def resume() -> None:
             switch.switch_on(target)
 
 
+_HANDLERS = {"undo_post": _agree, "redo_post": _agree}
+
+
 def register() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.append(_agree)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.remove(_agree)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(resume):
         bpy.app.timers.unregister(resume)

@@ -10,9 +10,8 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.app.handlers import persistent
 
-from .. import size
+from .. import events, size
 from ..blender import Context, Mesh, Scene, current_context
 from ..redraw import INTERVAL, tag_sidebars
 from .object import session_key
@@ -97,7 +96,6 @@ def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
     )
 
 
-@persistent
 def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not (_watched or _seen):
         return
@@ -116,7 +114,6 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
             _changed.discard(key)  # undone
 
 
-@persistent
 def _forget(*_: Any) -> None:
     _watched.clear()
     _triangles.clear()
@@ -124,7 +121,6 @@ def _forget(*_: Any) -> None:
     _look_again()
 
 
-@persistent
 def _look_again(*_: Any) -> None:
     """After undo any mesh may be another."""
     _seen.clear()
@@ -139,18 +135,20 @@ def _checksum(mesh: Mesh) -> int:
     return zlib.crc32(corners.tobytes(), zlib.crc32(flat.tobytes()))
 
 
+_HANDLERS = {
+    "depsgraph_update_post": _note_changes,
+    "undo_post": _look_again,
+    "redo_post": _look_again,
+    "load_post": _forget,
+}
+
+
 def register() -> None:
-    bpy.app.handlers.depsgraph_update_post.append(_note_changes)
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.append(_look_again)
-    bpy.app.handlers.load_post.append(_forget)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    bpy.app.handlers.load_post.remove(_forget)
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.remove(_look_again)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(measure_unseen):
         bpy.app.timers.unregister(measure_unseen)
-    bpy.app.handlers.depsgraph_update_post.remove(_note_changes)
     _forget()

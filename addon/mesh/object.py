@@ -26,6 +26,15 @@ def session_key(block: bpy.types.ID) -> int | str:
     return getattr(block, "session_uid", None) or block.name_full
 
 
+def changed_keys(depsgraph: bpy.types.Depsgraph, *, moved: bool) -> set[int | str]:
+    """Keys of the data that an update has reshaped, or also `moved`."""
+    return {
+        session_key(cast(Any, update.id).original)
+        for update in depsgraph.updates
+        if update.is_updated_geometry or (moved and update.is_updated_transform)
+    }
+
+
 class Reference:
     """Finds its object again, after undo and deleting too, which leave pointers to nowhere; None
     once the object is gone.

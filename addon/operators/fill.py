@@ -9,9 +9,8 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import bpy
-from bpy.app.handlers import persistent
 
-from .. import freshness, memory, place, prediction
+from .. import events, freshness, memory, place, prediction
 from ..blender import Answer, Context, Object, current_context
 from ..errors import JobError
 from ..job import Job
@@ -102,7 +101,6 @@ def _complete_soon(context: Context, targets: Sequence[Object]) -> None:
     invoke_soon(context, cast(Any, bpy.ops.object).fairing_complete, {})
 
 
-@persistent
 def _after_undo(*_: Any) -> None:
     """What is written outside of any step is undone with a later one: it is made anew."""
     if not bpy.app.background and not bpy.app.timers.is_registered(resume):
@@ -195,18 +193,16 @@ class OBJECT_OT_fairing_complete(ModalRun, bpy.types.Operator):
         return {"FINISHED"}
 
 
-_HANDLERS = (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+_HANDLERS = {"undo_post": _after_undo, "redo_post": _after_undo}
 
 
 def register() -> None:
     bpy.utils.register_class(OBJECT_OT_fairing_complete)
-    for handlers in _HANDLERS:
-        handlers.append(_after_undo)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    for handlers in _HANDLERS:
-        handlers.remove(_after_undo)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(resume):
         bpy.app.timers.unregister(resume)
     bpy.utils.unregister_class(OBJECT_OT_fairing_complete)

@@ -11,14 +11,13 @@ from time import monotonic
 from typing import Any, cast
 
 import bpy
-from bpy.app.handlers import persistent
 
-from .. import core
+from .. import core, events
 from ..blender import Context, Object, all_objects, current_context
 from ..errors import JobError
 from ..inspection import overlay
 from ..live.full_level import is_dragging
-from ..mesh.object import Reference, session_key
+from ..mesh.object import Reference, changed_keys, session_key
 from ..queue import Queue
 from ..redraw import tag_sidebars
 from ..settings import snapshot
@@ -204,35 +203,27 @@ def _unnoticed(context: Context, source: Object) -> Iterator[None]:
         _reading = False
 
 
-@persistent
 def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
     if not _watches or _reading:
         return
-    changed = {
-        session_key(cast(Any, update.id).original)
-        for update in depsgraph.updates
-        if update.is_updated_geometry or update.is_updated_transform
-    }
+    changed = changed_keys(depsgraph, moved=True)
     for watch in _watches.values():
         source = watch.reference.find()
         if source is not None and changed & {session_key(source), session_key(source.data)}:
             watch.stale = True
 
 
-@persistent
 def _distrust(*_: Any) -> None:
     for watch in _watches.values():
         watch.stale = True
 
 
-@persistent
 def _distrust_all(*_: Any) -> None:
     """What is shown, too."""
     shown_changed()
     _distrust()
 
 
-@persistent
 def _forget(*_: Any) -> None:
     global _shown
     for watch in _watches.values():
@@ -241,7 +232,6 @@ def _forget(*_: Any) -> None:
     _shown = None
 
 
-@persistent
 def _resume(*_: Any) -> None:
     """A file may have been saved while strain was shown."""
     shown_changed()
@@ -258,14 +248,12 @@ _HANDLERS = {
 
 
 def register() -> None:
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).append(handler)
+    events.listen(_HANDLERS)
     _start_timer()  # for the file that is open now
 
 
 def unregister() -> None:
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(_on_timer):
         bpy.app.timers.unregister(_on_timer)
     _forget()

@@ -11,11 +11,11 @@ import blf
 import bpy
 import gpu as _gpu
 import numpy as np
-from bpy.app.handlers import persistent
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras import batch as _batch
 from mathutils import Matrix, Vector
 
+from .. import events
 from ..blender import Context, Object, current_context
 from ..inspection.overlay_arrays import pulled
 from ..live.switch import surfaces_of
@@ -220,9 +220,11 @@ def _make_shader() -> Any:
     return gpu.shader.create_from_info(info)
 
 
-@persistent
 def _forget(*_: Any) -> None:
     _entries.clear()
+
+
+_HANDLERS = {"load_pre": _forget}
 
 
 def _start() -> None:
@@ -239,14 +241,14 @@ def register() -> None:
         return
     # persistent: Blender may be about to open a file, which ends other timers
     bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
-    bpy.app.handlers.load_pre.append(_forget)
+    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
     global _shader
     if bpy.app.background:
         return
-    bpy.app.handlers.load_pre.remove(_forget)
+    events.ignore(_HANDLERS)
     if bpy.app.timers.is_registered(_start):
         bpy.app.timers.unregister(_start)
     for handle in _handles:

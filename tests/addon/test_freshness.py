@@ -8,8 +8,9 @@ from fake_layout import Layout, draw
 from live_scenes import follow, live, move
 from scenes import CUBE, activate, add, fair, positions
 
-from addon import freshness, memory
+from addon import events, freshness, job, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
+from addon.mesh import read as mesh_read
 from addon.ui import main, outliner
 
 
@@ -169,3 +170,43 @@ def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
     assert why_stale(target) == ""
     target.discrete_fairing.pad_size = 0.5
     assert why_stale(target) == SETTINGS_CHANGED
+
+
+def test_a_run_reads_its_mesh_once(monkeypatch):
+    """And keeps with the surface what the look afterwards finds again."""
+    reads, read = [], mesh_read.read_mesh
+
+    def counted(mesh):
+        reads.append(mesh.name)
+        return read(mesh)
+
+    source = add("Box", *CUBE)
+    add_key(source)
+    for module in (job, freshness):
+        monkeypatch.setattr(module, "read_mesh", counted)
+    made = job.Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    assert reads == ["Box"]
+    made.compute()
+    target = made.write(bpy.context)
+    assert why_stale(target) == ""
+
+
+def test_blender_has_one_handler_for_each_event():
+    for name in ("depsgraph_update_post", "undo_post", "redo_post", "load_post"):
+        ours = [f for f in getattr(bpy.app.handlers, name) if f.__module__.startswith("addon")]
+        assert [f.__module__ for f in ours] == ["addon.events"], name
+
+
+def test_a_listener_that_fails_keeps_no_other_from_being_told(capfd):
+    told = []
+
+    def fails(*_):
+        raise ValueError("on purpose")
+
+    wanted = [{"load_post": fails}, {"load_post": lambda *_: told.append(1)}]
+    for one in wanted:
+        events.listen(one)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    for one in wanted:
+        events.ignore(one)
+    assert told == [1] and "on purpose" in capfd.readouterr().err

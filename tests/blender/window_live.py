@@ -324,7 +324,9 @@ def test_another_file_and_disabling():
     yield 0.5
     assert not bpy.app.timers.is_registered(handlers.on_timer)
     for name in handlers._HANDLERS:
-        assert not [f for f in getattr(bpy.app.handlers, name) if ".live." in f.__module__], name
+        assert not [
+            f for f in getattr(bpy.app.handlers, name) if f.__module__.endswith(".events")
+        ], name
     bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
     yield 0.5
 

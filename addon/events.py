@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender tells of: one handler for each of its events, whoever of us listens.
+
+They stay while the add-on is on, other files are opened included: taking a handler away from within
+another would make Blender skip one of somebody else's.
+"""
+
+import traceback
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import bpy
+from bpy.app.handlers import persistent
+
+Listener: TypeAlias = Callable[..., None]
+
+_listeners: dict[str, list[Listener]] = {}
+_handlers: dict[str, Listener] = {}
+
+
+def listen(wanted: Mapping[str, Listener]) -> None:
+    """From now on the events by these names, of bpy.app.handlers, are told; in the order of calls."""
+    for name, listener in wanted.items():
+        if name not in _handlers:
+            _handlers[name] = _relay(name)
+            getattr(bpy.app.handlers, name).append(_handlers[name])
+        _listeners.setdefault(name, []).append(listener)
+
+
+def ignore(wanted: Mapping[str, Listener]) -> None:
+    """Ends that; the last one of an event takes its handler along."""
+    for name, listener in wanted.items():
+        _listeners[name].remove(listener)
+        if not _listeners[name]:
+            getattr(bpy.app.handlers, name).remove(_handlers.pop(name))
+
+
+def _relay(name: str) -> Listener:
+    @persistent
+    def tell(*told: Any) -> None:
+        for listener in tuple(_listeners[name]):
+            try:
+                listener(*told)
+            except Exception:  # as Blender does: the others are told all the same
+                traceback.print_exc()
+
+    return tell
