@@ -122,4 +122,4 @@ def test_bad_rims_have_buttons_that_mend_them():
     assert sorted(len(f.vertices) for f in target.data.polygons) == [4, 4, 5]
 
 
-harness.run(globals())
+harness.run_in_window(globals())
