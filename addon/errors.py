@@ -187,6 +187,10 @@ _UNFINISHED = {
         "Lower Hold Softly for an exact answer",
         "The surface is good to use, but could still be a little calmer around its vertices",
     ),
+    "NOT_CONVERGED_SWOLLEN": (
+        "Set Fairness to Bending: most of the surface would swell to a bubble",
+        "You have the surface that Bending makes",
+    ),
     "NOT_CONVERGED_START": (
         "Use fewer levels, or set Fairness to Bending",
         "No fairer surface was found than the one to begin with, which you have now",
@@ -199,8 +203,28 @@ def is_unfinished(warning: Mapping[str, Any]) -> bool:
     return warning["code"] in _UNFINISHED
 
 
+# The core's cures for another thickness, by the setting that it names, as the panel has them.
+_CURES = {
+    "energy": "set Fairness to Bending",
+    "tension": "raise Tension",
+    "metric_exponent": "set Spacing to ¼",
+    "interpolation": "set Vertices to Limit",
+    "vertices": "add vertices there",
+}
+
+
+def _thickness_text(message: str) -> tuple[str, str]:
+    """What to do, and what is so, from the core's message of another thickness."""
+    cause, _, cures = message.partition(". Use ")
+    help_by = [words for setting, words in _CURES.items() if setting in cures]
+    words = _listed(help_by, "or")
+    return words[0].upper() + words[1:], cause
+
+
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     """One of the core's warnings, in words for the user."""
+    if warning["code"] == "THICKNESS_CHANGED":
+        return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning['message'])))}"
     told = _UNFINISHED.get(warning["code"], (warning["message"],))
     return f"{object_name}: {' '.join(map(_sentence, told))}"
 

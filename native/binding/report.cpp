@@ -43,12 +43,13 @@ py::dict to_python(const CurvatureLevelReport& l) {
         "residual"_a = s.residual, "direct"_a = s.direct, "pad_corrections"_a = s.pad_corrections,
         "constraint_rounds"_a = s.constraint_rounds));
   }
-  return py::dict(
-      "level"_a = l.level, "plate_energy"_a = l.plate_energy, "start_energy"_a = l.start_energy,
-      "energy"_a = l.energy, "start_variation"_a = l.start_variation, "variation"_a = l.variation,
-      "damped"_a = l.damped, "folds_before"_a = l.folds_before, "folds"_a = l.folds,
-      "constraint_gap"_a = l.constraint_gap, "left"_a = l.left, "converged"_a = l.converged,
-      "kept_start"_a = l.kept_start, "work"_a = to_python(l.work), "steps"_a = steps);
+  return py::dict("level"_a = l.level, "plate_energy"_a = l.plate_energy,
+                  "start_energy"_a = l.start_energy, "energy"_a = l.energy,
+                  "start_variation"_a = l.start_variation, "variation"_a = l.variation,
+                  "damped"_a = l.damped, "folds_before"_a = l.folds_before, "folds"_a = l.folds,
+                  "constraint_gap"_a = l.constraint_gap, "left"_a = l.left,
+                  "converged"_a = l.converged, "kept_start"_a = l.kept_start,
+                  "swollen"_a = l.swollen, "work"_a = to_python(l.work), "steps"_a = steps);
 }
 
 py::dict to_python(const ShapeReport& s) {

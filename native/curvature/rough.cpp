@@ -5,13 +5,10 @@
 #include <utility>
 
 #include "grid/runs.h"
+#include "mesh/sharp_turn.h"
 
 namespace fairing {
 namespace {
-
-// A load acts along the normals of its pad. Where these turn away from the vertex's own by more than
-// 60 degrees, less than half of it holds the vertex, and pads fight each other.
-constexpr double least_facing = 0.5;
 
 using Normal = Eigen::Map<const Vec3>;
 
@@ -95,10 +92,12 @@ void RoughSteps::leave_all(Pads& pads) {
   for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);
 }
 
+// A load acts along the normals of its pad. Where these turn sharply away from the vertex's own, less
+// than half of it holds the vertex, and pads fight each other.
 void RoughSteps::leave_turned(Pads& pads) {
   const std::vector<double> facing = facing_of_stars(it_.grid(), it_.current.linearization.normal);
   for (std::size_t v = 0; v < facing.size(); ++v)
-    if (facing[v] < least_facing) leave(pads, v);
+    if (facing[v] < sharp_turn) leave(pads, v);
 }
 
 void RoughSteps::leave(Pads& pads, std::size_t v) {

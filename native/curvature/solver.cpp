@@ -41,6 +41,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
               std::move(mirrors), workers, monitor),
       iterate_{system_},
       folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
+      thickness_(mesh, hold_.targets(), workers),
       steps_(iterate_, options_),
       unfolding_(iterate_, hold_, folded_faces_, steps_),
       rough_(iterate_, unfolding_, steps_),
@@ -56,7 +57,11 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
-  below_ = {{plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size())}, is_plain};
+  below_ = {{plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size())},
+            is_plain,
+            report.swollen ||
+                (!is_finest() &&
+                 thickness_.of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
   if (is_finest()) {
     report.folds = unfolding_.find().count();
     solved_ = {report.converged && is_plain, report.energy, report.folds};
@@ -68,7 +73,12 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
 
 bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
                                               CurvatureLevelReport& report) {
-  const bool is_plain = step(start, report);
+  const bool is_plain = !is_lost(below_.is_plain) && step(start, report);
+  report.swollen = is_lost(is_plain);
+  if (report.swollen) {
+    keep(plate, start, report);
+    return false;
+  }
   if (is_finest() && hold_.any()) end_hold(report);
   keep_start_if_worse(start, plate, report);
   if (varies()) vary(is_plain, report);
@@ -92,6 +102,7 @@ bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& repor
   if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
   if (is_plain && is_finest()) leave_folds(report);
+  if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
   const Found plain = found(report);
   rough_.run(pads_.now(), start, report);
@@ -166,8 +177,14 @@ void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<
   if (report.energy <= bound && !is_spike) return;
   const bool keeps_plate =
       (is_finest() && hold_.any()) || (is_spike && is_thrown(start.points, plate));
-  surface() = keeps_plate ? plate : start.points;
-  surface().resize(start.points.size());
+  keep(keeps_plate ? plate : start.points, start, report);
+}
+
+void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
+                             CurvatureLevelReport& report) {
+  const std::size_t size = start.points.size();
+  surface() = x;
+  surface().resize(size);
   system_.symmetrizer().points(iterate_.grid(), surface());
   iterate_.current.held = start.held;
   iterate_.linearize();

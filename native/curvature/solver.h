@@ -8,6 +8,7 @@
 
 #include "curvature/rough.h"
 #include "curvature/variation.h"
+#include "grid/thickness.h"
 
 namespace fairing {
 
@@ -62,6 +63,7 @@ class GaussNewtonSolver {
   struct Below {
     Array<double> plate;   // the thin plate's surface
     bool is_plain = true;  // whether plain steps led to the solution
+    bool is_bubble = false;
   };
   // The finest level's solution, as far as control vertices may move from it.
   struct Solved {
@@ -82,6 +84,9 @@ class GaussNewtonSolver {
   bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
   bool step(const StepStart& start, CurvatureLevelReport& report);
+  // Whether the level below is a bubble, and where it ends would be found by no steps, or by very many:
+  // unless plain ones lead there, and from there here.
+  bool is_lost(bool is_plain) const { return below_.is_bubble && (!is_plain || varies()); }
   void vary(bool is_plain, CurvatureLevelReport& report);
   bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
   // What the surface of a level may have of total curvature.
@@ -92,6 +97,8 @@ class GaussNewtonSolver {
   bool is_thrown(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                            CurvatureLevelReport& report);
+  // Back to the start, or to the plate, with no more steps from there.
+  void keep(const Array<double>& x, const StepStart& start, CurvatureLevelReport& report);
   double tension_of(const Array<double>& x);
   void leave_out_tension(const StepStart& start, const Array<double>& plate,
                          CurvatureLevelReport& report);
@@ -103,6 +110,7 @@ class GaussNewtonSolver {
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
+  Thickness thickness_;
   CurvatureSteps steps_;
   Unfolding unfolding_;
   RoughSteps rough_;

@@ -73,7 +73,12 @@ void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const P
     require_in_reach(problem.mesh, control);
     Report own;
     fair_once(systems, control, false, watch, own, result.shapes.emplace_back());
-    warn_unconverged(own, problem.options, "Shape " + std::to_string(s) + ": ", report);
+    const std::string of = "Shape " + std::to_string(s) + ": ";
+    for (Warning& warning : own.warnings) {
+      warning.message = of + warning.message;
+      report.warnings.push_back(std::move(warning));
+    }
+    warn_unconverged(own, problem.options, of, report);
     report.shapes.push_back({std::move(own.levels.back()), own.converged(), own.largest_deviation,
                              own.constraint_rounds, own.normals.largest_angle});
   }

@@ -198,6 +198,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
                            Report& report, const double* x, double* world) {
   const Upright upright = unfolded(control, report, x);
   x = upright.x;
+  warn_of_thickness(finest(), *problem_.workers, x, problem_.options, report);
   if (measured) {
     watch.enter(Phase::measure, 0.75);
     report.result = energies(x);

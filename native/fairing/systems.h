@@ -56,7 +56,7 @@ class FairingSystems {
   void measure_prediction(const double* x, Stopwatch& watch, Report& report);
 
   // The surface x, in working coordinates, to `world`, which may be the same array; its energies,
-  // where they are to be `measured`, and its deviation to `report`. Throws too_extreme where the
+  // where they are to be `measured`, its deviation and what is to be said of its thickness to `report`. Throws too_extreme where the
   // surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const double* x, double* world);

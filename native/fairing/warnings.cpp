@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <numbers>
 #include <utility>
+#include <vector>
 
+#include "base/points.h"
 #include "fairing/fixed_normals.h"
+#include "grid/thickness.h"
 #include "hold/control_hold.h"
 #include "mesh/vertex_pair.h"
 #include "parallel/memory_news.h"
@@ -74,6 +77,13 @@ Warning of_plate(const LevelReport& level, const FairOptions& options) {
 }
 
 Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
+  if (level.swollen)
+    return warning(
+        "NOT_CONVERGED_SWOLLEN",
+        "On level %d most of the surface would swell to many times the thickness of the control "
+        "mesh, or turn inside out, and steps would not settle soon. You get the thin plate's "
+        "surface. Use energy=\"thin_plate\", tension or interpolation=\"limit\".",
+        level.level);
   if (level.kept_start)
     return warning(
         "NOT_CONVERGED_START",
@@ -92,6 +102,24 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
       "On level %d the steps stopped after %zu with some %.1e of the mesh's size left to move "
       "(target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
       level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
+}
+
+// Of cures, those that have not been taken. Tension and limit positions hold what swells. What is
+// hollow spans long faces across a tight turn, which lengths to a smaller exponent make more even
+// (measured: a wing, at 0.25); tension would draw it in further.
+std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
+  std::vector<std::string> cures;
+  if (options.energy != Energy::thin_plate) cures.push_back("energy=\"thin_plate\"");
+  if (!is_thicker && options.metric_exponent > 0.25) cures.push_back("metric_exponent=0.25");
+  if (is_thicker && options.energy != Energy::minimum_variation && options.tension < 1)
+    cures.push_back("more tension");
+  if (is_thicker && options.interpolation == Interpolation::exact)
+    cures.push_back("interpolation=\"limit\"");
+  cures.push_back("more vertices there");
+  std::string text = "Use " + cures[0];
+  for (std::size_t i = 1; i < cures.size(); ++i)
+    text += (i + 1 < cures.size() ? ", " : " or ") + cures[i];
+  return text + ".";
 }
 
 }  // namespace
@@ -113,6 +141,27 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
                                  "them by more than the faces there are wide. Add vertices along "
                                  "the curve, or widen these faces.",
                              ids, ElementKind::edge});
+}
+
+void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
+                       const FairOptions& options, Report& report) {
+  const ControlMesh& mesh = grid.mesh();
+  std::vector<Vec3> control;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) control.push_back(point_at(x, v));
+  const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x);
+  if (change.faces.empty()) return;
+  std::vector<std::int64_t> polygons;
+  for (const Index f : change.faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);
+  std::sort(polygons.begin(), polygons.end());
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  char how[120] = " that has passed through the opposite side. ";
+  if (change.worst > -1)
+    std::snprintf(how, sizeof how, " that is up to %.3g times as thick as the mesh. ",
+                  1 + change.worst);
+  report.warnings.push_back({"THICKNESS_CHANGED",
+                             listing(face_s, polygons, {"has a surface", "have a surface"}) + how +
+                                 cure_of_thickness(options, change.worst > 0),
+                             polygons, ElementKind::face});
 }
 
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run says of itself: that it takes more memory than was predicted, has straight lines
-// in the place of curves, or has not converged.
+// in the place of curves, has not converged, or has made a body thicker or thinner.
 #pragma once
 
 #include <string>
 
 #include "fairing/options.h"
 #include "fairing/report.h"
+#include "grid/grid_level.h"
 #include "parallel/memory.h"
+#include "parallel/workers.h"
 
 namespace fairing {
 
@@ -26,5 +28,11 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
 // `surface` may be the same report.
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report);
+
+// Adds a warning where the surface x on the finest level, in working coordinates, is thicker or thinner
+// than the control mesh with its vertices where the surface has them (grid/thickness.h), with the
+// faces, by how much, and what to do.
+void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
+                       const FairOptions& options, Report& report);
 
 }  // namespace fairing

