@@ -20,6 +20,43 @@ Unknowns points_to_fill(const FairingProblem& problem) {
   return unknowns;
 }
 
+// Connected patches of marked points: each has the number of the first point of its patch.
+class Patches {
+ public:
+  Patches(const GridLevel& grid, const Array<float>& marks) : first_(grid.size(), Index(-1)) {
+    const int n = grid.n();
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (marks[i] > 0) first_[i] = Index(i);
+    const std::vector<Face>& faces = grid.mesh().faces;
+    for (Index f = 0; f < Index(faces.size()); ++f) {
+      const bool quad = faces[std::size_t(f)].quad();
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i < (quad ? n : n - j); ++i) {
+          join(grid.face_point(f, i, j), grid.face_point(f, i + 1, j));
+          join(grid.face_point(f, j, i), grid.face_point(f, j, i + 1));
+        }
+    }
+  }
+
+  Index of(Index point) {  // -1: not marked
+    while (point >= 0 && first_[std::size_t(point)] != point) {
+      const Index next = first_[std::size_t(point)];
+      if (next >= 0) first_[std::size_t(point)] = first_[std::size_t(next)];
+      point = next;
+    }
+    return point;
+  }
+
+ private:
+  void join(Index a, Index b) {
+    a = of(a);
+    b = of(b);
+    if (a >= 0 && b >= 0) first_[std::size_t(std::max(a, b))] = std::min(a, b);
+  }
+
+  std::vector<Index> first_;
+};
+
 class PlateUnfolding {
  public:
   PlateUnfolding(const FairingProblem& problem, const ControlPositions& control,
@@ -58,6 +95,11 @@ class PlateUnfolding {
       apply(repair, polyhedron_, surface);
       folds = find();
     }
+    while (folds.count() > 0 && leave_out_folded(surface, folds, repair)) {
+      surface = plate;
+      apply(repair, polyhedron_, surface);
+      folds = find();
+    }
     if (count_all(surface) < count_all(plate)) return repair;
     surface = plate;
     return {};
@@ -90,6 +132,35 @@ class PlateUnfolding {
         for (int i = 0; i <= (quad ? n : n - j); ++i)
           marks[std::size_t(grid_.face_point(f, i, j))] = 0;
     }
+  }
+
+  // A place that still has folds stays as it was: half a repair changes the surface there for nothing.
+  // Returns whether there are such places.
+  bool leave_out_folded(const Array<double>& surface, const Folds& folds, PlateRepair& repair) {
+    Patches patches(grid_, repair.filled);
+    Array<float> marks;
+    mark_folds(grid_, surface.data(), folds, marks);
+    dilate_by(1, marks);
+    std::vector<std::uint8_t> is_folded(grid_.size(), 0);  // by a patch's number
+    bool any = false;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      const Index patch = marks[i] > 0 ? patches.of(Index(i)) : Index(-1);
+      if (patch < 0) continue;
+      is_folded[std::size_t(patch)] = 1;
+      any = true;
+    }
+    const auto is_left = [&](Index point) {
+      const Index patch = patches.of(point);
+      return patch >= 0 && is_folded[std::size_t(patch)];
+    };
+    std::erase_if(repair.straightened, [&](Index e) {
+      for (int k = 1; k < grid_.n(); ++k)
+        if (is_left(grid_.edge_point(e, k))) return true;
+      return false;
+    });
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (is_left(Index(i))) repair.filled[i] = 0;
+    return any;
   }
 
   void dilate_by(int rings, Array<float>& marks) {

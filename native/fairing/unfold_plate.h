@@ -18,8 +18,8 @@ struct PlateRepair {
 };
 
 // Takes the folds that the control mesh has not out of the surface: around them points go where they
-// are in order (fill_harmonically), then farther around those that are left. Where none are near,
-// the surface stays to the last bit. 3 numbers a point of the finest level, in working coordinates.
+// are in order (fill_harmonically), then farther around those that are left. Where none are near, and
+// where some would be left even so, the surface stays to the last bit. 3 numbers a point of the finest level, in working coordinates.
 // May throw FairingError(cancelled).
 PlateRepair unfold_plate(const FairingProblem& problem, const ControlPositions& control,
                          const GridLevel& grid, Array<double>& surface);

@@ -82,12 +82,11 @@ def test_reported_energies_are_of_bending_alone(name):
     assert steps["steps"][-1]["energy"] > 1.05 * steps["energy"]  # these judge by the sum
 
 
-# A bubble, like total curvature's fish, collapses with the first little tension. Spot's plate folds, and
-# how many folds can be taken out changes with the second step: it takes 0.093 for 0.038 to 0.049.
+# A bubble, like total curvature's fish, collapses with the first little tension.
 @pytest.mark.parametrize(
     ("name", "energy", "uneven"),
     (
-        ("spot", "thin_plate", 2.6),
+        ("spot", "thin_plate", 1.6),
         ("spot", "total_curvature", 1.7),
         ("fish", "thin_plate", 1.6),
         ("fish", "total_curvature", np.inf),
