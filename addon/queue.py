@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from threading import Thread, get_native_id
-from typing import Any, TextIO
+from typing import Any, Protocol, TextIO
 from weakref import WeakSet
 
 from .errors import JobCancelled, JobError
@@ -28,14 +28,41 @@ _running = None  # the queue in progress
 _started: "WeakSet[Queue]" = WeakSet()
 
 
-class Queue:
-    """A row of jobs; each has `name`, `triangles` and `compute(monitor=…)`.
+class Runnable(Protocol):
+    """What a queue runs: read on the main thread when it is made, computed on any."""
 
-    Nothing of Blender is touched on the thread: all that it runs is `Job.compute`.
-    """
+    name: str  # what sentences call it
+
+    @property
+    def triangles(self) -> int:
+        """How large it is, for the bar."""
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core, whose `monitor` and `progress` the `watchers` are; raises JobError."""
+
+
+class TimedJob(Runnable, Protocol):
+    """One for an object of the user, who may wait for it."""
+
+    result: Any  # what was computed; None before
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+
+
+class MeshJob(TimedJob, Protocol):
+    """One that changes a mesh which others may have changed meanwhile."""
+
+    def why_outdated(self, context: Any) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+
+
+class Queue:
+    """A row of jobs. Nothing of Blender is touched on the thread: all that it runs is `compute`."""
 
     def __init__(
-        self, jobs: Sequence[Any], make_monitor: Callable[[], Any], gives_way: bool = False
+        self, jobs: Sequence[Runnable], make_monitor: Callable[[], Any], gives_way: bool = False
     ) -> None:
         """`make_monitor()` gives the core's Monitor, one a job. `gives_way`: whether it ends once
         anything else is to run.

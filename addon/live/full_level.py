@@ -30,10 +30,10 @@ class FreshSolver:
         self._arguments = arguments
         self.solver = None
 
-    def compute(self, monitor: Any = None) -> None:
+    def compute(self, **watchers: Any) -> None:
         with errors.explained(self.name):
             solver = core.module().Solver(**self._arguments)
-            solver.solve(monitor=monitor)
+            solver.solve(**watchers)
         self.solver = solver
 
 

@@ -2,7 +2,7 @@
 """Clean Scan: from a scan as it comes to a closed surface, with a list of what was done."""
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import cast
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
@@ -64,19 +64,16 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
             layout.prop(self, "largest")
         layout.prop(self, "noise")
 
-    def make_jobs(self, context: Context) -> list[Any]:
+    def make_jobs(self, context: Context) -> list[CleanJob]:
         steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
         wish = Wish(steps, self.islands, self.largest, self.noise)
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, wish) for target in targets]
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[CleanJob]) -> Answer:
         """Changes the meshes, if nobody else has meanwhile."""
-        for job in jobs:
-            reason = job.why_outdated(context)
-            if reason:
-                self.report({"ERROR"}, reason)
-                return {"CANCELLED"}
+        if self.is_outdated(context, jobs):
+            return {"CANCELLED"}
         for job in jobs:
             said = job.apply(context)
             for sentence in said[:-1]:

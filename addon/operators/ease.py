@@ -25,11 +25,8 @@ class _Easing(WholeFairing):
     cancelled_text = "Easing was cancelled: nothing has changed"
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
-        for job in jobs:
-            reason = job.why_outdated(context)
-            if reason:
-                self.report({"ERROR"}, reason)
-                return {"CANCELLED"}
+        if self.is_outdated(context, jobs):
+            return {"CANCELLED"}
         self.write(context, list(jobs))
         for job in jobs:
             job.note()

@@ -20,7 +20,7 @@ from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
-from ..queue import ConsoleProgress, running
+from ..queue import ConsoleProgress, MeshJob, running
 from ..settings import FairingSettings, fill_in, take_near
 from ..ui.layout import draw_settings
 from . import fill
@@ -203,6 +203,13 @@ class WholeFairing(Fairing):
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
         fill.repeat_soon(context, self)
         return {"FINISHED"}
+
+    def is_outdated(self, context: Context, jobs: Sequence[MeshJob]) -> bool:
+        """Whether somebody else has changed a mesh meanwhile, which is said."""
+        reason = next(filter(None, (job.why_outdated(context) for job in jobs)), "")
+        if reason:
+            self.report({"ERROR"}, reason)
+        return bool(reason)
 
 
 class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):

@@ -19,7 +19,7 @@ from ..memory import source_of
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import Reference, new_object
 from ..mesh.own import carried_names
-from ..queue import running
+from ..queue import TimedJob, running
 from ..settings import copy_settings, is_limit, wants_modifiers
 from .modal import ModalRun
 
@@ -29,7 +29,7 @@ _SOON = 0.1  # seconds; Live's own comes first
 _due: list[Reference] = []  # the surfaces that are still to be made whole
 
 
-def predicted_seconds(jobs: Sequence[Job]) -> float:
+def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
     return sum(job.predicted_seconds for job in jobs)
 
 

@@ -2,7 +2,7 @@
 """Fill Hole Fair: holes of the mesh itself, closed so that nobody sees where they were."""
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import cast
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProperty
@@ -91,7 +91,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
 
-    def make_jobs(self, context: Context) -> list[Any]:
+    def make_jobs(self, context: Context) -> list[HoleJob]:
         replaces = bool(context.tool_settings.mesh_select_mode[2])
         named = (self.edge[0], self.edge[1]) if min(self.edge) >= 0 else None
         targets = (
@@ -107,7 +107,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
             self.quads,
             named,
         )
-        jobs: list[Any] = []
+        jobs: list[HoleJob] = []
         self._reasons: list[str] = []
         for target in targets:
             try:
@@ -118,7 +118,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
             raise JobError(" ".join(self._reasons))
         return jobs
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[HoleJob]) -> Answer:
         """Changes the meshes that can be filled, and says why others cannot."""
         reasons = list(self._reasons)
         ready = []

@@ -2,7 +2,7 @@
 """Fair Selected Faces in Place, and Fair Scan in Place: meshes themselves, by request and with undo."""
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import cast
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -117,7 +117,7 @@ class InPlace(WholeFairing):
         if self.energy != "MINIMUM_VARIATION":
             layout.prop(self, "tension")
 
-    def make_jobs(self, context: Context) -> list[Any]:
+    def make_jobs(self, context: Context) -> list[in_place.InPlaceJob]:
         wish = in_place.Wish(
             self.levels,
             self.joint,
@@ -137,13 +137,10 @@ class InPlace(WholeFairing):
         """Whose faces; raises JobError."""
         raise NotImplementedError
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[in_place.InPlaceJob]) -> Answer:
         """Changes the meshes, if nobody else has meanwhile."""
-        for job in jobs:
-            reason = job.why_outdated(context)
-            if reason:
-                self.report({"ERROR"}, reason)
-                return {"CANCELLED"}
+        if self.is_outdated(context, jobs):
+            return {"CANCELLED"}
         for job in jobs:
             job.apply()
             for sentence in job.notes:

@@ -29,6 +29,7 @@ class ModalRun(OperatorBase):
 
     def start(self, context: Context, jobs: list[Job]) -> Answer:
         """Begins; the operator returns what this returns."""
+        self._jobs = jobs
         self._queue = Queue(jobs, core.module().Monitor, self.gives_way)
         set_running(self._queue)
         self._progress = Progress()
@@ -64,7 +65,7 @@ class ModalRun(OperatorBase):
         elif queue.cancelled and not self.gives_way:
             self.report({"INFO"}, self.cancelled_text)
         elif not queue.cancelled:
-            return self.finish(context, list(queue.jobs))
+            return self.finish(context, self._jobs)
         return {"CANCELLED"}
 
     def _clean_up(self, context: Context) -> None:
