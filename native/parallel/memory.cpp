@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "parallel/memory_news.h"
 
@@ -21,8 +22,10 @@
 namespace fairing {
 namespace {
 
-thread_local MemoryLedger* open_ledger = nullptr;
+thread_local std::vector<MemoryLedger*> ledgers;  // the open one last
 thread_local MemoryNews* run_news = nullptr;
+
+MemoryLedger* open_ledger() { return ledgers.empty() ? nullptr : ledgers.back(); }
 
 // A run that takes no more than this is not told of; nor is one within a tenth of what was predicted.
 // Afterwards every quarter more is.
@@ -48,36 +51,41 @@ MemoryNewsScope::MemoryNewsScope(MemoryNews& news) { run_news = &news; }
 MemoryNewsScope::~MemoryNewsScope() { run_news = nullptr; }
 
 void announce_memory(std::size_t bytes) {
-  if (open_ledger && run_news) run_news->needs(open_ledger->current() + bytes);
+  if (const MemoryLedger* const open = open_ledger(); open && run_news)
+    run_news->needs(open->current() + bytes);
 }
 
 bool is_expected_memory(std::size_t bytes) {
-  if (!open_ledger || !run_news || run_news->predicted() == 0) return true;
-  return open_ledger->current() + bytes <= std::max(2 * run_news->predicted(), small_run);
+  const MemoryLedger* const open = open_ledger();
+  if (!open || !run_news || run_news->predicted() == 0) return true;
+  return open->current() + bytes <= std::max(2 * run_news->predicted(), small_run);
 }
 
-MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { open_ledger = this; }
+MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { ledgers.push_back(this); }
 
-MemoryLedger::~MemoryLedger() { open_ledger = nullptr; }
+// A solver's may end before one that was opened later.
+MemoryLedger::~MemoryLedger() { std::erase(ledgers, this); }
 
 void MemoryLedger::add(std::size_t bytes) {
-  if (!open_ledger) return;
-  open_ledger->current_ += bytes;
-  open_ledger->peak_ = std::max(open_ledger->peak_, open_ledger->current_);
+  MemoryLedger* const open = open_ledger();
+  if (!open) return;
+  open->current_ += bytes;
+  open->peak_ = std::max(open->peak_, open->current_);
   announce_memory(0);  // a new array has no pages before it is written
 }
 
 void MemoryLedger::remove(std::size_t bytes) {
-  if (open_ledger) open_ledger->current_ -= std::min(bytes, open_ledger->current_);
+  if (MemoryLedger* const open = open_ledger()) open->current_ -= std::min(bytes, open->current_);
 }
 
-std::size_t MemoryLedger::held() { return open_ledger ? open_ledger->current_ : 0; }
+std::size_t MemoryLedger::held() { return open_ledger() ? open_ledger()->current_ : 0; }
 
-std::size_t MemoryLedger::highest() { return open_ledger ? open_ledger->peak_ : 0; }
+std::size_t MemoryLedger::highest() { return open_ledger() ? open_ledger()->peak_ : 0; }
 
 bool MemoryLedger::fits(std::size_t bytes) {
-  if (!open_ledger || open_ledger->limit_ == 0) return true;
-  return bytes <= open_ledger->limit_ && open_ledger->current_ <= open_ledger->limit_ - bytes;
+  const MemoryLedger* const open = open_ledger();
+  if (!open || open->limit_ == 0) return true;
+  return bytes <= open->limit_ && open->current_ <= open->limit_ - bytes;
 }
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
