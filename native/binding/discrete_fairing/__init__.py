@@ -10,6 +10,7 @@ from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
+from .denoising import Denoised, denoise
 from .easing import Eased, ease
 from .errors import MemoryWarning
 from .fairing import fair
@@ -27,6 +28,7 @@ __all__ = [
     "Act",
     "Cleaned",
     "Defect",
+    "Denoised",
     "Eased",
     "FairingError",
     "Filled",
@@ -43,6 +45,7 @@ __all__ = [
     "__version__",
     "check",
     "clean",
+    "denoise",
     "ease",
     "fair",
     "fill_holes",
