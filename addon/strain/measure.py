@@ -89,7 +89,12 @@ class StrainJob:
             found = core.module().strain(**self.arguments, **watchers)
         back = self._shape.way_back[:3, :3]
         self.result = Strained(
-            self.positions, found.excess_ways @ back, found.excess, found.floor, self._edge_length
+            self.positions,
+            found.excess_ways @ back,
+            found.excess,
+            found.floor,
+            self._edge_length,
+            found.wrong,
         )
         self.taken = perf_counter() - begun
 

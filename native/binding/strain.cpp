@@ -22,6 +22,10 @@ py::array_t<double> points(const std::vector<Vec3>& values) {
   return out;
 }
 
+py::array_t<std::uint8_t> flags(const std::vector<std::uint8_t>& values) {
+  return py::array_t<std::uint8_t>(py::ssize_t(values.size()), values.data());
+}
+
 py::dict strain_of_arrays(const Contiguous<double>& vertices,
                           const Contiguous<std::int64_t>& corners,
                           const Contiguous<std::int64_t>& offsets, const FairOptions& options,
@@ -37,8 +41,8 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
   d["excess"] = numbers(strain.excess.own.lengths);
   d["excess_ways"] = points(strain.excess.own.ways);
   d["floor"] = strain.excess.floor;
-  d["on_curve"] =
-      py::array_t<std::uint8_t>(py::ssize_t(strain.on_curve.size()), strain.on_curve.data());
+  d["wrong"] = flags(strain.excess.wrong);
+  d["on_curve"] = flags(strain.on_curve);
   return d;
 }
 
@@ -63,6 +67,7 @@ py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
   d["strain_before"] = numbers(result.before.own.lengths);
   d["strain_after"] = numbers(result.after.own.lengths);
   d["floor"] = result.before.floor;
+  d["wrong"] = flags(result.before.wrong);
   d["amount"] = result.amount;
   d["noise"] = result.noise;
   d["iterations"] = result.iterations;

@@ -259,8 +259,8 @@ class Easing {
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
     for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
       out_.moves[v] = out_.moves[std::size_t(origin[v])];
-    fairing::restore(out_.before.own, origin);
-    fairing::restore(out_.after.own, origin);
+    fairing::restore(out_.before, origin);
+    fairing::restore(out_.after, origin);
   }
 
   const Mending& mending_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include "fairing/fair.h"
 #include "fairing/mending.h"
@@ -59,11 +60,15 @@ namespace {
 // Between two vertices of one solve: 36 sets, and so 12 solves, on quads. G falls by some 2.6 a ring.
 constexpr int rings_apart = 6;
 
-Strain strain_of(const Mending& mending, Monitor& monitor) {
+// What is left of a gross error beside it once it has been let go, at most, as a share of it: 0.072 on
+// terrains of 676 and 1,681 vertices, one of them 100 m off. It bends charts, and the matrix of loads is
+// cut off.
+constexpr double echo = 0.08;
+
+Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
   Report report;
   Stopwatch watch(report, monitor);
-  const std::unique_ptr<const FairingProblem> problem =
-      make_problem(mending.mesh(), mending.options(), watch, report);
+  const std::unique_ptr<const FairingProblem> problem = make_problem(mesh, options, watch, report);
   StrainGauge::require_room(*problem, rings_apart);
   FairingSystems systems(*problem, monitor);
   const PlateLoads loads = solve_loads(*problem, systems, problem->basis, watch);
@@ -75,18 +80,64 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
   return out;
 }
 
+double largest_wrong(const Excess& excess) {
+  double largest = 0;
+  for (std::size_t v = 0; v < excess.wrong.size(); ++v)
+    if (excess.wrong[v]) largest = std::max(largest, std::abs(excess.own.lengths[v]));
+  return largest;
+}
+
+// Gross errors are put right, and all is measured again, as long as that leaves less than half of
+// them.
+Strain strain_of(const Mending& mending, Monitor& monitor) {
+  PolygonMesh mesh = mending.mesh();
+  std::vector<double> at(mesh.coordinates.begin(), mesh.coordinates.end());
+  mesh.coordinates = at;
+  double left = 0.25;  // of the progress
+  monitor.enter_part(0, 1 - left);
+  Strain out = strain_once(mesh, mending.options(), monitor);
+  Excess& excess = out.excess;
+  std::vector<Vec3> ways(excess.wrong.size(), Vec3::Zero());
+  std::vector<double> lengths(ways.size(), 0);
+  std::vector<std::uint8_t> wrong(ways.size(), 0);
+  double largest = largest_wrong(excess);
+  const double least = mending.options().solve.relative_residual * largest;
+  while (largest > least && largest * echo > excess.floor) {
+    for (std::size_t v = 0; v < ways.size(); ++v) {
+      if (!excess.wrong[v] || std::abs(excess.own.lengths[v]) < largest * echo) continue;
+      wrong[v] = 1;
+      ways[v] += excess.own.ways[v];
+      lengths[v] += excess.own.lengths[v];
+      for (std::size_t a = 0; a < 3; ++a) at[3 * v + a] += excess.own.ways[v][Eigen::Index(a)];
+    }
+    monitor.enter_part(1 - left, 1 - left / 2);
+    left /= 2;
+    excess = strain_once(mesh, mending.options(), monitor).excess;
+    const double before = std::exchange(largest, largest_wrong(excess));
+    if (largest > before / 2) break;
+  }
+  for (std::size_t v = 0; v < ways.size(); ++v) {
+    excess.own.ways[v] += ways[v];
+    excess.own.lengths[v] += lengths[v];
+    excess.wrong[v] |= wrong[v];
+  }
+  monitor.enter_part(0, 1);
+  return out;
+}
+
 }  // namespace
 
 Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   const CancelScope scope(&monitor);
   try {
     const FairOptions own = options_of_strain(options);
+    const MemoryLedger ledger(own.bytes_allowed());
     const Mending mending(input, own);
     Strain out = mending.in_input_ids([&] { return strain_of(mending, monitor); });
     if (mending.mended()) {
       const std::vector<Index>& origin = mending.mended()->vertex_origin;
       restore(out.all, origin);
-      restore(out.excess.own, origin);
+      restore(out.excess, origin);
       for (std::size_t v = 0; v < std::min(origin.size(), out.on_curve.size()); ++v)
         out.on_curve[v] = out.on_curve[std::size_t(origin[v])];
     }

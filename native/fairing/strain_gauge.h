@@ -25,13 +25,16 @@ struct Ways {
 // (strain/excess.h), of loads that have moments on borders (strain/border_moments.h).
 struct Excess {
   Ways own;
-  // What it may be without saying anything: scatter, and a fair shape between its vertices. By a
-  // median, which a few wrong vertices do not change.
+  // What scatter makes of it. By a median, which a few wrong vertices do not change.
   double floor = 0;
+  // One an input vertex, over zero: it is above that, and stands out from what is around it. A fair
+  // shape strains between its vertices too, here more and there less.
+  std::vector<std::uint8_t> wrong;
 };
 
 // Each vertex that was merged with another gets what that one has: `origin` one a vertex.
 void restore(Ways& ways, const std::vector<Index>& origin);
+void restore(Excess& excess, const std::vector<Index>& origin);
 
 class StrainGauge {
  public:
@@ -62,6 +65,8 @@ class StrainGauge {
   void find_images();
   Columns ways_of(Columns loads) const;
   Ways in_mesh_units(const Columns& ways) const;
+  std::vector<double> lengths_of(const Columns& ways) const;
+  std::vector<double> floors_of(const std::vector<double>& lengths, double floor) const;
 
   const FairingProblem& problem_;
   CurveLoads curves_;

@@ -10,7 +10,7 @@
 namespace fairing {
 
 // Bytes held by the Arrays that the current thread allocates while a ledger is open.
-// Ledgers do not nest; worker threads never allocate Arrays.
+// Of several the last opened counts; worker threads never allocate Arrays.
 class MemoryLedger {
  public:
   // `limit`, in bytes; 0: none. It is kept by those who ask.

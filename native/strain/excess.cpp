@@ -14,8 +14,8 @@ using Way = Eigen::RowVector3d;
 
 class LettingGo {
  public:
-  LettingGo(const Straining& of, const Columns& loads, double floor)
-      : of_(of), columns_(of.matrix.transpose()), left_(loads), floor_(floor) {
+  LettingGo(const Straining& of, const Columns& loads, const std::vector<double>& floors)
+      : of_(of), columns_(of.matrix.transpose()), left_(loads), floors_(floors) {
     const Eigen::VectorXd own = of.matrix.diagonal();
     const Eigen::VectorXd inverse =
         own.unaryExpr([](double load) { return load > 0 ? 1 / load : 0.0; });
@@ -66,7 +66,8 @@ class LettingGo {
   double length_of(Index j) const { return way_length(way(j), of_.normals.row(j)); }
   void offer(Index j) {
     if (!is_free(j)) return;
-    if (const double length = length_of(j); length > floor_) longest_.emplace(length, j);
+    if (const double length = length_of(j); length > floors_[std::size_t(j)])
+      longest_.emplace(length, j);
   }
 
   // What letting go of a row and its images does to all ways.
@@ -86,7 +87,7 @@ class LettingGo {
     for (LoadMatrix::InnerIterator entry(columns_, longest); entry; ++entry) {
       const auto j = Index(entry.col());
       if (images_of(j).size() <= images_of(longest).size()) continue;
-      if (!is_free(j) || !(length_of(j) > floor_)) continue;
+      if (!is_free(j) || !(length_of(j) > floors_[std::size_t(j)])) continue;
       if (const double left = left_without(j); left < least) least = left, best = j;
     }
     return best;
@@ -105,7 +106,7 @@ class LettingGo {
   const Straining& of_;
   LoadMatrix columns_;  // row j: the ways that a way of j, all of it, takes off
   Columns left_;
-  const double floor_;
+  const std::vector<double>& floors_;
   std::vector<std::uint8_t> gone_;
   std::vector<double> with_images_;
   std::priority_queue<std::pair<double, Index>> longest_;  // as it was when offered
@@ -117,8 +118,9 @@ double way_length(const Way& way, const Way& normal) {
   return normal.isZero(0) ? way.norm() : std::abs(way.dot(normal));
 }
 
-Columns ways_one_by_one(const Straining& of, const Columns& loads, double floor) {
-  return LettingGo(of, loads, floor).run();
+Columns ways_one_by_one(const Straining& of, const Columns& loads,
+                        const std::vector<double>& floors) {
+  return LettingGo(of, loads, floors).run();
 }
 
 }  // namespace fairing

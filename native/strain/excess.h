@@ -3,6 +3,8 @@
 // half, to the other side.
 #pragma once
 
+#include <vector>
+
 #include "strain/ease.h"
 
 namespace fairing {
@@ -17,8 +19,9 @@ struct Straining {
 double way_length(const Eigen::RowVector3d& way, const Eigen::RowVector3d& normal);
 
 // Of these loads the ways -g_j / G_jj, as one row after the other is let go, with its images: each time
-// the one with the longest way, as long as that is over `floor`. And the ways that are left to the
-// others.
-Columns ways_one_by_one(const Straining& of, const Columns& loads, double floor);
+// the one with the longest way, as long as that is over its own of the `floors`. And the ways that are
+// left to the others.
+Columns ways_one_by_one(const Straining& of, const Columns& loads,
+                        const std::vector<double>& floors);
 
 }  // namespace fairing

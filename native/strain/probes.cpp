@@ -24,9 +24,8 @@ class Rings {
   explicit Rings(const ControlMesh& mesh)
       : mesh_(mesh), seen_(std::size_t(mesh.vertex_count()), -1) {}
 
-  // visit(u) for v, its copies, and all vertices at most so many rings away from them.
-  template <class Visit>
-  void visit(Index v, int rings, Visit&& visit) {
+  // v, its copies, and all vertices at most so many rings away from them.
+  const std::vector<Index>& around(Index v, int rings) {
     found_.clear();
     mesh_.for_each_copy(v, [&](Index u) { add(u, v); });
     for (std::size_t begin = 0; rings > 0 && begin < found_.size(); --rings) {
@@ -36,7 +35,7 @@ class Rings {
         visit_neighbours(mesh_, found_[begin], [&](Index u) { add(u, v); });
       }
     }
-    for (const Index u : found_) visit(u);
+    return found_;
   }
 
  private:
@@ -58,12 +57,11 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
   std::vector<std::vector<Index>> sets;
   std::vector<Index> set_of(std::size_t(mesh.vertex_count()), -1);
   std::vector<Index> too_near;  // of each set: for which vertex it is too near, last
-  Rings around(mesh);
+  Rings rings_of(mesh);
   for (Index v = 0; v < mesh.input_vertices; ++v) {
     if (!pads.under(std::size_t(v))) continue;
-    around.visit(v, rings - 1, [&](Index u) {
+    for (const Index u : rings_of.around(v, rings - 1))
       if (set_of[std::size_t(u)] >= 0) too_near[std::size_t(set_of[std::size_t(u)])] = v;
-    });
     const auto set = std::size_t(
         std::find_if(too_near.begin(), too_near.end(), [&](Index of) { return of != v; }) -
         too_near.begin());
@@ -75,6 +73,13 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
     mesh.for_each_copy(v, [&](Index u) { set_of[std::size_t(u)] = Index(set); });
   }
   return sets;
+}
+
+void visit_around(
+    const ControlMesh& mesh, const std::vector<Index>& vertices, int rings,
+    const std::function<void(std::size_t i, const std::vector<Index>& around)>& visit) {
+  Rings rings_of(mesh);
+  for (std::size_t i = 0; i < vertices.size(); ++i) visit(i, rings_of.around(vertices[i], rings));
 }
 
 std::vector<Index> nearest_of(const ControlMesh& mesh, const std::vector<Index>& set) {

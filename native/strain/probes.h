@@ -22,6 +22,11 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
 // where none is reached. A vertex' copies are as near as it is.
 std::vector<Index> nearest_of(const ControlMesh& mesh, const std::vector<Index>& set);
 
+// visit(i, around) for each of the `vertices`: it, its copies, and all at most so many rings away.
+void visit_around(
+    const ControlMesh& mesh, const std::vector<Index>& vertices, int rings,
+    const std::function<void(std::size_t i, const std::vector<Index>& around)>& visit);
+
 // Calls on_loads(s, loads) for each set, in turn: `loads`, one number a control vertex, are asked for
 // where all vertices of set s have moved by one. `curves`: the solver's, whose points do not move.
 // `on_part`, where given, is told before each solve which part of all of them it is.

@@ -7,9 +7,12 @@
 namespace fairing {
 namespace {
 
-// A curve that turns by more at a vertex, in radians, has a corner there, whether it has been named
-// or not. A regular polygon of seven has none.
-constexpr double corner_turn = 55 * std::numbers::pi / 180;
+// A curve has a corner where it turns, whether the corner has been named or not: a regular polygon of six
+// sides has six, one of seven none, so where it turns by more than one of six and a half would.
+constexpr double full_turn = 2 * std::numbers::pi;
+bool is_corner(const Vec3& before, const Vec3& after) {
+  return before.dot(after) < std::cos(full_turn / 6.5) * before.norm() * after.norm();
+}
 
 }  // namespace
 
@@ -20,8 +23,7 @@ std::vector<Stretch> stretches_of(const Chain& chain, std::span<const Vec3> posi
   for (std::size_t v = 0; v < m; ++v) {
     const bool end = !chain.closed && (v == 0 || v + 1 == m);
     const Vec3 before = at(v) - at(v + m - 1), after = at(v + 1) - at(v);
-    if (end || before.dot(after) < std::cos(corner_turn) * before.norm() * after.norm())
-      corners.push_back(v);
+    if (end || is_corner(before, after)) corners.push_back(v);
   }
   if (corners.empty()) return {{chain.vertices, chain.edges, true}};
   if (chain.closed) corners.push_back(corners.front() + m);

@@ -6,6 +6,9 @@
 
 #include <optional>
 
+#include "fairing/strain.h"
+#include "meshes.h"
+
 namespace fairing::test {
 namespace {
 
@@ -30,6 +33,14 @@ TEST(MemoryLedger, one_that_ends_first_leaves_the_later_one_open) {
   solver.reset();
   MemoryLedger::add(5);
   EXPECT_EQ(run.current(), 5u);
+}
+
+// Its limit is that of the options; what was open before hears of nothing.
+TEST(MemoryLedger, strain_has_one_of_its_own) {
+  const MemoryLedger run;
+  Monitor monitor;
+  measure_strain(torus(8, 6).view(), FairOptions(), monitor);
+  EXPECT_EQ(run.peak(), 0u);
 }
 
 }  // namespace

@@ -244,6 +244,13 @@ def test_it_can_be_cancelled():
     assert caught.value.code == "CANCELLED"
 
 
+def test_a_matrix_beyond_the_memory_limit_is_refused():
+    points, faces = control_meshes.torus(80, 60)
+    with pytest.raises(df.FairingError, match="vertices ask for") as caught:
+        df.strain(points, faces, levels=1, memory_limit=48_000_000)
+    assert caught.value.code == "TOO_LARGE"
+
+
 def test_a_result_has_its_strain_where_it_is_asked_for():
     points, faces = MESHES["torus"]()
     alone = df.strain(points, faces)
@@ -268,3 +275,32 @@ def test_scatter_is_read_off_strain():
     points[:, 2] = 0
     points[inner, 2] = 0.001 * np.random.default_rng(8).normal(size=len(inner))
     assert abs(df.strain(points, faces).noise / 0.001 - 1) < 0.15
+
+
+def terrain(across, wrong=()):
+    """Heights of eight hills on 1000 m, exact but for those that are 25 m `wrong`."""
+    random = np.random.default_rng(1)
+    at = np.linspace(0, 1000, across)
+    x, y = np.meshgrid(at, at, indexing="ij")
+    z = np.full_like(x, 300.0)
+    for _ in range(8):
+        cx, cy = random.uniform(0, 1000), random.uniform(0, 1000)
+        width, height = random.uniform(120, 300), random.uniform(-40, 80)
+        z += height * np.exp(-((x - cx) ** 2 + (y - cy) ** 2) / (2 * width**2))
+    points = np.stack([x, y, z], -1).reshape(-1, 3)
+    points[list(wrong), 2] += 25.0
+    return points, bump(across, across)[1]
+
+
+@pytest.mark.parametrize("across", [15, 26])
+def test_of_exact_terrain_nothing_is_wrong(across):
+    """70 of 225 and 171 of 676 were."""
+    assert df.strain(*terrain(across)).wrong.tolist() == []
+
+
+def test_among_gross_errors_they_alone_are_wrong():
+    """287 of 676 were: what a gross error leaves beside it is above what exact vertices strain."""
+    planted = {26 * 13 + 13, 26 * 3 + 4, 26 * 22 + 5, 26 * 2 + 24}
+    found = df.strain(*terrain(26, planted))
+    assert set(found.wrong[:4].tolist()) == planted and len(found.wrong) <= 8
+    assert np.abs(found.excess[sorted(planted)] + 25).max() < 0.05 * 25

@@ -25,7 +25,7 @@ class Eased:
     moves: (n,) float64, mesh units, how far each vertex has moved.
     strain_before, strain_after: (n,) float64, mesh units, as Strain.excess; NaN at corners and
     outside a region, where vertices stay.
-    floor: float, mesh units: what strain_before may be and say nothing, as Strain.floor.
+    floor, wrong: of strain_before, as of Strain.
     amount: float without a unit, how much has been eased; 0 with `most`.
     noise: float, mesh units: an estimate of the scatter, the root mean square distance of a vertex
     from where it belongs; 0 with `most`.
@@ -40,6 +40,7 @@ class Eased:
         self.strain_before: np.ndarray = found["strain_before"][:count]
         self.strain_after: np.ndarray = found["strain_after"][:count]
         self.floor: float = found["floor"]
+        self.wrong: np.ndarray = _worst_first(self.strain_before, found["wrong"][:count])
         self.amount: float = found["amount"]
         self.noise: float = found["noise"]
         self.iterations: int = found["iterations"]
@@ -47,6 +48,11 @@ class Eased:
     def __repr__(self) -> str:
         moved = int(np.count_nonzero(self.moves))
         return f"Eased({moved} of {len(self.moves)} vertices moved, noise {self.noise:.3g})"
+
+
+def _worst_first(strain: np.ndarray, wrong: np.ndarray) -> np.ndarray:
+    ids = np.flatnonzero(wrong)
+    return ids[np.argsort(-np.abs(strain[ids]), kind="stable")]
 
 
 def ease(

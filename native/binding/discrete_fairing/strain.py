@@ -31,9 +31,11 @@ class Strain:
     excess, excess_ways: (n,), (n, 3) float64, mesh units: the same, of each vertex' own: less what a
     fair shape strains beside a curve, where no moment crosses it; and vertex after vertex, the most
     strained first, less what those before do to their neighbours, as long as one is above the floor.
-    floor: float, mesh units: what excess may be and say nothing, three standard deviations of strains
-    by their median; a surface through few vertices strains by as much where it is fair.
-    wrong: (k,) int64, the vertices whose excess is above the floor, the worst first.
+    floor: float, mesh units: what scatter makes of excess, three standard deviations of strains by
+    their median.
+    wrong: (k,) int64, the vertices whose excess is above the floor and three deviations of what is
+    around them, the worst first; a fair shape strains between its vertices too. Where one is grossly
+    wrong it is put right first, and the others are measured without it.
     noise: float, mesh units: the scatter along the normal that the median strain off curves stands
     for. What the shape itself strains is in it; df.ease() tells the two apart.
     """
@@ -44,6 +46,7 @@ class Strain:
         self.excess: np.ndarray = found["excess"][:count]
         self.excess_ways: np.ndarray = found["excess_ways"][:count]
         self.floor: float = found["floor"]
+        self._is_wrong = found["wrong"][:count] > 0
         lengths, on_curve = self.lengths, found["on_curve"][:count]
         sizes = np.abs(lengths[~np.isnan(lengths) & (on_curve == 0)])
         self.noise = float(OF_MEDIAN / OF_SCATTER * np.median(sizes)) if len(sizes) else 0.0
@@ -57,7 +60,7 @@ class Strain:
     @property
     def wrong(self) -> np.ndarray:
         worst = self.worst(len(self.excess))
-        return worst[np.abs(self.excess[worst]) > self.floor]
+        return worst[self._is_wrong[worst]]
 
     def report(self) -> dict[str, Any]:
         """The largest excess, with its sign, and where; floor, wrong vertices, noise. Vertex -1: nothing
