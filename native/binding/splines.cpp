@@ -106,13 +106,22 @@ py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const Sh
 }
 
 py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const ShortIds& quads,
-                      const ShortIds& crease_edges, int levels, double least, int threads) {
-  const Lattice lattice({levels, view(vertices), view(triangles), view(quads), view(crease_edges)});
-  Workers workers(threads);
-  Topology topology = make_topology(lattice);
-  // turns count at slight ones
-  topology.kinks = CurveSource(lattice, topology).kinks(std::numeric_limits<double>::infinity());
-  return to_numpy(lattice_turns(lattice, topology, least, workers));
+                      const ShortIds& crease_edges, int levels, double least, int threads,
+                      Monitor& monitor, const py::object& progress) {
+  // The arrays are the package's own: nobody else writes to them.
+  const RefinedSurface refined{levels, view(vertices), view(triangles), view(quads),
+                               view(crease_edges)};
+  std::vector<double> turns;
+  run_once(monitor, progress, [&] {
+    monitor.report(Phase::measure, 0);
+    const Lattice lattice(refined);
+    Workers workers(threads);
+    Topology topology = make_topology(lattice);
+    // turns count at slight ones
+    topology.kinks = CurveSource(lattice, topology).kinks(std::numeric_limits<double>::infinity());
+    turns = lattice_turns(lattice, topology, least, workers);
+  });
+  return to_numpy(turns);
 }
 
 }  // namespace
@@ -120,6 +129,7 @@ py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const 
 void bind_splines(py::module_& m) {
   m.def("lattice_turns", &turns_array, exact("vertices"), exact("triangles"), exact("quads"),
         exact("crease_edges"), py::arg("levels"), py::arg("least"), py::arg("threads"),
+        py::arg("monitor"), py::arg("progress"),
         "By control faces, radians: the sharpest turn between two cells of a refined surface, of "
         "those at least `least` high.");
   m.def("fit_splines", &fit_arrays, exact("vertices"), exact("triangles"), exact("quads"),

@@ -8,6 +8,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing import _native
 
 PHASES = [
     "check",
@@ -95,6 +96,18 @@ def test_cancelling_while_patches_are_fitted(reports):
     assert caught.value.code == "CANCELLED" and time.monotonic() - began[-1] < 5
     again = df.fit_patches(*mesh, **options)
     assert again.patch_points.tobytes() == before.patch_points.tobytes()
+
+
+def test_turns_between_cells_are_measured_beside_python_and_can_be_cancelled():
+    surface = df.fair(*meshes.icosahedron(), 4)
+    arrays = surface.vertices, *surface.faces, surface.crease_edges, 4, 0.0, 1
+    asked, monitor = [], _native.Monitor()
+    turns = _native.lattice_turns(*arrays, monitor, lambda *told: asked.append(told))
+    assert len(turns) == 20 and asked
+    monitor.cancel()
+    with pytest.raises(df.FairingError) as caught:
+        _native.lattice_turns(*arrays, monitor, None)
+    assert caught.value.code == "CANCELLED"
 
 
 def test_an_exception_in_progress_comes_out():

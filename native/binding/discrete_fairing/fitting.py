@@ -115,7 +115,7 @@ def fit_patches(
             raise fairing_error("BAD_OPTION", f"levels is {level}; it must be 2 or more, or None.")
         coarser = surface(level - 1, **runs.run(0.0, 0.1))
         result = surface(level, **runs.run(0.1, 0.6))
-        run.refuse(run.sharp_faces(result, level, runs.threads))
+        run.refuse(run.sharp_faces(result, level, runs.run(0.6, 0.6)))
         error = change_between(coarser, result, level) / ORDER
         found = run.checked(run.fitted(result, level, error, runs.run(0.6, 1.0)))
     runs.finish()
@@ -139,10 +139,10 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
         done = part
         if at < level:
             coarser = result
-            folds = run.stays_folded(result, at, finest - at, runs.threads)
-            turns = run.turns(result, at, runs.threads)
+            folds = run.stays_folded(result, at, finest - at, runs.run(done, done))
+            turns = run.turns(result, at, runs.run(done, done))
             continue
-        before, turns = turns, run.turns(result, at, runs.threads)
+        before, turns = turns, run.turns(result, at, runs.run(done, done))
         folds = folds or run.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
         error = change_between(coarser, result, at) / ORDER
@@ -157,7 +157,7 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
         if missing > LATTICE_SHARE and next_count <= most:
             continue
         last = next_count > MOST_POINTS_FOR_FACES
-        sharp = run.sharp_faces(result, at, runs.threads)
+        sharp = run.sharp_faces(result, at, runs.run(done, done))
         if sharp and not run.insist:  # its patches would be refused
             if not last:
                 continue
@@ -253,23 +253,23 @@ class _Run:
         _, bad = self._fit(*part.arrays, level, **watched)
         return bool(bad[chosen_of_part].any())
 
-    def stays_folded(self, result: Result, level: int, finer: int, threads: int) -> bool:
+    def stays_folded(self, result: Result, level: int, finer: int, watched) -> bool:
         """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
         refused then, unless the caller insists.
         """
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         turns = _native.lattice_turns(
-            result.vertices, *result.faces, result.crease_edges, level, 0.0, threads
+            result.vertices, *result.faces, result.crease_edges, level, 0.0, **watched
         )
         bad = turns > limit
         self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
         return bool(bad.any())
 
-    def turns(self, result: Result, level: int, threads: int) -> np.ndarray:
+    def turns(self, result: Result, level: int, watched) -> np.ndarray:
         """(F,) the sharpest turn of each control face that is not lower than the tolerance."""
         least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
         return _native.lattice_turns(
-            result.vertices, *result.faces, result.crease_edges, level, least, threads
+            result.vertices, *result.faces, result.crease_edges, level, least, **watched
         )
 
     def stays_sharp(
@@ -284,9 +284,9 @@ class _Run:
         self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
         return bool(bad.any())
 
-    def sharp_faces(self, result: Result, level: int, threads: int) -> list[int]:
+    def sharp_faces(self, result: Result, level: int, watched) -> list[int]:
         """Those where the refined surface itself folds or turns too sharply: no patch serves."""
-        turns = self.turns(result, level, threads)
+        turns = self.turns(result, level, watched)
         return np.unique(control_polygons(result, level)[turns > TURN_LIMIT]).tolist()
 
     def checked(self, patches: SplinePatches) -> SplinePatches:
