@@ -52,7 +52,7 @@ class Wish:
     steps: dict[str, bool]
     islands: float
     largest: float
-    noise: int
+    noise: int | str  # passes, or "auto"
 
 
 class CleanJob:

@@ -39,8 +39,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--clean-noise",
         type=_passes,
         metavar="N",
-        help="passes of a filter that takes noise off, up to 1000; ten do for most scans "
-        f"[{DEFAULTS['clean_noise']}]",
+        help="auto takes off as much noise around each vertex as the scan there allows; a number is passes of a "
+        f"filter, faster and everywhere the same, up to 1000: ten do for most scans [{DEFAULTS['clean_noise']}]",
     )
 
 
@@ -103,9 +103,13 @@ def _share(text: str) -> float:
     return value
 
 
-def _passes(text: str) -> int:
+def _passes(text: str) -> int | str:
+    if text == "auto":
+        return text
     if not text.isdecimal() or int(text) > 1000:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to 1000")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is neither auto nor a whole number from 0 to 1000"
+        )
     return int(text)
 
 

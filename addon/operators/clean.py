@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import cast
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender import Answer, Context, registration
 from ..cleaning import STEPS, CleanJob, Wish
@@ -40,11 +40,29 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
         max=1.0,
         subtype="FACTOR",
     )
-    noise: IntProperty(
+    noise: EnumProperty(
         name="Noise",
-        description="Passes of a filter that takes noise off all but creased and sharp edges, or 0 for none",
-        default=0,
-        min=0,
+        description="What happens to the noise of measured vertices; creased and sharp edges stay",
+        items=(
+            ("NONE", "Leave", "Noise stays"),
+            (
+                "AUTO",
+                "Take Off",
+                "As much is taken off around each vertex as the scan there allows: edges stay sharp, details stay",
+            ),
+            (
+                "PASSES",
+                "Fast",
+                "So many passes of a filter, everywhere the same: edges are rounded",
+            ),
+        ),
+        default="NONE",
+    )
+    passes: IntProperty(
+        name="Passes",
+        description="Ten do for a scan whose noise is a tenth of its edges",
+        default=10,
+        min=1,
         max=1000,
         soft_max=30,
     )
@@ -63,10 +81,13 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
         if self.fill:
             layout.prop(self, "largest")
         layout.prop(self, "noise")
+        if self.noise == "PASSES":
+            layout.prop(self, "passes")
 
     def make_jobs(self, context: Context) -> list[CleanJob]:
         steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
-        wish = Wish(steps, self.islands, self.largest, self.noise)
+        noise = {"NONE": 0, "AUTO": "auto", "PASSES": self.passes}[self.noise]
+        wish = Wish(steps, self.islands, self.largest, noise)
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, wish) for target in targets]
 

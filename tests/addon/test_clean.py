@@ -199,7 +199,7 @@ def test_noise_is_taken_off_in_all_shape_keys():
     for point in target.shape_key_add(name="Wide").data:
         point.co.x += 0.25
     before = radii(target).std()
-    assert bpy.ops.object.fairing_clean(noise=10) == {"FINISHED"}
+    assert bpy.ops.object.fairing_clean(noise="PASSES", passes=10) == {"FINISHED"}
     assert radii(target).std() < 0.6 * before
     basis, wide = positions(target.data), target.data.shape_keys.key_blocks["Wide"]
     found = np.array([point.co for point in wide.data])

@@ -308,6 +308,7 @@ def test_each_step_can_be_turned_off():
         ({"largest": -1.0}, "BAD_OPTION"),
         ({"noise": 1001}, "BAD_OPTION"),
         ({"noise": 1.5}, "BAD_OPTION"),
+        ({"noise": "much"}, "BAD_OPTION"),
         ({"fixed": [True]}, "BAD_SHAPE"),
         ({"progress": 1}, "BAD_OPTION"),
     ],
@@ -336,14 +337,15 @@ def test_a_sheet_of_quads_stays_one():
     assert np.array_equal(found.faces[0].reshape(-1, 4), quads)
 
 
-def test_noise_is_taken_off():
+@pytest.mark.parametrize("noise", [10, "auto"])
+def test_noise_is_taken_off(noise):
     rng = np.random.default_rng(0)
     points, faces = sphere(5)
     edge = np.linalg.norm(points[faces[:, 0]] - points[faces[:, 1]], axis=1).mean()
     noisy = points * (1.0 + 0.1 * edge * rng.normal(size=(len(points), 1)))
     fixed = np.zeros(len(points), bool)
     fixed[:3] = True
-    found = df.clean(noisy, faces, noise=10, fixed=fixed)
+    found = df.clean(noisy, faces, noise=noise, fixed=fixed)
     only(found, "noise", len(points) - 3)
     off = np.linalg.norm(found.vertices, axis=1) - 1.0
     before = np.linalg.norm(noisy, axis=1) - 1.0

@@ -91,7 +91,7 @@ def clean(
     energy: str = "thin_plate",
     density: float = 1.0,
     rim: str = "exact",
-    noise: int = 0,
+    noise: int | str = 0,
     fixed: ArrayLike | None = None,
     threads: int = 0,
     progress: Progress | None = None,
@@ -138,10 +138,10 @@ def clean(
     largest : float
         Wider holes stay open: a length, between the two vertices of the rim that are farthest apart. 0: those
         stay open whose flat area is over half of the surface's own, as at the border of a sheet.
-    noise : int
-        So many passes of Taubin's filter take noise off [Taubin 1995], up to 1000; ten do for a scan whose
-        noise is a tenth of its edges. It rounds sharp edges that are not `fixed`, and moves all other
-        vertices but those of borders. 0: none.
+    noise : int or "auto"
+        "auto": it is taken off by denoise(), around each vertex as much as the scan there allows. A number:
+        by so many of its passes, the fast choice, up to 1000; they round sharp edges that are not
+        `fixed`. 0: none is.
     fixed : (n,) bool
         Vertices that no step moves. None: none.
     threads : int
@@ -176,9 +176,7 @@ def clean(
         switch(name, value)
     _require_number("islands", islands, 1.0)
     _require_number("largest", largest, np.inf)
-    passes = whole("noise", noise)
-    if passes > 1000:
-        raise fairing_error("BAD_OPTION", f"noise is {passes}; it must be from 0 to 1000.")
+    passes = _passes(noise)
     points = vertex_array(vertices)
     state = State.of(points, *face_arrays(faces))
     held = _fixed(fixed, len(points))
@@ -219,7 +217,7 @@ def clean(
             run.step("pinched", 0.92, apart_now, *SPLIT)
     if normals:
         run.step("normals", 0.94, topology.turned_out, *TURNED)
-    if passes:
+    if passes is not None:
         smoother = lambda s: without_noise(s, run.held(held), passes)  # noqa: E731
         run.step("noise", 0.95, smoother, "vertex smoothed", "vertices smoothed")
     found = run.cleaned(skipped)
@@ -251,6 +249,20 @@ _CODES = {
 
 def _dropped(one: str, several: str) -> tuple[str, str]:
     return f"face {one} dropped", f"faces {several} dropped"
+
+
+def _passes(noise: int | str) -> int | None:
+    """Of denoise(); None: not at all."""
+    if isinstance(noise, str):
+        if noise != "auto":
+            raise fairing_error(
+                "BAD_OPTION", f'noise is {noise!r}; it must be "auto" or a number of passes.'
+            )
+        return 0
+    passes = whole("noise", noise)
+    if passes > 1000:
+        raise fairing_error("BAD_OPTION", f"noise is {passes}; it must be from 0 to 1000.")
+    return passes or None
 
 
 def _require_number(name: str, value: Any, most: float) -> None:
