@@ -15,7 +15,7 @@ import native_wheel
 import release_suite
 import style
 import system_packages
-from layout import BUILD, VENV_PYTHON
+from layout import BUILD, ROOT, VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
 from stamp import alone
@@ -80,7 +80,8 @@ def pytest_suite(name: str, *options: str, only: Iterable[str] = (), **environme
     """pytest on one folder or file below tests/, or on the folder's files `only`."""
     native_wheel.install()
     report = fresh_report(name.replace("/", "-"))
-    paths = [f"tests/{name}/test_{file}.py" for file in only] or [f"tests/{name}"]
+    found = [path for file in only for path in (ROOT / "tests" / name).rglob(f"test_{file}.py")]
+    paths = found or [f"tests/{name}"]
     shown = ["-q", "--durations=10", "--durations-min=1", f"--junitxml={report}"]
     command = [VENV_PYTHON, "-m", "pytest", *shown, *paths]
     code = run(*command, *options, check=False, **environment)

@@ -18,11 +18,6 @@ from addon.strain import table
 from addon.strain.measure import StrainJob
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def scattered(size=0.02):
     """The dune as measured."""
     points = dune()

@@ -14,7 +14,7 @@ from addon.check.defects import recall_defects, select_defects
 from addon.mesh import mesh_changes
 from addon.ui import check as check_panel
 
-BAD = Path(__file__).resolve().parents[3] / "shared" / "data" / "bad"
+BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
 
 FAN = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
 FLIPPED = (CUBE[0], [CUBE[1][0][::-1], *CUBE[1][1:]])

@@ -12,11 +12,6 @@ NAMES = ["two words", "Körper", "Ko\u0308rper", "部品", "☃ 🙂", "in.dots.
 NOT_UTF_8 = os.fsdecode(b"not \xff utf-8")  # as old archives bring them along
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def materials_of(path):
     """The file of materials that an OBJ names."""
     lines = path.read_bytes().splitlines()

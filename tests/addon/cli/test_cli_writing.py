@@ -15,11 +15,6 @@ from addon.cli.places import BadPlaces, places
 from addon.cli.whole import why_incomplete
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def names():
     return sorted(path.name for path in Path().iterdir())
 

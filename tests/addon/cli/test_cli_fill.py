@@ -9,11 +9,6 @@ from cli_files import read_obj, write_obj
 from cli_runs import entries, imported, run
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
     """A sphere of quads around its waist and triangles at its poles, open above."""
     lines, at = ["o Ball"], {}

@@ -13,8 +13,6 @@ from scenes import activate, fair, positions, snapshot
 from addon.mesh.shape_keys import EASED
 from addon.strain.ease import EaseJob, Wish
 
-NAN = float("nan")
-
 
 @pytest.fixture
 def core(monkeypatch):

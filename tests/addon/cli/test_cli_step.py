@@ -13,11 +13,6 @@ from addon.cad import step as cad_step
 from addon.cli.places import BadPlaces, places
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def test_a_file_becomes_a_step_file_in_its_own_numbers():
     write_obj("in.obj", names=("Left", "Right"))
     code, (entry,) = entries("in.obj", "new/out.step", "--energy", "total_curvature")

@@ -10,11 +10,6 @@ from cli_runs import entries, run
 from test_cli_fill import open_edges, write_ball
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
 def write_scan(name):
     """A ball with a hole, and a speck far away."""
     write_ball(name, open_above=0.9)

@@ -15,7 +15,7 @@ from addon.memory import recall
 from addon.operators.presets import NOT_KEPT
 from addon.settings import NAMES
 
-BAD = Path(__file__).resolve().parents[3] / "shared" / "data" / "bad"
+BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
 FILES = [
     p
     for kind in ("degenerate", "orientation", "soup_seams")

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
 
 import offsets as example  # noqa: E402
