@@ -4,6 +4,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <mutex>
+
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/construct.h"
@@ -26,6 +28,7 @@ class Filler {
 
   // Loops, and dicts of why other border edges are around no hole.
   py::tuple find(Monitor& monitor, const py::object& progress) {
+    const auto lock = wait_for_others();
     FoundHoles found;
     run_once(monitor, progress, [&] { found = find_holes(mesh_.view(), half_edges()); });
     py::list unclear;
@@ -36,6 +39,7 @@ class Filler {
   // The loops as holes with their islands. Throws FairingError for what is no loop of this mesh.
   std::vector<Hole> with_islands(const std::vector<HoleLoop>& loops, Monitor& monitor,
                                  const py::object& progress) {
+    const auto lock = wait_for_others();
     std::vector<Hole> holes;
     run_once(monitor, progress, [&] {
       for (const HoleLoop& loop : loops) holes.push_back({loop});
@@ -50,6 +54,7 @@ class Filler {
   // a dict, or None.
   py::tuple fill(std::vector<Hole> holes, double density, bool bends, Monitor& monitor,
                  const py::object& progress) {
+    const auto lock = wait_for_others();
     Refusals refusals;
     run_once(monitor, progress, [&] {
       holes_ = std::move(holes);
@@ -70,6 +75,7 @@ class Filler {
   // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine.
   py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen, Monitor& monitor,
                   const py::object& progress) {
+    const auto lock = wait_for_others();
     const std::vector<double> moved = copy_of(points);
     std::vector<std::uint8_t> flags(filled_.size(), 0);
     for (const std::size_t hole : chosen) flags.at(hole) = 1;
@@ -85,6 +91,12 @@ class Filler {
   }
 
  private:
+  // One call at a time: Python's lock is not kept while one runs.
+  std::unique_lock<std::mutex> wait_for_others() {
+    const py::gil_scoped_release released;
+    return std::unique_lock(mutex_);
+  }
+
   const HalfEdges& half_edges() {
     if (!half_edges_) {
       require_arrays(mesh_.view());
@@ -108,6 +120,7 @@ class Filler {
     return found;
   }
 
+  std::mutex mutex_;
   OwnedPolygonMesh mesh_;
   std::unique_ptr<HalfEdges> half_edges_;
   std::vector<Hole> holes_;
@@ -115,12 +128,31 @@ class Filler {
   std::vector<FilledHole> filled_;
 };
 
+// Throws FairingError(index_out_of_range), with the triangles' rows.
+void require_corners(const std::vector<std::int32_t>& corners, std::size_t points) {
+  std::vector<std::int64_t> outside;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i] < 0 || std::size_t(corners[i]) >= points)
+      if (outside.empty() || outside.back() != std::int64_t(i / 3))
+        outside.push_back(std::int64_t(i / 3));
+  if (!outside.empty())
+    throw FairingError(ErrorCode::index_out_of_range,
+                       listing(face_s, outside, {"names", "name"}) +
+                           " a vertex that does not exist: there are " + std::to_string(points) +
+                           " points.",
+                       outside);
+}
+
 // Numbers (k,) of the triangles (t, 3) from the `first` on that cross another; corners are ids in
-// points (n, 3), which nobody checks.
+// points (n, 3). Throws FairingError(bad_shape, index_out_of_range).
 py::array crossings(const Numbers& points, const Contiguous<std::int32_t>& triangles,
                     std::size_t first, Monitor& monitor, const py::object& progress) {
   const std::vector<double> coordinates = copy_of(points);
   const std::vector<std::int32_t> corners = copy_of(triangles);
+  require_corners(corners, coordinates.size() / 3);
+  if (coordinates.size() % 3 != 0 || corners.size() % 3 != 0 || 3 * first > corners.size())
+    throw FairingError(ErrorCode::bad_shape,
+                       "Points and triangles need three columns, and `first` is one of the rows.");
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < coordinates.size(); i += 3) places.emplace_back(&coordinates[i]);
   std::vector<Triangle> faces;

@@ -79,14 +79,19 @@ double half_tangent(const Vec3& a, const Vec3& b) {
   return std::tan(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
 }
 
-// Sums to one.
+// Sums to one. A neighbour at the point's own place has all the weight, as in the limit.
 void mean_value_weights(const double* shape, Index point, const Ring& ring,
                         std::vector<double>& weights) {
   const std::size_t size = ring.points.size();
   const auto offset = [&](std::size_t j) {
     return Vec3(Map(shape + 3 * std::size_t(ring.points[j])) - Map(shape + 3 * std::size_t(point)));
   };
+  const auto is_there = [&](std::size_t j) { return offset(j).isZero(0); };
   weights.assign(size, 0.0);
+  double there = 0;
+  for (std::size_t j = 0; j < size; ++j) there += weights[j] = is_there(j);
+  for (double& w : weights) w /= std::max(there, 1.0);
+  if (there > 0) return;
   for (std::size_t j = 0; j + (ring.closed ? 0 : 1) < size; ++j) {
     const std::size_t after = (j + 1) % size;
     const double t = half_tangent(offset(j), offset(after));

@@ -94,7 +94,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   options.solve = problem_.options.solve;
   return std::make_unique<GaussNewtonSolver>(
       problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
-      problem_.hold_of(control, weight_unit(problem_.mesh)), plate().pads(),
+      problem_.hold_of(control, problem_.units.weight_in_space), plate().pads(),
       problem_.mirrors_of(control), *problem_.workers, monitor_);
 }
 

@@ -103,5 +103,22 @@ TEST(HarmonicFill, IsFlatWhereTheControlMeshIs) {
   }
 }
 
+// A control mesh may have two corners at one place: then grid points coincide too.
+TEST(HarmonicFill, GoesWhereANeighbourLiesAtThePoint) {
+  Sheet s(grid(3, 3));
+  Unknowns unknowns;
+  unknowns.vertex.assign(std::size_t(s.mesh.vertex_count()), 0);
+  unknowns.edge.assign(s.mesh.edges.size(), 0);
+  const Index p = middle_of_face(s, 4);
+  Array<float> marks(s.lattice.size(), 0.0f);
+  marks[std::size_t(p)] = 1;
+  Array<double> shape = s.x, filled = s.x;
+  const Index q = s.lattice.face_point(4, 3, 3);  // a neighbour
+  std::copy_n(&shape[3 * std::size_t(p)], 3, &shape[3 * std::size_t(q)]);
+  fill_harmonically(s.lattice, unknowns, marks, shape.data(), filled.data());
+  for (std::size_t a = 0; a < 3; ++a)
+    EXPECT_DOUBLE_EQ(filled[3 * std::size_t(p) + a], s.x[3 * std::size_t(q) + a]);
+}
+
 }  // namespace
 }  // namespace fairing::test

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fillings that would pass through the mesh, or through each other."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import crossings
+from discrete_fairing import arrays, crossings
 
 
 def half_ball(centre, n=24, rings=10):
@@ -92,6 +94,41 @@ def test_the_count_is_that_of_the_definition():
             if t >= first
         }
         assert found.tolist() == sorted(pairs)
+
+
+@pytest.mark.parametrize(
+    ("triangles", "first", "code"),
+    [
+        ([[0, 1, 2], [0, 1, 7]], 0, "INDEX_OUT_OF_RANGE"),
+        ([[0, 1, -1], [0, 1, 2]], 0, "INDEX_OUT_OF_RANGE"),
+        ([[0, 1, 2], [0, 1, 2]], 3, "BAD_SHAPE"),
+    ],
+)
+def test_corners_that_do_not_exist_are_refused(triangles, first, code):
+    """Memory beyond the points was read."""
+    native = crossings._native
+    with pytest.raises(df.FairingError) as caught:
+        native._crossings(np.eye(3), np.array(triangles, np.int32), first, native.Monitor(), None)
+    assert caught.value.code == code
+
+
+def test_calls_on_one_filler_wait_for_each_other():
+    """Two threads wrote over each other's holes, and the process ended."""
+    native = crossings._native
+    points, faces = half_ball([0, 0, 0])
+    count = len(points)
+    all_points = np.concatenate([points + [3 * i, 0, 0] for i in range(6)])
+    all_faces = np.concatenate([faces + i * count for i in range(6)])
+    filler = native.Filler(all_points, *arrays.face_arrays(all_faces))
+    loops, _ = filler.find(native.Monitor(), None)
+
+    def fill(holes):
+        wanted = [[loop] for loop in loops[:holes]]
+        found = [filler.fill(wanted, 1.0, False, native.Monitor(), None)[0] for _ in range(10)]
+        return {len(fillings) for fillings in found}
+
+    with ThreadPoolExecutor(6) as pool:
+        assert list(pool.map(fill, range(1, 7))) == [{holes} for holes in range(1, 7)]
 
 
 def meet(one, other):
