@@ -185,6 +185,9 @@ def test_a_mesh_that_was_edited_meanwhile_is_left_alone(core):
     assert job.why_outdated(bpy.context) == ""
     source.data.vertices[3].co.z += 1.0
     assert "was edited during the run" in job.why_outdated(bpy.context)
+    bpy.ops.object.mode_set(mode="EDIT")  # whose end would take the key away
+    assert "changed its mode during the run" in job.why_outdated(bpy.context)
+    bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(source)
     assert "was deleted" in job.why_outdated(bpy.context)
 
