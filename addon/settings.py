@@ -86,7 +86,7 @@ class FairingSettings:
     )
     limit: FloatProperty(
         name="Follow",
-        description="With Bending, how closely the surface keeps to Subdivision Surface between its points: at 1 rims and thin walls do not wave, at 0 it is free",
+        description="With Bending, how closely the surface keeps to Subdivision Surface: at 1 thin walls do not wave, at 0 it is free",
         default=1.0,
         min=0.0,
         max=1.0,
