@@ -152,7 +152,28 @@ class Fitting {
           const std::size_t c = std::size_t(topology_.patches[p].side[s].curve);
           which[c] = sharper_[c] = 1;
         }
-    return fit_again(which);
+    std::vector<std::uint8_t> folds;
+    for (const FittedPatch& patch : fitted_) folds.push_back(patch.misses.folds);
+    if (!fit_again(which)) return false;
+    blunt_where_new(folds);
+    return true;
+  }
+
+  // Curves that have become sharper are as before around patches that fold now, and did not.
+  void blunt_where_new(const std::vector<std::uint8_t>& folded_before) {
+    std::vector<std::uint8_t> which(curves_.size(), 0);
+    const auto blunt = [&](Index curve) {
+      const auto c = std::size_t(curve);
+      if (sharper_[c]) which[c] = 1, sharper_[c] = 0;
+    };
+    for (std::size_t p = 0; p < fitted_.size(); ++p) {
+      if (!fitted_[p].misses.folds || folded_before[p]) continue;
+      const PatchPlace& place = topology_.patches[p];
+      for (const PatchSide& side : place.side) blunt(side.curve);
+      if (place.corner >= 0)  // the other curves of a triangle follow its sides
+        for (std::size_t s = 0; s < 3; ++s) blunt(topology_.face_edges[std::size_t(place.face)][s]);
+    }
+    fit_again(which);
   }
 
   // Those curves, and the patches on both sides.

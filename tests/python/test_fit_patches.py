@@ -444,3 +444,48 @@ def test_bad_options(options):
     with pytest.raises(df.FairingError) as caught:
         df.fit_patches(*control_meshes.cube(), **options)
     assert caught.value.code == "BAD_OPTION"
+
+
+def drum():
+    """Two rims of 8 and 11 vertices at unrelated angles, joined by long triangles; each end goes over a
+    rounded rim into a flat cap.
+    """
+    rng = np.random.default_rng(17)
+    points, faces, rims, angles = [], [], [], []
+    for n in (8, 11):
+        angles.append(np.sort(rng.uniform(0, 2 * np.pi, n)))
+    for side, (around, z) in enumerate(zip(angles, (0.0, 2.0), strict=True)):
+        rings = []
+        for t in np.linspace(0, np.pi / 2, 3):
+            rings.append(len(points) + np.arange(len(around)))
+            r, height = 0.7 + 0.3 * np.cos(t), z + (2 * side - 1) * 0.3 * np.sin(t)
+            points += [(r * np.cos(a), r * np.sin(a), height) for a in around]
+        way = slice(None, None, 2 * side - 1)
+        for low, high in zip(rings, rings[1:], strict=False):
+            for a, b, c, d in zip(low, np.roll(low, -1), np.roll(high, -1), high, strict=True):
+                quad = [a, b, c, d][way]
+                faces += [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+        top = rings[-1]
+        faces += [[top[0], top[i], top[i + 1]][way] for i in range(1, len(top) - 1)]
+        rims.append(rings[0])
+    i = j = 0
+    low, high = ([*a, a[0] + 2 * np.pi, 1e9] for a in angles)
+    while i < 8 or j < 11:
+        a, b, c, d = rims[0][i % 8], rims[0][(i + 1) % 8], rims[1][j % 11], rims[1][(j + 1) % 11]
+        if low[i + 1] <= high[j + 1]:
+            faces.append([a, b, c])
+            i += 1
+        else:
+            faces.append([a, d, c])
+            j += 1
+    return np.array(points), faces
+
+
+def test_curves_fitted_more_sharply_make_no_patch_fold():
+    """Beside needles patches that met their tolerance were fitted anew to sharper curves, and turned over.
+    The drum was refused, after a level more and three times the work.
+    """
+    run = fitting._Run(1e-4, 8e-4, False)
+    result = df.fair(*drum(), 6, threads=1)
+    watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
+    assert not run.still_folded(result, 6, [82, 89, 90], watched)
