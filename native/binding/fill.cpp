@@ -72,21 +72,25 @@ class Filler {
     return py::make_tuple(arrays(), why);
   }
 
-  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine.
-  py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen, Monitor& monitor,
+  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine, and of those whose
+  // shape is `fair`.
+  py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen,
+                  const std::vector<std::size_t>& fair, Monitor& monitor,
                   const py::object& progress) {
     const auto lock = wait_for_others();
     const std::vector<double> moved = copy_of(points);
-    std::vector<std::uint8_t> flags(filled_.size(), 0);
+    std::vector<std::uint8_t> flags(filled_.size(), 0), fair_flags = flags;
     for (const std::size_t hole : chosen) flags.at(hole) = 1;
+    for (const std::size_t hole : fair) fair_flags.at(hole) = 1;
     std::size_t at = 0;
     for (FilledHole& hole : filled_)
       for (Vec3& p : hole.points) {
         p = Vec3(moved.at(at), moved.at(at + 1), moved.at(at + 2));
         at += 3;
       }
-    run_once(monitor, progress,
-             [&] { refine_again(mesh_.view(), half_edges(), holes_, options_, flags, filled_); });
+    run_once(monitor, progress, [&] {
+      refine_again(mesh_.view(), half_edges(), holes_, options_, flags, fair_flags, filled_);
+    });
     return arrays();
   }
 
@@ -174,8 +178,8 @@ void bind_fill(py::module_& m) {
            py::arg("progress"))
       .def("fill", &Filler::fill, py::arg("holes"), py::arg("density"), py::arg("bends"),
            py::arg("monitor"), py::arg("progress"))
-      .def("refine", &Filler::refine, exact("points"), py::arg("chosen"), py::arg("monitor"),
-           py::arg("progress"));
+      .def("refine", &Filler::refine, exact("points"), py::arg("chosen"), py::arg("fair"),
+           py::arg("monitor"), py::arg("progress"));
   m.def("_crossings", &crossings, exact("points"), exact("triangles"), py::arg("first"),
         py::arg("monitor"), py::arg("progress"));
 }

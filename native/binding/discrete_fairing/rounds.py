@@ -75,6 +75,7 @@ def faired_in_rounds(
     for turn in range(_MOST_ROUNDS):
         shares = 1.0 - 0.9 * np.linspace(0.5**turn, 0.5 ** (turn + 1), len(rows) + 1)
         first, left, onward = len(mesh.points), [], [own for own, _ in found]
+        fair = []  # those of `left` whose steps have come to their end
         for row, (own, triangles) in enumerate(found):
             if row in rows:
                 near = NearHole(mesh, own, triangles, first)
@@ -95,12 +96,15 @@ def faired_in_rounds(
                 more = area > _GROWN * start or (better and rank > _FLAWLESS)
                 if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
                     left.append(row)
+                    if made.converged and moved is onward[row]:
+                        fair.append(row)
             first += len(own)
         rows = left
         if not rows or turn + 1 == _MOST_ROUNDS:
             break
         quiet = watched.run(float(shares[-1]), float(shares[-1]))
-        found = filler.refine(np.concatenate(onward), rows, quiet["monitor"], quiet["progress"])
+        watchers = quiet["monitor"], quiet["progress"]
+        found = filler.refine(np.concatenate(onward), rows, fair, *watchers)
     return _apart(last, best, len(mesh.points))
 
 

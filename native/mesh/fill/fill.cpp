@@ -299,7 +299,7 @@ std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edge
 
 void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
                   const FillOptions& options, std::span<const std::uint8_t> chosen,
-                  std::vector<FilledHole>& filled) {
+                  std::span<const std::uint8_t> fair, std::vector<FilledHole>& filled) {
   Rims rims(mesh, half_edges, holes);
   const std::int64_t count = mesh.vertex_count();
   for (const FilledHole& hole : filled)
@@ -321,7 +321,7 @@ void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::spa
     before += std::int64_t(filled[h].points.size());
     if (chosen[h]) {
       between(filled[h].triangles, count, [&](auto a, auto b) { rims.part(a, b); });
-      refine_patch(patch, one, options, Relaxation::sliding);
+      refine_patch(patch, one, options, fair[h] ? Relaxation::curved : Relaxation::sliding);
     }
     filled[h] = numbered(patch, one, next);
     between(filled[h].triangles, count, [&](auto a, auto b) { rims.join(a, b); });

@@ -52,9 +52,10 @@ std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edge
                              Refusals& refusals);
 
 // The same fillings, of which the vertices of those `chosen` (one flag for each hole) have been moved:
-// these get triangles that fit their new shape. All vertices are numbered anew.
+// these get triangles that fit their new shape, which goes on between its vertices as a smooth surface
+// where it is `fair` (flags, too). All vertices are numbered anew.
 void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes,
                   const FillOptions& options, std::span<const std::uint8_t> chosen,
-                  std::vector<FilledHole>& filled);
+                  std::span<const std::uint8_t> fair, std::vector<FilledHole>& filled);
 
 }  // namespace fairing

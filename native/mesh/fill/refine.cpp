@@ -113,11 +113,34 @@ class Refinement {
   void split(EdgeHandle e) {
     const Half h = mesh_.halfedge_handle(e, 0);
     const VertexHandle a = from(h), b = to(h);
-    const Vec3 middle = (point(a) + point(b)) / 2;
+    const Vec3 middle = (point(a) + point(b)) / 2 + bulge(a, b);
     const double length = (wanted(a) + wanted(b)) / 2;
     patch_.points.push_back(middle);
     patch_.lengths.push_back(length);
     mesh_.split(e, mesh_.add_vertex());
+  }
+
+  // What the middle of a cubic arc between two points, normal to their normals, is off its chord: along
+  // chords the bend of a surface would sit at the edges of the triangles that were split. None where
+  // these normals say little.
+  Vec3 bulge(VertexHandle a, VertexHandle b) {
+    if (relaxation_ != Relaxation::curved) return Vec3::Zero();
+    const Vec3 chord = point(b) - point(a), at_a = normal(a), at_b = normal(b);
+    if (at_a.dot(at_b) < sharp_turn) return Vec3::Zero();
+    return (chord.dot(at_b) * at_b - chord.dot(at_a) * at_a) / 8;
+  }
+
+  // Of unit length: the mean of the triangles around, and of what is behind the rim.
+  Vec3 normal(VertexHandle v) const {
+    Vec3 sum = Vec3::Zero();
+    const Half first = mesh_.halfedge_handle(v);
+    Half h = first;
+    do {
+      if (!mesh_.is_boundary(h)) sum += unit_or_zero(area(from(h), to(h), opposite(h)));
+      h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+    } while (h != first);
+    if (on_rim(v) && !patch_.rim_normals.empty()) sum += patch_.rim_normals[std::size_t(v.idx())];
+    return unit_or_zero(sum);
   }
 
   std::size_t collapse_all() {
@@ -236,7 +259,7 @@ class Refinement {
       }
       const auto count = double(ring_.size());
       Vec3 step = mean / count - point(vertex);
-      if (relaxation_ == Relaxation::sliding && normal.squaredNorm() > 0)
+      if (relaxation_ != Relaxation::taut && normal.squaredNorm() > 0)
         step -= step.dot(normal) / normal.squaredNorm() * normal;
       move(vertex, step);
       wanted(vertex) = length / count;

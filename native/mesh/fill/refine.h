@@ -27,8 +27,9 @@ constexpr std::size_t largest_filling = 100'000'000;  // vertices, as the messag
 [[noreturn]] void too_dense();
 
 enum class Relaxation {
-  taut,    // as a membrane over the rim: for the flat pieces of a first triangulation
-  sliding  // along the surface, which keeps its shape
+  taut,     // as a membrane over the rim: for the flat pieces of a first triangulation
+  sliding,  // along the surface, which keeps its shape
+  curved    // the same, and edges are split beside their chords: for a surface that is fair
 };
 
 // Splits long edges, collapses short ones, flips for larger angles and relaxes, in turn until
