@@ -42,6 +42,25 @@ LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
   return out;
 }
 
+// Of each row that has others like it, from their mean. `number`: of rows, those that count.
+LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
+                          const std::vector<Index>& number, Eigen::Index count) {
+  LoadMatrix out(count, count);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    if (number[i] < 0) continue;
+    std::vector<Index> others;
+    for (const Index row : alike[i])
+      if (number[std::size_t(row)] >= 0) others.push_back(number[std::size_t(row)]);
+    if (others.empty()) continue;
+    entries.emplace_back(number[i], number[i], 1);
+    for (const Index other : others)
+      entries.emplace_back(number[i], other, -1 / double(others.size()));
+  }
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
 // Square roots of shares whose mean is one.
 std::vector<double> roots(std::vector<double> shares) {
   double sum = 0;
@@ -61,6 +80,10 @@ struct Movable {
   std::vector<Index> vertices;
   std::vector<double> root;  // of each one's share of the area or the length
   LoadMatrix g;              // scaled
+  // Of each load to the mean of those around it whose stars are alike. Where a mesh is a pattern, as
+  // triangles with alternating diagonals, its loads alternate without any scatter, and differ little
+  // there.
+  LoadMatrix differences;
 
   EaseSystem system(Columns loads) const { return {g, std::move(loads)}; }
 };
@@ -141,6 +164,7 @@ class Easing {
     }
     inner_.root = roots(std::move(shares));
     inner_.g = part_of(gauge_->matrix(), rows, rows, inner_.root, inner_.root);
+    inner_.differences = differences_of(gauge_->of_same_star(), rows, inner_.g.rows());
 
     const CurveLoads& curves = gauge_->curves();
     for (std::size_t i = 0; i < curves.vertices().size(); ++i) {
@@ -184,7 +208,11 @@ class Easing {
   double amount(const Movable& movable, const EaseSystem& system) const {
     if (!(system.mean() > 0)) return 0;
     if (wanted_.amount >= 0) return wanted_.amount / system.mean();
-    const double s = cross_validated(system);
+    double s = cross_validated(system);
+    // no more than differs from star to like star
+    if (movable.differences.rows() > 0)
+      if (const double noise = system.noise_of(movable.differences); std::isfinite(noise))
+        s = with_noise_up_to(system, s, noise);
     if (s > 0 || wanted_.tolerance.empty()) return s;
     return with_moves_within(system, bounds_of(movable));
   }

@@ -160,32 +160,57 @@ std::vector<double> StrainGauge::lengths_of(const Columns& ways) const {
   return out;
 }
 
-// Of each row by the rows around it that are as it is: on a curve, beside one, or inside. Beside a
-// curve shapes strain more than inside (strain/border_moments.h).
-std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
-  const ControlMesh& mesh = problem_.mesh;
-  std::vector<Index> row(std::size_t(mesh.vertex_count()), -1);
+std::vector<Index> StrainGauge::row_of_vertices() const {
+  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) row[std::size_t(vertices_[i])] = Index(i);
+  return row;
+}
+
+// On a curve, beside one, or inside: beside a curve shapes strain more than inside
+// (strain/border_moments.h). And, where asked for, how many neighbours there are.
+StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
+  const ControlMesh& mesh = problem_.mesh;
+  const std::vector<Index> row = row_of_vertices();
   // a polygon's centre stands on no pad, and is on no curve
   const auto off_pads = [&](Index u) {
     const Index r = row[std::size_t(u)];
     return u < mesh.input_vertices && (r < 0 || r >= Index(on_pads_));
   };
-  enum Kind : std::uint8_t { inside, beside_curve, on_curve };
-  std::vector<Kind> kinds(vertices_.size(), inside);
+  enum Kind : std::size_t { inside, beside_curve, on_curve, count };
+  Kinds out(vertices_.size());
   visit_around(mesh, vertices_, 1, [&](std::size_t i, const std::vector<Index>& around) {
     const bool beside = std::any_of(around.begin(), around.end(), off_pads);
-    kinds[i] = i >= on_pads_ ? on_curve : beside ? beside_curve : inside;
+    out[i] = i >= on_pads_ ? on_curve : beside ? beside_curve : inside;
+    if (by_neighbours) out[i] += count * around.size();
   });
+  return out;
+}
+
+std::vector<std::vector<Index>> StrainGauge::alike(const Kinds& kinds) const {
+  const std::vector<Index> row = row_of_vertices();
+  std::vector<std::vector<Index>> out(vertices_.size());
+  visit_around(problem_.mesh, vertices_, rings_around,
+               [&](std::size_t i, const std::vector<Index>& around) {
+                 for (const Index u : around)
+                   if (const Index r = row[std::size_t(u)];
+                       r >= 0 && std::size_t(r) != i && kinds[std::size_t(r)] == kinds[i])
+                     out[i].push_back(r);
+               });
+  return out;
+}
+
+std::vector<std::vector<Index>> StrainGauge::of_same_star() const { return alike(kinds(true)); }
+
+// Of each row by those around it that are as it is.
+std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
   std::vector<double> out(vertices_.size(), floor);
-  visit_around(mesh, vertices_, rings_around, [&](std::size_t i, const std::vector<Index>& around) {
-    std::vector<double> alike;
-    for (const Index u : around)
-      if (const Index r = row[std::size_t(u)]; r >= 0 && std::size_t(r) != i)
-        if (kinds[std::size_t(r)] == kinds[i] && !std::isnan(lengths[std::size_t(r)]))
-          alike.push_back(lengths[std::size_t(r)]);
-    out[i] = std::max(floor, deviations_out * of_median * median(std::move(alike)));
-  });
+  const std::vector<std::vector<Index>> rows = alike(kinds(false));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<double> known;
+    for (const Index r : rows[i])
+      if (!std::isnan(lengths[std::size_t(r)])) known.push_back(lengths[std::size_t(r)]);
+    out[i] = std::max(floor, deviations_out * of_median * median(std::move(known)));
+  }
   return out;
 }
 

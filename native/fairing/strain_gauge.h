@@ -59,10 +59,17 @@ class StrainGauge {
 
   Ways strain(const Loads& on_pads, const ControlPositions& control) const;
   Excess excess(const Loads& on_pads, const ControlPositions& control) const;
+  // Of each row those within two rings that are as it is: on a curve, beside one or inside, and with
+  // as many neighbours.
+  std::vector<std::vector<Index>> of_same_star() const;
 
  private:
+  using Kinds = std::vector<std::size_t>;
+  Kinds kinds(bool by_neighbours) const;
+  std::vector<std::vector<Index>> alike(const Kinds& kinds) const;
   void add_pulls();
   void find_images();
+  std::vector<Index> row_of_vertices() const;
   Columns ways_of(Columns loads) const;
   Ways in_mesh_units(const Columns& ways) const;
   std::vector<double> lengths_of(const Columns& ways) const;

@@ -146,6 +146,11 @@ double EaseSystem::noise(double s) const {
   return all > 0 ? std::sqrt(squared_moves(s) / all) : 0;
 }
 
+double EaseSystem::noise_of(const LoadMatrix& differences) const {
+  const LoadMatrix of_moves = differences * g_;
+  return (differences * loads_).norm() / of_moves.norm();
+}
+
 double EaseSystem::squared_trace(double s) const {
   double sum = 0;
   for (std::size_t k = 0; k < of_trace_.node.size(); ++k) {
@@ -290,10 +295,15 @@ double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
   return outside == amount.begin() ? 0 : *(outside - 1);
 }
 
+// By the moves themselves: what Lanczos knows of the least eigenvalues is too little for large amounts.
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {
-  for (; s * system.mean() >= least_amount; s /= ten_a_decade)
-    if (system.noise(s) <= noise) return s;
-  return 0;
+  std::vector<double> amount = ladder(system);
+  amount.erase(std::upper_bound(amount.begin(), amount.end(), s), amount.end());
+  const auto fits = [&](double of) {
+    return system.moves(of).squaredNorm() <= noise * noise * system.trace(of);
+  };
+  const auto outside = std::partition_point(amount.begin(), amount.end(), fits);
+  return outside == amount.begin() ? 0 : *(outside - 1);
 }
 
 }  // namespace fairing

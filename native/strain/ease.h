@@ -43,6 +43,9 @@ class EaseSystem {
   double squared_trace(double s) const;
   // Of the scatter that an amount takes out, root mean square.
   double noise(double s) const;
+  // Of scatter as these differences of loads tell it, root mean square; not finite where they tell of
+  // none.
+  double noise_of(const LoadMatrix& differences) const;
   // Whether what an amount takes out may be scatter: that is in all eigenvectors alike, where shapes
   // that are designed are in few. Always so where eigenvectors are not known.
   bool may_be_scatter(double s) const;

@@ -325,3 +325,29 @@ def test_a_matrix_beyond_the_memory_limit_is_refused():
     with pytest.raises(df.FairingError, match="vertices ask for") as caught:
         df.ease(points, faces, levels=1, memory_limit=48_000_000)
     assert caught.value.code == "TOO_LARGE"
+
+
+def dome_of_alternating_diagonals(across=27):
+    """Triangles of 4 and 8 a vertex in turn, parameter lines drawn together; 2 wide."""
+    at = np.linspace(-1, 1, across)
+    at = at + 0.3 * np.sin(np.pi * at) / np.pi
+    x, y = np.meshgrid(at, at, indexing="ij")
+    points = np.stack([x, y, 0.6 * (1 - x**2) * (1 - y**2)], -1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(across - 1), np.arange(across - 1), indexing="ij")
+    a = (i * across + j).ravel()
+    b, c, d = a + across, a + across + 1, a + 1
+    odd = ((i + j) % 2 == 1).ravel()[:, None]
+    first = np.where(odd, np.stack([a, b, d], -1), np.stack([a, b, c], -1))
+    second = np.where(odd, np.stack([b, c, d], -1), np.stack([a, c, d], -1))
+    return points, np.concatenate([first, second])
+
+
+def test_strain_of_a_pattern_of_the_mesh_is_no_scatter():
+    """Vertices of an exact dome moved by half an edge."""
+    points, faces = dome_of_alternating_diagonals()
+    edge = 2 / 26
+    assert df.ease(points, faces).moves.max() < 2e-3 * edge
+    inner = np.flatnonzero((np.abs(points[:, :2]) < 0.999).all(axis=1))
+    measured = scattered(points, inner, 1, 0.05 * edge)
+    eased = df.ease(measured, faces)
+    assert error(eased.vertices, points) < 0.6 * error(measured, points)
