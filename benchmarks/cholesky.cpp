@@ -23,11 +23,11 @@
 #include <memory>
 #include <string>
 
+#include "constraints/control_constraints.h"
 #include "curves/feature_curves.h"
 #include "fairing/control_positions.h"
 #include "fairing/options.h"
 #include "grid/linear.h"
-#include "hold/control_hold.h"
 #include "mesh/validate/check.h"
 #include "thin_plate/solver.h"
 

@@ -12,12 +12,12 @@
 
 #include <memory>
 
+#include "constraints/pads.h"
 #include "curvature/area.h"
 #include "curvature/connection.h"
 #include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
 #include "curvature/ring_jacobian.h"
-#include "hold/pads.h"
 #include "multigrid/level_operator.h"
 #include "stencil/weights.h"
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "constraints/held_report.h"
 #include "multigrid/solve_options.h"
 
 namespace fairing {
@@ -33,23 +34,18 @@ struct GaussNewtonOptions {
 };
 
 // One Gauss-Newton step.
-struct StepReport {
+struct StepReport : HeldReport {
   bool variation = false;  // of minimum variation; else of total curvature
   double energy = 0;       // before the step, tension's part included
   // sqrt(h . K h / energy): the share of the energy's root that a full step would take off.
   double decrement = 0;
-  double length = 1;    // the share of the step that was taken; 0: rejected
-  double movement = 0;  // the farthest that the last trial took any point
-  int iterations = 0;   // of the linear solve
-  double residual = 0;  // of the linear solve, relative to its start
-  bool solved = true;   // whether it came to its end
-  bool direct = false;  // solved by a factorization, without iterations
-  // Of the loads on pads: how often they were corrected, and the work of a full step against them.
-  int pad_corrections = 0;
-  double load_work = 0;
-  // Within tolerances: with other weights, and how far they leave the energy above the least one.
-  int constraint_rounds = 0;
-  double constraint_gap = 0;
+  double length = 1;     // the share of the step that was taken; 0: rejected
+  double movement = 0;   // the farthest that the last trial took any point
+  int iterations = 0;    // of the linear solve
+  double residual = 0;   // of the linear solve, relative to its start
+  bool solved = true;    // whether it came to its end
+  bool direct = false;   // solved by a factorization, without iterations
+  double load_work = 0;  // of a full step against the loads on pads
 };
 
 // What a level took, all that was tried and left included.

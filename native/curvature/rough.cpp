@@ -101,7 +101,7 @@ void RoughSteps::leave_turned(Pads& pads) {
 }
 
 void RoughSteps::leave(Pads& pads, std::size_t v) {
-  pads.leave(v);
+  pads.deactivate(v);
   if (!it_.current.held.loads.empty()) it_.current.held.loads[v].setZero();
 }
 

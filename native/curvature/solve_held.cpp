@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Gauss-Newton step whose control vertices are held on pads, by weights or within tolerances:
-// K h = force + Omega sum_c f_c phi_c, where nothing but the loads is to hold the vertices on pads:
-// whatever other force they need vanishes. The loads f act along the normals. Solves correct them,
-// and the multipliers of tolerances, as hold/load_steps.h and hold/hold_along_normals.h say.
-#include <cmath>
+// A Gauss-Newton step whose control vertices are held on pads, by weights or within tolerances
+// (constraints/held_solve.h). The loads act along the normals.
 #include <utility>
 
+#include "constraints/held_solve.h"
 #include "curvature/system.h"
 #include "parallel/reductions.h"
 
@@ -30,14 +28,22 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
   return areas;
 }
 
+// The loads that leave the least of the whole force, over Omega: M f = -Phi^T force.
+NormalLoads fitting_loads(const Hats& hats, const Array<double>& force) {
+  NormalLoads under = hats.gather(force), loads;
+  for (auto& f : under) f = -f;
+  hats.divide_by_mass<1>(under, loads);
+  return loads;
+}
+
 }  // namespace
 
 double GaussNewtonSystem::share_left(int level, const Functional& functional) const {
-  return functional.pads && !hold_ && level == finest() ? left_on_finest : inexact;
+  return functional.pads && !constraints_ && level == finest() ? left_on_finest : inexact;
 }
 
 void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
-  hold_ = nullptr;
+  constraints_ = nullptr;
   shared_.unknowns = std::move(unknowns);
   for (const auto& op : operators_) op->set_weights({});
   linearize(level, surface);
@@ -45,200 +51,90 @@ void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& 
   hierarchy_->change_unknowns(std::size_t(level - base_));
 }
 
-void GaussNewtonSystem::take_weights(int level, bool spectrum) {
-  for (int l = base_; l <= level; ++l) op(l).set_weights(hold_->weights());
+void GaussNewtonSystem::set_weights(int level, bool spectrum) {
+  for (int l = base_; l <= level; ++l) op(l).set_weights(constraints_->weights());
   hierarchy_->refresh(std::size_t(level - base_), spectrum);
 }
 
 // The coarsest level's K knows control vertices alone.
-void GaussNewtonSystem::look_along(const LinearizedSurface& about, const Multipliers<1>& held) {
+void GaussNewtonSystem::linearize_about(const LinearizedSurface& about,
+                                        const Multipliers<1>& held) {
   const Array<float>& diagonal = op(base_).diagonal();
-  hold_->look_along(about.linearization.normal.data(), about.points.data(), held.bounds,
-                    {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
+  constraints_->linearize_about(
+      about.linearization.normal.data(), about.points.data(), held.bounds,
+      {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
 }
 
-// One step's solves.
-struct GaussNewtonSystem::HeldSolve {
-  GaussNewtonSystem& system;
-  int level;
-  const LinearizedSurface& about;
-  Array<double>& h;
-  Multipliers<1>& held;
-  Array<double>& force;  // the loads' part included
-  StepReport& report;
-
-  const std::unique_ptr<const Hats> hats =
-      about.functional.pads
-          ? std::make_unique<Hats>(*about.functional.pads, system.grid(level),
-                                   areas_of(about.linearization.shape, system.workers()))
-          : nullptr;
-  NormalLoads forces{};  // left at the vertices on pads
-  Multipliers<1> correction{};
-  double first_force = 0, first_gap = 0;
-  Array<double> r = Array<double>(h.size()), product = Array<double>(h.size(), 0.0);  // of h
-
-  HoldAlongNormals* hold() const { return system.hold_; }  // or null
-  const VertexWeights& weights() const { return system.op(level).weights(); }
-  bool bounds() const { return hold() && hold()->active(); }
-  std::size_t vertices() const { return std::size_t(system.mesh().vertex_count()); }
-
-  // Those that leave the least of the whole force, over Omega: M f = -Phi^T force.
-  NormalLoads fitting_loads() const {
-    NormalLoads under = hats->gather(about.linearization.force), loads;
-    for (auto& f : under) f = -f;
-    hats->divide_by_mass<1>(under, loads);
-    return loads;
-  }
-
-  void start() {
-    if (hats && held.loads.empty()) held.loads = fitting_loads();
-    forces.assign(held.loads.size(), NormalLoads::value_type::Zero());
-    go_to_ends();
-  }
-
-  void go_to_ends() {
-    for (std::size_t v = 0; bounds() && v < vertices(); ++v)
-      if (hold()->on_end(v)) h[v] = hold()->way(v);
-  }
-
-  void load() {
-    force = about.linearization.force;
-    if (hats) hats->add_loads(held.loads, force.data());
-  }
-
-  // product <- K x without the weights.
-  void multiply(const double* x) {
-    system.op(level).apply_on(hats ? hats->rows() : system.shared_.unknowns, x, product.data());
-  }
-
-  // Of x, whose product is known.
-  void take_residual(const double* x, double* out) {
-    const CurvatureShared& shared = system.shared_;
-    for_each_index(system.workers(), h.size(),
-                   [&](std::size_t i) { out[i] = force[i] - product[i]; });
-    take_point_forces<1>(
-        shared.unknowns, weights(), hats.get(), held.loads,
-        [&](std::size_t v) { return NormalLoads::value_type(hold()->way(v) - x[v]); }, forces, out);
-  }
-
-  // What the residual of a solve that is not exact rests on control vertices as, H^T r, with H their
-  // prolongation: it belongs to their forces. Their own rows alone know only that of points beside
-  // them (measured: a cube at level 7 ended 4e-4 off its sphere with one degree of the smoother).
-  void foresee() {
-    NormalLoads rest(vertices());
-    restrict_to_vertices<1>(
-        system.transfers_, level, hats->rows(), system.workers(), r,
-        [this](int l) { return system.hierarchy_->room(std::size_t(l - system.base_)); }, rest);
-    for (std::size_t v = 0; v < forces.size(); ++v)
-      if (hats->under(v)) forces[v] -= rest[v];
-  }
-
-  LevelSolve solve() {
-    PcgLimits goal = system.limits(about.functional);
-    if (hats || bounds()) goal.tolerance = system.share_left(level, about.functional);
-    const LevelSolve solved = system.hierarchy_->solve(
-        std::size_t(level - system.base_), goal,
-        {[this](const double* x, double* out) { multiply(x), take_residual(x, out); }, h.data(),
-         r.data()},
-        [](const PcgResult&) {});
-    report.iterations += solved.iterations;
-    if (!system.op(level).single_precision_suffices()) multiply(h.data());
-    take_residual(h.data(), r.data());
-    if (hats && !hold() && !solved.direct) foresee();
-    return solved;
-  }
-
-  bool loads_settled() {
-    if (!hats) return true;
-    NormalLoads mass_of_loads;
-    const std::vector<double> compliance_ratio =
-        hold() ? compliance_ratios(system.shared_.unknowns, weights(), hold()->stiffness(), *hats)
-               : std::vector<double>{};
-    hats->divide_by_mass<1>(forces, correction.loads, compliance_ratio);
-    hats->multiply_mass<1>(held.loads, mass_of_loads);
-    const double left = std::sqrt(std::max(0.0, dot<1>(correction.loads, forces))),
-                 size = std::sqrt(std::max(0.0, dot<1>(held.loads, mass_of_loads)));
-    if (first_force == 0) first_force = left;
-    const double tolerance =
-        level == system.finest() ? system.load_tolerance_ : coarse_force_tolerance;
-    const double gain = hold()                     ? inexact
-                        : level == system.finest() ? left_on_finest
-                                                   : force_left_below;
-    return left <= gain * first_force || left <= tolerance * size;
-  }
-
-  bool bounds_settled() {
-    if (!bounds()) return true;
-    const double wanted = std::max(system.wanted_gap(level), inexact * first_gap);
-    const bool settled = hold()->settled(about.energy, wanted, h.data());
-    report.constraint_gap = hold()->gap();
-    if (first_gap == 0) first_gap = hold()->gap();
-    return settled;
-  }
-
-  // Other ends: another problem, of which earlier corrections tell nothing.
-  bool turn() {
-    if (!hold()->turn(h.data())) return false;
-    ++report.constraint_rounds;
-    system.take_weights(level, false);
-    go_to_ends();
-    return true;
-  }
-
-  void correct(LoadSteps<1>& steps) {
-    if (!hats) return;
-    const Multipliers<1> change = steps.change(correction);
-    for (std::size_t v = 0; v < held.loads.size(); ++v) held.loads[v] += change.loads[v];
-    ++report.pad_corrections;
-  }
-
-  LevelSolve end(const LevelSolve& solved) {
-    Array<double> of_loads(h.size(), 0.0);
-    if (hats) hats->add_loads(held.loads, of_loads.data());
-    if (hold()) {
-      held.bounds = hold()->sides();
-      for (std::size_t v = 0; v < weights().size(); ++v) {
-        if (!system.shared_.unknowns.vertex[v] || (hats && hats->under(v))) continue;
-        const double spring = weights()[v] * (hold()->way(v) - h[v]);
-        of_loads[v] += spring;
-        force[v] += spring;
-      }
-    }
-    report.load_work =
-        sum(system.workers(), h.size(), [&](std::size_t i) { return of_loads[i] * h[i]; });
-    return solved;
-  }
-
-  LevelSolve run() {
-    start();
-    LoadSteps<1> steps = load_steps<1>(hats.get());
-    int corrections = 0;  // with these ends
-    load();
-    if (bounds()) multiply(h.data());  // else h is zero
-    take_residual(h.data(), r.data());
-    for (;;) {
-      const LevelSolve solved = solve();
-      // Only then do forces tell which ends are right.
-      const bool settled = loads_settled() || corrections == most_load_corrections,
-                 turned = !bounds_settled() && settled && turn();
-      if (settled && !turned) return end(solved);
-      correct(steps);
-      ++corrections;
-      if (turned) {
-        corrections = 0;
-        steps.forget();
-      }
-      load();
-      if (turned) multiply(h.data());
-      take_residual(h.data(), r.data());
-    }
-  }
-};
+HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functional) const {
+  const bool is_finest = level == finest();
+  HeldLimits out;
+  out.solve = limits(functional);
+  if (functional.pads || is_bound()) out.solve.tolerance = share_left(level, functional);
+  out.force = is_finest ? load_tolerance_ : coarse_force_tolerance;
+  out.of_first_force = constraints_ ? inexact : is_finest ? left_on_finest : force_left_below;
+  out.gap = wanted_gap(level);
+  out.of_first_gap = inexact;
+  out.corrections = most_load_corrections;
+  return out;
+}
 
 LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& about,
                                          Array<double>& h, Multipliers<1>& held,
-                                         Array<double>& force, StepReport& report) {
-  return HeldSolve{*this, level, about, h, held, force, report}.run();
+                                         Array<double>& of_held, StepReport& report) {
+  using Vector = HeldSystem<1>::Vector;
+  const Array<double>& force = about.linearization.force;
+  const auto hats = about.functional.pads
+                        ? std::make_unique<Hats>(*about.functional.pads, grid(level),
+                                                 areas_of(about.linearization.shape, workers()))
+                        : nullptr;
+  if (hats && held.loads.empty()) held.loads = fitting_loads(*hats, force);
+  IntervalConstraints* const constraints = is_bound() ? constraints_ : nullptr;
+  if (constraints) constraints->put_on_ends(h.data());
+  const Unknowns& rows = hats ? hats->rows() : shared_.unknowns;
+  bool is_zero = !constraints;  // h
+  const auto residual = [&](const double* x, double* r) {
+    if (std::exchange(is_zero, false)) {
+      for_each_index(workers(), h.size(), [&](std::size_t i) { r[i] = force[i]; });
+      return;
+    }
+    op(level).apply_on(rows, x, r);
+    for_each_index(workers(), h.size(), [&](std::size_t i) { r[i] = force[i] - r[i]; });
+  };
+  const std::size_t index = std::size_t(level - base_);
+  const HeldSystem<1> system{
+      workers(),
+      h.size(),
+      shared_.unknowns,
+      op(level).weights(),
+      constraints_ ? std::span(constraints_->stiffness()) : std::span<const double>{},
+      hats.get(),
+      nullptr,
+      [&](std::size_t v) { return Vector(constraints_->target(v)); },
+      residual,
+      op(level).single_precision_suffices(),
+      [&](const PcgLimits& now, const LinearSystem& linear) {
+        return hierarchy_->solve(index, now, linear, [](const PcgResult&) {});
+      },
+      [&](std::span<const double> r, std::span<Vector> sums) {
+        restrict_to_vertices<1>(
+            transfers_, level, rows, workers(), r,
+            [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
+      },
+      [&](const VertexWeights&) { set_weights(level, false); },
+      [&](const double*) { return about.energy; }};
+  Array<double> r(h.size());
+  const LevelSolve solved =
+      HeldSolve<1>(system, held_limits(level, about.functional), constraints, held, report)
+          .run(h.data(), r.data());
+  report.iterations = solved.iterations;
+  of_held.assign(h.size(), 0.0);
+  if (hats) hats->add_loads(held.loads, of_held.data());
+  if (constraints_) held.bounds = constraints_->ends();
+  const VertexWeights& weights = op(level).weights();
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (shared_.unknowns.vertex[v] && !(hats && hats->under(v)))
+      of_held[v] += weights[v] * (constraints_->target(v) - h[v]);
+  return solved;
 }
 
 }  // namespace fairing

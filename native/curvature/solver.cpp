@@ -31,19 +31,19 @@ constexpr double farthest_over_plate = 2;
 GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
                                      const std::vector<CurvatureGrid>& levels, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
-                                     const GaussNewtonOptions& options, HoldAlongNormals hold,
-                                     const Pads* pads, Mirrors mirrors, Workers& workers,
-                                     Monitor& monitor)
+                                     const GaussNewtonOptions& options,
+                                     IntervalConstraints constraints, const Pads* pads,
+                                     Mirrors mirrors, Workers& workers, Monitor& monitor)
     : options_(options),
-      hold_(std::move(hold)),
+      constraints_(std::move(constraints)),
       pads_{pads},
-      system_(mesh, levels, base, stencils, unknowns, options, hold_.any() ? &hold_ : nullptr,
-              std::move(mirrors), workers, monitor),
+      system_(mesh, levels, base, stencils, unknowns, options,
+              constraints_.any() ? &constraints_ : nullptr, std::move(mirrors), workers, monitor),
       iterate_{system_},
-      folded_faces_(folded_control_faces(mesh, hold_.targets(), workers)),
-      thickness_(mesh, hold_.targets(), workers),
+      folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
+      thickness_(mesh, constraints_.targets(), workers),
       steps_(iterate_, options_),
-      unfolding_(iterate_, hold_, folded_faces_, steps_),
+      unfolding_(iterate_, constraints_, folded_faces_, steps_),
       rough_(iterate_, unfolding_, steps_),
       variation_(iterate_, steps_) {}
 
@@ -53,7 +53,8 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (pads_.take()) iterate_.current.held.loads.clear();
-  const std::span<const Vec3> given = is_finest() ? hold_.targets() : std::span<const Vec3>{};
+  const std::span<const Vec3> given =
+      is_finest() ? constraints_.targets() : std::span<const Vec3>{};
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
@@ -79,7 +80,7 @@ bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Arra
     keep(plate, start, report);
     return false;
   }
-  if (is_finest() && hold_.any()) end_hold(report);
+  if (is_finest() && constraints_.any()) end_constraints(report);
   keep_start_if_worse(start, plate, report);
   if (varies()) vary(is_plain, report);
   return is_plain;
@@ -90,7 +91,7 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
   if (!is_plain || report.kept_start) variation_.forget();
   if (is_finest() && !report.kept_start)
     variation_.run(steps_.accurate_end(), report);
-  else if (is_plain && !hold_.any() && !variation_.vanishes() &&
+  else if (is_plain && !constraints_.any() && !variation_.vanishes() &&
            iterate_.level >= first_of_variation)
     variation_.look_ahead(end());
 }
@@ -147,11 +148,11 @@ StepEnd GaussNewtonSolver::end() {
   return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
-void GaussNewtonSolver::end_hold(CurvatureLevelReport& report) {
-  const bool any_moved = hold_.active();
-  if (any_moved) hold_.enforce(surface().data());
+void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
+  const bool any_moved = constraints_.active();
+  if (any_moved) constraints_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
-  system_.let_go(hold_.without_held(), iterate_.level, iterate_.current);
+  system_.let_go(constraints_.without_held(), iterate_.level, iterate_.current);
   if (any_moved) steps_.polish(short_patience, iterate_.current.energy, report);
 }
 
@@ -176,7 +177,7 @@ void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<
   const bool is_spike = report.folds > 0 && is_thrown(surface(), plate);
   if (report.energy <= bound && !is_spike) return;
   const bool keeps_plate =
-      (is_finest() && hold_.any()) || (is_spike && is_thrown(start.points, plate));
+      (is_finest() && constraints_.any()) || (is_spike && is_thrown(start.points, plate));
   keep(keeps_plate ? plate : start.points, start, report);
 }
 
@@ -213,7 +214,7 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 }
 
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
-bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !hold_.any(); }
+bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !constraints_.any(); }
 
 void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
   for_each_index(iterate_.workers(), surface().size(),
@@ -223,7 +224,7 @@ void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
 bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
                                     CurvatureLevelReport& report) {
   system_.symmetrizer().set_mirrors(std::move(mirrors));
-  folded_faces_ = folded_control_faces(system_.mesh(), hold_.targets(), iterate_.workers());
+  folded_faces_ = folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
   for_each_index(iterate_.workers(), surface().size(),
                  [&](std::size_t i) { surface()[i] += plate[i]; });
   system_.symmetrizer().points(iterate_.grid(), surface());

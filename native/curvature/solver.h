@@ -14,14 +14,14 @@ namespace fairing {
 
 class GaussNewtonSolver {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns. `hold`: what holds control
+  // `levels`: all from 0 on; those below `base` have no unknowns. `constraints`: what holds control
   // vertices that move, and where all of them belong. `pads`: what control vertices stand on while
   // total curvature is minimized, or null; their widths may change before each level. `mirrors`: the
   // symmetries that the surface is to keep. The references must outlive the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
-                    const GaussNewtonOptions& options, HoldAlongNormals hold, const Pads* pads,
-                    Mirrors mirrors, Workers& workers, Monitor& monitor);
+                    const GaussNewtonOptions& options, IntervalConstraints constraints,
+                    const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);
 
   // The surface of a level, from `plate`, the thin plate's (3 numbers a point, in working
   // coordinates). Levels have to come in order; on each but the first the level below helps to
@@ -79,7 +79,7 @@ class GaussNewtonSolver {
   void leave_folds(CurvatureLevelReport& report);
   // The hold ends, in the system too: its control vertices stay where they are from here on. The
   // surface follows by a few plain steps, if these settle.
-  void end_hold(CurvatureLevelReport& report);
+  void end_constraints(CurvatureLevelReport& report);
   // Returns whether plain steps led to the surface.
   bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
@@ -105,7 +105,7 @@ class GaussNewtonSolver {
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   GaussNewtonOptions options_;
-  HoldAlongNormals hold_;
+  IntervalConstraints constraints_;
   OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;

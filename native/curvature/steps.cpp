@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "constraints/anderson.h"
 #include "curvature/left_to_move.h"
-#include "hold/anderson.h"
 #include "parallel/reductions.h"
 
 namespace fairing {

@@ -107,7 +107,7 @@ double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
 // Two ways to step. Plain steps are full ones: they may climb over humps of the discrete energy,
 // where checked ones are trapped, a few in a row (the watchdog technique of Chamberlain et al. 1982).
 // Damped steps hold where a surface is crumpled, and plain ones run wild. Both are accelerated near
-// the end (hold/anderson.h).
+// the end (constraints/anderson.h).
 class CurvatureSteps {
  public:
   // All must outlive it.

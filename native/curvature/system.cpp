@@ -44,8 +44,9 @@ void Symmetrizer::displacements(const GridLevel& grid, Array<double>& h) const {
 GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
                                      const std::vector<CurvatureGrid>& levels, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
-                                     const GaussNewtonOptions& options, HoldAlongNormals* hold,
-                                     Mirrors mirrors, Workers& workers, Monitor& monitor)
+                                     const GaussNewtonOptions& options,
+                                     IntervalConstraints* constraints, Mirrors mirrors,
+                                     Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
       max_iterations_(options.solve.max_iterations),
@@ -53,7 +54,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
       monitor_(monitor),
       shared_{mesh, unknowns, workers},
       symmetrizer_(std::move(mirrors), shared_.unknowns, workers),
-      hold_(hold) {
+      constraints_(constraints) {
   shared_.tension = options.tension;
   for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
   std::vector<HierarchyLevel> all;
@@ -104,7 +105,7 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu, double sh
 
 PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
   PcgLimits limits;
-  const bool loads_change = functional.pads && !hold_;
+  const bool loads_change = functional.pads && !constraints_;
   const bool varies = functional.energy == CurvatureEnergy::minimum_variation;
   limits.tolerance = loads_change || varies ? inexact : inner_accuracy;
   limits.from_start = true;
@@ -119,18 +120,17 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
   const Functional& functional = about.functional;
   h.assign(points, 0.0);
-  if (hold_) {
-    look_along(about, held);
-    take_weights(level, fresh);
+  if (constraints_) {
+    linearize_about(about, held);
+    set_weights(level, fresh);
   } else {
     hierarchy_->refresh_lazily(index, fresh);
   }
   LevelSolve solved;
-  Array<double> with_loads;
-  const bool is_held = functional.pads || hold_;
-  const Array<double>& force = is_held ? with_loads : about.linearization.force;
-  if (is_held) {
-    solved = solve_held(level, about, h, held, with_loads, report);
+  Array<double> of_held;  // what holds control vertices, in the force
+  const Array<double>& force = about.linearization.force;
+  if (functional.pads || constraints_) {
+    solved = solve_held(level, about, h, held, of_held, report);
   } else {
     Array<double> left = force;
     const auto residual = [&](const double* x, double* r) {
@@ -150,7 +150,9 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool 
   work_.iterations += report.iterations;
   work_.pad_corrections += report.pad_corrections;
   symmetrizer_.displacements(grid(level), h);
-  return sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
+  report.load_work =
+      sum(workers(), of_held.size(), [&](std::size_t i) { return of_held[i] * h[i]; });
+  return report.load_work + sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
 }
 
 StepWork GaussNewtonSystem::work(int level) const {

@@ -7,11 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/held_solve.h"
 #include "curvature/level.h"
 #include "curvature/options.h"
 #include "grid/symmetrize.h"
-#include "hold/hold_along_normals.h"
-#include "hold/load_steps.h"
 #include "multigrid/hierarchy.h"
 #include "parallel/monitor.h"
 #include "transfer/level_transfer.h"
@@ -64,13 +63,13 @@ constexpr double inexact = 0.1;
 
 class GaussNewtonSystem {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `hold`: what holds the
+  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `constraints`: what holds the
   // control vertices that move, along the normals, while total curvature is minimized, until let_go();
   // or null. All references must outlive the system.
   GaussNewtonSystem(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
-                    const GaussNewtonOptions& options, HoldAlongNormals* hold, Mirrors mirrors,
-                    Workers& workers, Monitor& monitor);
+                    const GaussNewtonOptions& options, IntervalConstraints* constraints,
+                    Mirrors mirrors, Workers& workers, Monitor& monitor);
   ~GaussNewtonSystem();
   GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
 
@@ -97,7 +96,7 @@ class GaussNewtonSystem {
   // of `level` and below are linearized about `surface`, with factors of those unknowns.
   void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
   // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
-  bool is_bound() const { return hold_ && hold_->active(); }
+  bool is_bound() const { return constraints_ && constraints_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
   // The share of its error that the solve of a step on `level` leaves.
   double share_left(int level, const Functional& functional) const;
@@ -118,12 +117,13 @@ class GaussNewtonSystem {
 
  private:
   PcgLimits limits(const Functional& functional) const;
-  void look_along(const LinearizedSurface& about, const Multipliers<1>& held);
+  void linearize_about(const LinearizedSurface& about, const Multipliers<1>& held);
   // The springs' present weights, on all levels up to `level`. `spectrum`: as for the hierarchy.
-  void take_weights(int level, bool spectrum);
-  struct HeldSolve;
+  void set_weights(int level, bool spectrum);
+  HeldLimits held_limits(int level, const Functional& functional) const;
+  // `of_held`: the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
-                        Multipliers<1>& held, Array<double>& force, StepReport& report);
+                        Multipliers<1>& held, Array<double>& of_held, StepReport& report);
 
   const Stencils& stencils_;
   int base_, max_iterations_;
@@ -136,7 +136,7 @@ class GaussNewtonSystem {
   std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;
-  HoldAlongNormals* hold_;  // null: nothing
+  IntervalConstraints* constraints_;  // null: nothing
 };
 
 struct SurfaceIterate {

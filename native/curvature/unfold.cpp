@@ -195,9 +195,9 @@ void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
 void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
   const Unknowns& unknowns = it_.system.shared().unknowns;
   Array<double> linear(x.size());
-  refine_linearly(it_.grid(), hold_.targets(), it_.workers(), linear.data());
-  fill_harmonically(it_.grid(), hold_.any() ? hold_.without_held() : unknowns, marks, linear.data(),
-                    x.data());
+  refine_linearly(it_.grid(), constraints_.targets(), it_.workers(), linear.data());
+  fill_harmonically(it_.grid(), constraints_.any() ? constraints_.without_held() : unknowns, marks,
+                    linear.data(), x.data());
   it_.system.symmetrizer().points(it_.grid(), x);
 }
 

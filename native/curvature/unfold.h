@@ -20,9 +20,9 @@ class Unfolding {
  public:
   // `folded_faces`: control faces whose folds are excused (folded_control_faces). All must outlive
   // it.
-  Unfolding(SurfaceIterate& iterate, const ControlHold& hold,
+  Unfolding(SurfaceIterate& iterate, const ControlConstraints& constraints,
             const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
-      : it_(iterate), hold_(hold), folded_faces_(folded_faces), steps_(steps) {}
+      : it_(iterate), constraints_(constraints), folded_faces_(folded_faces), steps_(steps) {}
 
   // Folds of the surface as it is.
   Folds find() const;
@@ -39,7 +39,7 @@ class Unfolding {
   bool mark_bursts(const Linearization& before, double energy, Array<float>& marks);
 
   SurfaceIterate& it_;
-  const ControlHold& hold_;
+  const ControlConstraints& constraints_;
   const std::vector<std::uint8_t>& folded_faces_;
   CurvatureSteps& steps_;
 };

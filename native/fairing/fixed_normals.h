@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "constraints/couples.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
-#include "hold/couples.h"
 
 namespace fairing {
 

@@ -73,7 +73,7 @@ struct FairOptions {
   Sharpness sharpness;
 
   // What holds control vertices off curves: point forces at 0, otherwise forces spread over pads of
-  // this width (hold/pads.h), as a share of the faces around the vertex; 0 to 1.
+  // this width (constraints/pads.h), as a share of the faces around the vertex; 0 to 1.
   double pad_size = 1;
   double width_of_pads() const { return paper.needs_point_forces() ? 0.0 : pad_size; }
 

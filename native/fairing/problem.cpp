@@ -83,7 +83,8 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
                                    strength_of_membrane(problem));
   if (options.energy != Energy::thin_plate)
     problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
-  problem.start_weights = problem.hold_of(problem.basis, problem.units.weight).start_weights();
+  problem.start_weights =
+      problem.constraints_of(problem.basis, problem.units.weight).start_weights();
   require_anchored(mesh, problem.unknowns, problem.start_weights);
 }
 

@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/control_constraints.h"
 #include "fairing/control_positions.h"
 #include "fairing/fixed_normals.h"
 #include "fairing/held_positions.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
 #include "fairing/symmetry.h"
-#include "hold/control_hold.h"
 #include "paper/charts.h"
 #include "stencil/stencils.h"
 
@@ -48,7 +48,7 @@ struct FairingProblem {
   }
   // What holds control vertices about these positions; weights in this unit. `control` must outlive
   // it.
-  ControlHold hold_of(const ControlPositions& control, double unit) const {
+  ControlConstraints constraints_of(const ControlPositions& control, double unit) const {
     if (options.interpolation != Interpolation::approximate)
       return {mesh, control.working, unknowns};
     return {mesh, control.working, unknowns, weights_with_copies(), unit, working_tolerances()};

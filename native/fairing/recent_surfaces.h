@@ -35,7 +35,7 @@ class RecentSurfaces {
 
   // The last surface, 3 numbers a point; to be overwritten by the next one before remember().
   Array<double>& surface() { return surface_; }
-  // What holds it. Loads on pads (hold/pads.h) change as the surface does, but for translations.
+  // What holds it. Loads on pads (constraints/pads.h) change as the surface does, but for translations.
   PlateState& state() { return state_; }
   // surface() is that of these control positions.
   void remember(std::span<const Vec3> positions);

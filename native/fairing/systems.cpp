@@ -94,7 +94,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
   options.solve = problem_.options.solve;
   return std::make_unique<GaussNewtonSolver>(
       problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
-      problem_.hold_of(control, problem_.units.weight_in_space), plate().pads(),
+      problem_.constraints_of(control, problem_.units.weight_in_space), plate().pads(),
       problem_.mirrors_of(control), *problem_.workers, monitor_);
 }
 
@@ -115,8 +115,9 @@ PlateState FairingSystems::solve(const ControlPositions& control, bool measured,
     solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, x, report.levels,
                    on_prediction);
   else
-    state = plate().solve_nested(data_of(control), problem_.hold_of(control, problem_.units.weight),
-                                 x, report.levels, on_prediction, on_level);
+    state = plate().solve_nested(data_of(control),
+                                 problem_.constraints_of(control, problem_.units.weight), x,
+                                 report.levels, on_prediction, on_level);
   for (const LevelReport& level : report.levels)
     report.constraint_rounds += level.constraint_rounds;
   report.constraint_gap = report.levels.back().constraint_gap;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/points.h"
+#include "constraints/control_constraints.h"
 #include "fairing/fixed_normals.h"
 #include "grid/thickness.h"
-#include "hold/control_hold.h"
 #include "mesh/vertex_pair.h"
 #include "parallel/memory_news.h"
 

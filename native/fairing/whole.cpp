@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hold/control_hold.h"
+#include "constraints/control_constraints.h"
 #include "stencil/membrane.h"
 #include "stencil/metric.h"
 

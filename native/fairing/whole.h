@@ -12,7 +12,7 @@
 namespace fairing {
 
 // What the settings' units are measured in: mean lengths of edges, and weight_unit()
-// (hold/control_hold.h); in the metric of the charts, and in space.
+// (constraints/control_constraints.h); in the metric of the charts, and in space.
 struct MeshUnits {
   double edge = 1, edge_in_space = 1;
   double weight = 1, weight_in_space = 1;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "constraints/pads.h"
 #include "grid/accumulate.h"
-#include "hold/pads.h"
 #include "stencil/chart.h"
 
 namespace fairing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which loads on pads (hold/pads.h) moves of control vertices ask for, where all else stays. Loads
+// Which loads on pads (constraints/pads.h) moves of control vertices ask for, where all else stays. Loads
 // follow the control vertices of the thin plate linearly, f = G c and what fixed data add, and the
 // plate knows no direction, so G is one matrix for x, y and z. What moving one vertex does falls by
 // some 2.6 with every ring of control faces: vertices far apart share a solve, one set of them for

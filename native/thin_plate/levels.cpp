@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/rounding.h"
+#include "constraints/pads.h"
 #include "grid/injection.h"
 #include "grid/linear.h"
-#include "hold/pads.h"
 #include "parallel/reductions.h"
 #include "thin_plate/membrane.h"
 

@@ -6,8 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/couples.h"
+#include "constraints/held_report.h"
 #include "grid/grid_level.h"
-#include "hold/couples.h"
 #include "multigrid/hierarchy.h"
 #include "multigrid/solve_options.h"
 
@@ -39,15 +40,10 @@ constexpr double largest_force_left = 2e-3, largest_angle_left = 8e-4;
 
 // `residual` and `residuals` are relative to the residual of the control polyhedron on that level;
 // `energy_error` estimates |error| over the solution, both in the energy norm.
-struct LevelReport : LevelSolve {
+struct LevelReport : LevelSolve, HeldReport {
   int level = 0;
   std::size_t points = 0;
   std::size_t unknowns = 0;
-  int pad_corrections = 0;    // of the loads on pads
-  int constraint_rounds = 0;  // with springs set or moved, for tolerances
-  double constraint_gap = 0;  // how far the energy may be above the least one, relative
-  double pad_force = 0;  // what the last correction changed of the loads, or would have; relative
-  double normal_angle = 0;  // the largest between a fixed normal and the surface's; radians
 };
 
 }  // namespace fairing

@@ -3,15 +3,10 @@
 // level alone have in common.
 #pragma once
 
-#include "hold/hold_in_space.h"
+#include "constraints/held_solve.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
-
-// What each solve but the last leaves of the error that it finds: what it then leaves of forces and
-// of moves is foreseen. On 151 runs on pads finest levels took 1,018 iterations; 988 with 0.35 and 975
-// with 0.5.
-constexpr double solve_gain = 0.25;
 
 struct ThinPlateSolver::Run {
   ThinPlateSolver& solver;
@@ -43,10 +38,9 @@ struct ThinPlateSolver::Run {
     LevelReport report;
     LevelSolve equivalent;  // what one solve in place of the level's many would have taken
   };
-  // `constraint`, which may be null, chooses the weights.
-  Solved solve(int level, const PcgLimits& limits, HoldInSpace* constraint);
-  // On pads, within tolerances or with fixed normals (solve_in_rounds.cpp).
-  Solved solve_in_rounds(int level, const PcgLimits& limits, HoldInSpace* constraint);
+  // `constraints`, which may be null, choose the weights (solve_held.cpp).
+  Solved solve(int level, const PcgLimits& limits, BallConstraints* constraints);
+  HeldLimits held_limits(int level, const PcgLimits& limits) const;
 
   // A report of a level that has not been solved yet.
   LevelReport report_of(int level) const;

@@ -69,25 +69,6 @@ LevelReport ThinPlateSolver::Run::report_of(int level) const {
   return report;
 }
 
-ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLimits& limits,
-                                                         HoldInSpace* constraint) {
-  if (solver.supports_.pads() || constraint || solver.supports_.couples(level))
-    return solve_in_rounds(level, limits, constraint);
-  const auto residual = [&](const double* y, double* out) {
-    levels().residual(level, data.targets, goal, y, out);
-  };
-  residual(x.data(), r.data());
-  LevelReport report = report_of(level);
-  static_cast<LevelSolve&>(report) =
-      levels().solve(level, limits, {residual, x.data(), r.data()}, [&](const PcgResult& so_far) {
-        const double start = so_far.history.front(), end = limits.tolerance;
-        const bool has_way = start > end && so_far.residual > 0;
-        report_done(level,
-                    has_way ? std::log(start / so_far.residual) / std::log(start / end) : 1.0);
-      });
-  return {report, report};
-}
-
 // On the finest level the iterations are most of the run, unless Gauss-Newton steps follow: they go on
 // from where this level begins. Else measuring does from where it ends.
 void ThinPlateSolver::Run::report_done(int level, double done) const {
@@ -96,14 +77,14 @@ void ThinPlateSolver::Run::report_done(int level, double done) const {
   solver.monitor_.report(Phase::solve, share);
 }
 
-PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlHold hold, Array<double>& x,
-                                         std::vector<LevelReport>& reports,
+PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlConstraints held,
+                                         Array<double>& x, std::vector<LevelReport>& reports,
                                          const OnPrediction& on_prediction,
                                          const OnLevel& on_level) {
-  HoldInSpace in_space(std::move(hold), supports_.stiffness());
-  HoldInSpace* const constraint = in_space.active() ? &in_space : nullptr;
-  if (levels_.weights(levels_.top()) != in_space.weights())
-    levels_.set_weights(in_space.weights(), levels_.top());
+  BallConstraints balls(std::move(held), supports_.stiffness());
+  BallConstraints* const constraints = balls.active() ? &balls : nullptr;
+  if (levels_.weights(levels_.top()) != balls.weights())
+    levels_.set_weights(balls.weights(), levels_.top());
   const auto tolerance = [&](int level) {
     return level >= levels_.top() ? options_.solve.relative_residual
                                   : std::max(coarse_tolerance, options_.solve.relative_residual);
@@ -113,26 +94,26 @@ PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlHold hold
   double energy_below = 0;  // energies hardly change from level to level
   for (int l = run.base(); l <= run.top(); ++l) {
     monitor_.report(Phase::solve, std::pow(share_of_coarser, run.top() - l + 1));
-    if (constraint && l > run.base()) {
-      constraint->renew(x.data());
-      levels_.set_weights(constraint->weights(), l);
+    if (constraints && l > run.base()) {
+      constraints->renew_springs(x.data());
+      levels_.set_weights(constraints->weights(), l);
     }
     run.begin(l);
     PcgLimits limits = run.limits(l, tolerance(l), energy_below, x.data());
     const Loads loads = state.loads, forces_below = run.forces_below;
-    run.start(l, !constraint);
+    run.start(l, !constraints);
     if (l == run.top() && on_prediction) on_prediction(x.data());
     if (l == run.base()) limits.energy_scale = std::sqrt(levels_.energy(l, x.data()));
     if (l == run.top()) state.limits = limits;
-    Run::Solved solved = run.solve(l, limits, constraint);
-    if (supports_.leave_thrown_pads(l, data.targets, x.data())) {
+    Run::Solved solved = run.solve(l, limits, constraints);
+    if (supports_.deactivate_diverged_pads(l, data.targets, x.data())) {
       state.loads = loads;
       run.forces_below = forces_below;
-      run.start(l, !constraint);
-      const LevelReport thrown = solved.report;
-      solved = run.solve(l, limits, constraint);
-      solved.report.iterations += thrown.iterations;
-      solved.report.pad_corrections += thrown.pad_corrections;
+      run.start(l, !constraints);
+      const LevelReport diverged = solved.report;
+      solved = run.solve(l, limits, constraints);
+      solved.report.iterations += diverged.iterations;
+      solved.report.pad_corrections += diverged.pad_corrections;
     }
     reports.push_back(solved.report);
     if (l < run.top()) {

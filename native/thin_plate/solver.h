@@ -10,7 +10,7 @@
 
 namespace fairing {
 
-class ControlHold;
+class ControlConstraints;
 
 // The thin plate of a control mesh, in working coordinates. Builds every level once; solves as often
 // as weights or control positions change. Throws what its levels throw.
@@ -38,10 +38,10 @@ class ThinPlateSolver {
   // From here on the smoother stays as it is, so that a surface depends on its own shape alone.
   void keep_smoother() { levels_.hierarchy().keep_smoother(); }
 
-  // Full multigrid: from the control polyhedron to the solution on the finest level. Where `hold` is
+  // Full multigrid: from the control polyhedron to the solution on the finest level. Where `held` is
   // active, weights are chosen on each level. `on_prediction` sees the finest level's start; `on_level`
   // may change x after each level's solve.
-  PlateState solve_nested(const PlateData& data, ControlHold hold, Array<double>& x,
+  PlateState solve_nested(const PlateData& data, ControlConstraints held, Array<double>& x,
                           std::vector<LevelReport>& reports, const OnPrediction& on_prediction,
                           const OnLevel& on_level);
 
@@ -60,7 +60,6 @@ class ThinPlateSolver {
 
  private:
   struct Run;
-  struct Rounds;
   void add_difference(const PlateData& before, const PlateData& data, PlateState& state,
                       Array<double>& x, std::vector<LevelReport>& reports);
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "constraints/diverged.h"
+#include "constraints/multipliers.h"
 #include "grid/ring.h"
-#include "hold/load_steps.h"
-#include "hold/strays.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -89,16 +89,17 @@ void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& 
     if (here->under(v)) loads[v] /= here->total(v);
 }
 
-bool PlateSupports::leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x) {
+bool PlateSupports::deactivate_diverged_pads(int level, std::span<const Vec3> targets,
+                                             const double* x) {
   if (!pads_) return false;
   bool any = false;
-  const auto leave = [&](Index v) {
+  const auto deactivate = [&](Index v) {
     any |= pads_->under(std::size_t(v));
-    pads_->leave(std::size_t(v));
+    pads_->deactivate(std::size_t(v));
   };
-  for (const Index v : thrown_stars(levels_.grid(level), levels_.workers(), targets, x)) {
-    leave(v);
-    visit_ring(levels_.grid(0), v, [&](Index u, std::size_t) { leave(u); });
+  for (const Index v : diverged_stars(levels_.grid(level), levels_.workers(), targets, x)) {
+    deactivate(v);
+    visit_ring(levels_.grid(0), v, [&](Index u, std::size_t) { deactivate(u); });
   }
   if (any) hats_.reset();
   return any;
@@ -110,6 +111,11 @@ void PlateSupports::start_couples(int level, Moments& moments) {
     couples(level)->carry(*below, moments);
   else
     std::fill(moments.begin(), moments.end(), Vec2::Zero());
+}
+
+const Compliance& PlateSupports::compliance(int level, int max_iterations) {
+  if (!compliance_) measure_couples(level, max_iterations);
+  return *compliance_;
 }
 
 // Couples far apart are tried out in one solve, and others along each axis. How well that goes says

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What holds the plate's control vertices beside the points that stay: pads with their loads, and
-// couples that fix normals. How a level starts with both, and which slopes a couple makes; what
-// corrects them is in solve_in_rounds.cpp.
+// couples that fix normals. How a level starts with both, and which slopes a couple makes; solve_held.cpp
+// corrects them.
 #pragma once
 
 #include <memory>
@@ -22,8 +22,9 @@ class PlateSupports {
   std::shared_ptr<const Hats> hats(int level);
   // On a level's points; null: no normal is fixed, or hats have no points there.
   std::shared_ptr<const LevelCouples> couples(int level);
-  // What corrections of them are made by; null: not measured yet.
-  const Compliance* compliance() const { return compliance_ ? &*compliance_ : nullptr; }
+  // Which slopes couples make, by which they are corrected: measured once, by trial solves on the level
+  // that asks first.
+  const Compliance& compliance(int level, int max_iterations);
   // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
   const std::vector<double>& stiffness() const { return stiffness_; }
 
@@ -32,14 +33,13 @@ class PlateSupports {
   // state <- for the start of a level, from that of the one below. `forces_below` are those of the
   // hats there, from the level before on; `foretells`: whether they say how loads change.
   void start(int level, bool foretells, PlateState& state, Loads& forces_below);
-  // Where x has been thrown off the mesh, point forces take the place of pads. Whether any has.
-  bool leave_thrown_pads(int level, std::span<const Vec3> targets, const double* x);
-  // Which slopes the couples of a level make, by trial solves.
-  void measure_couples(int level, int max_iterations);
+  // Where x has diverged from the mesh, point forces take the place of pads. Whether any does.
+  bool deactivate_diverged_pads(int level, std::span<const Vec3> targets, const double* x);
 
  private:
   void start_loads(int level, bool foretells, Loads& loads, Loads& forces_below);
   void start_couples(int level, Moments& moments);
+  void measure_couples(int level, int max_iterations);
 
   ThinPlateLevels& levels_;
   std::unique_ptr<Pads> pads_;

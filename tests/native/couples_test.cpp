@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Couples: where they act, which slopes they see, and what is left on a surface whose normals they
 // hold.
-#include "hold/couples.h"
+#include "constraints/couples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pads: their hats and mass matrix, and what is left of the forces on a surface that stands on
 // them.
-#include "hold/pads.h"
-#include "hold/pad_reach.h"
-#include "hold/strays.h"
+#include "constraints/pads.h"
+#include "constraints/diverged.h"
+#include "constraints/pad_reach.h"
 
 #include <gtest/gtest.h>
 
+#include "constraints/multipliers.h"
 #include "curvature/total_curvature.h"
 #include "fairing/systems.h"
 #include "fairing/warnings.h"
 #include "grid/linear.h"
-#include "hold/load_steps.h"
 #include "meshes.h"
 #include "parallel/reductions.h"
 
@@ -164,7 +164,7 @@ TEST(Pads, SpringsTakeLoadsByThemselves) {
 TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
   // f <- f + (b - A f) diverges where A has eigenvalues beyond two; mixed, it is GMRES.
   const std::vector<double> a = {0.1, 0.7, 1.3, 2.6, 4.0}, b = {1, -2, 3, 0.5, 1};
-  LoadSteps<3> steps = load_steps<3>(nullptr, std::vector<double>(a.size(), 1.0));
+  MultiplierSteps<3> steps = multiplier_steps<3>(nullptr, std::vector<double>(a.size(), 1.0));
   std::vector<double> f(a.size(), 0.0);
   double left = 0;
   for (int round = 0; round < 8; ++round) {
@@ -194,7 +194,7 @@ TEST(Pads, GoAlone) {
   Workers workers(1);
   const GridLevel grid(mesh, 3);
   Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers), whole = pads;
-  pads.leave(4);
+  pads.deactivate(4);
   EXPECT_TRUE(pads.under(3));
   EXPECT_FALSE(pads.under(4));
   EXPECT_TRUE(pads.began_under(4));
@@ -211,7 +211,7 @@ TEST(Pads, GoAlone) {
     for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
     EXPECT_NEAR(total, hats.total(std::size_t(v)), 1e-14);
   }
-  for (std::size_t v = 0; v < pads.places().size(); ++v) pads.leave(v);
+  for (std::size_t v = 0; v < pads.places().size(); ++v) pads.deactivate(v);
   EXPECT_FALSE(pads.any());
   EXPECT_FALSE(pads.rows().any_vertex);
 }
@@ -255,13 +255,13 @@ TEST(Pads, ThrownStarsAreFound) {
   const GridLevel grid(mesh, 2);
   std::vector<double> x(3 * grid.size());
   refine_linearly(grid, mesh.positions, workers, x.data());
-  EXPECT_TRUE(thrown_stars(grid, workers, mesh.positions, x.data()).empty());
+  EXPECT_TRUE(diverged_stars(grid, workers, mesh.positions, x.data()).empty());
   const auto at = 3 * std::size_t(grid.face_base(5));
   for (const double far : {100.0, std::numeric_limits<double>::quiet_NaN()}) {
     x[at] = far;
     std::vector<Index> corners(mesh.faces[5].vertex.begin(), mesh.faces[5].vertex.end());
     std::sort(corners.begin(), corners.end());
-    EXPECT_EQ(thrown_stars(grid, workers, mesh.positions, x.data()), corners);
+    EXPECT_EQ(diverged_stars(grid, workers, mesh.positions, x.data()), corners);
   }
 }
 

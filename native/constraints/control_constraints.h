@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds the control vertices, for either energy. A vertex c is held by a force F towards its
-// target, on its pad or, where it has none, at its point. Three laws for the same F:
+// What holds the control vertices, for either energy. A control vertex c is held by a force F towards
+// its target, on its pad or, where it has none, at its point. Three laws for the same F:
 //
 //   exactly              F is what keeps it there (no spring: it is no unknown)
 //   by a weight w        F = w |p - target|
@@ -12,7 +12,7 @@
 
 #include <span>
 
-#include "hold/pads.h"
+#include "constraints/pads.h"
 #include "stencil/weights.h"
 
 namespace fairing {
@@ -29,19 +29,21 @@ constexpr double gap_wanted = 1e-4, coarse_gap = 1e-3;
 // Of a spring that is as good as fixed, in stiffnesses of the surface or in units of weights.
 constexpr double stiff = 1e4;
 
-// What both kinds of motion share: in space (hold_in_space.h) and along normals
-// (hold_along_normals.h). There the multipliers are found.
-class ControlHold {
+// What both kinds of motion share: in space (ball_constraints.h) and along normals
+// (interval_constraints.h). These find the multipliers.
+class ControlConstraints {
  public:
   // Nothing holds a control vertex that moves.
-  ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns)
+  ControlConstraints(const ControlMesh& mesh, std::span<const Vec3> targets,
+                     const Unknowns& unknowns)
       : mesh_(mesh), targets_(targets), unknowns_(unknowns) {}
   // `targets` of the control vertices, and `tolerances` of the input vertices and their copies, in
   // working coordinates; infinity: the caller's weight alone, nothing to find. `weights`: as many, in
   // units of `unit`; or empty. They are lower bounds. `mesh`, `targets` and `unknowns`
-  // must outlive the hold.
-  ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets, const Unknowns& unknowns,
-              std::span<const double> weights, double unit, std::vector<double> tolerances);
+  // must outlive the constraints.
+  ControlConstraints(const ControlMesh& mesh, std::span<const Vec3> targets,
+                     const Unknowns& unknowns, std::span<const double> weights, double unit,
+                     std::vector<double> tolerances);
 
   // One a control vertex. Empty: all stay, or are free.
   const VertexWeights& weights() const { return weights_; }
@@ -66,7 +68,7 @@ class ControlHold {
 
  protected:
   // `farthest` of all distances, in tolerances.
-  void take_gap(double gap, double energy, double farthest);
+  void set_gap(double gap, double energy, double farthest);
 
   const ControlMesh& mesh_;
   std::span<const Vec3> targets_;
@@ -78,34 +80,5 @@ class ControlHold {
   VertexWeights weights_;
   double gap_ = 0, start_energy_ = 0;
 };
-
-// How much each spring gives way before its load, s / w, with `stiffness` s of the surface. Empty
-// where that is empty.
-std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
-                                      std::span<const double> stiffness, const Hats& hats);
-
-// What holds control vertices at their points, into the rows of r: of a fixed one the force that its
-// row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On
-// pads it becomes forces[v], which the loads are to take. r has none of a fixed vertex, be it fixed
-// since the pads were made. `hats` may be null: r has the springs' forces.
-template <int N, class Away>
-void take_point_forces(const Unknowns& unknowns, const VertexWeights& weights, const Hats* hats,
-                       const LoadsOf<N>& loads, Away&& away, LoadsOf<N>& forces, double* r) {
-  using Force = Eigen::Matrix<double, N, 1>;
-  const std::size_t count = hats ? forces.size() : weights.size();
-  for (std::size_t v = 0; v < count; ++v) {
-    Eigen::Map<Force> row(r + N * v);
-    const bool on_pad = hats && hats->under(v);
-    if (unknowns.vertex[v]) {
-      if (weights.empty()) continue;
-      Force pull = weights[v] * away(v);
-      if (on_pad) forces[v] = pull -= hats->total(v) * loads[v];
-      row += pull;
-    } else {
-      if (on_pad) forces[v] = -row;
-      row.setZero();
-    }
-  }
-}
 
 }  // namespace fairing

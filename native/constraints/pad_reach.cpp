@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/pad_reach.h"
+#include "constraints/pad_reach.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "hold/pads.h"
+#include "constraints/pads.h"
 
 namespace fairing {
 

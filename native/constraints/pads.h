@@ -52,14 +52,14 @@ class Pads {
   // False where no control vertex stands on a pad.
   bool any() const { return count_ > 0; }
   bool under(std::size_t v) const { return under_[v] != 0; }
-  // The same before any pad was left.
+  // The same before any pad was deactivated.
   bool began_under(std::size_t v) const { return began_under_[v] != 0; }
   // Of each control vertex: whether it stands on a pad.
   const std::vector<std::uint8_t>& places() const { return under_; }
   // How far a pad reaches along the edges around, at the most; 0 without a pad.
   double reach(std::size_t v) const;
   // From here on the vertex is held by a point force. Hats are to be made anew.
-  void leave(std::size_t v);
+  void deactivate(std::size_t v);
   // The unknowns and the control vertices on pads: the rows of K that (*) speaks of.
   const Unknowns& rows() const { return rows_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/strays.h"
+#include "constraints/diverged.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 // Of a star's size: what is farther from its centre is at least the star's size away from the star.
-constexpr double thrown = 2.0;
+constexpr double far_away = 2.0;
 
 using Distances = std::array<double, 4>;  // from each corner, squared
 
@@ -24,8 +24,8 @@ void take(const double* point, const Vec3& from, double& farthest) {
 
 }  // namespace
 
-std::vector<Index> thrown_stars(const GridLevel& grid, Workers& workers,
-                                std::span<const Vec3> control, const double* x) {
+std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
+                                  std::span<const Vec3> control, const double* x) {
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n();
   std::vector<Distances> of_face(mesh.faces.size(), Distances{}),
@@ -63,7 +63,7 @@ std::vector<Index> thrown_stars(const GridLevel& grid, Workers& workers,
       for (std::size_t c = 0; c < std::size_t(face.size); ++c)
         size = std::max(size, (control[std::size_t(face.vertex[c])] - centre).squaredNorm());
     }
-    if (farthest > thrown * thrown * size) out.push_back(v);
+    if (farthest > far_away * far_away * size) out.push_back(v);
   }
   return out;
 }

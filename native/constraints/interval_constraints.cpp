@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/hold_along_normals.h"
+#include "constraints/interval_constraints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +14,19 @@ namespace {
 // end at the start stands on it, in half intervals.
 constexpr double least_reach = 0.1;
 // Of one vertex, from end to end, in a step: there is no other limit.
-constexpr int most_turns = 4;
+constexpr int most_changes = 4;
 
 }  // namespace
 
-void HoldAlongNormals::look_along(const double* normal, const double* x,
-                                  const std::vector<double>& sides, std::vector<double> stiffness) {
+void IntervalConstraints::linearize_about(const double* normal, const double* x,
+                                          const std::vector<double>& ends,
+                                          std::vector<double> stiffness) {
   stiffness_ = std::move(stiffness);
   along_.resize(weights_.size());
   reach_.assign(size(), 0.0);
-  turns_.assign(size(), 0);
-  sides_ = sides;
-  sides_.resize(size(), 0.0);
+  changes_.assign(size(), 0);
+  ends_ = ends;
+  ends_.resize(size(), 0.0);
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     const Vec3 offset = Eigen::Map<const Vec3>(x + 3 * v) - targets_[v];
     along_[v] = offset.dot(Eigen::Map<const Vec3>(normal + 3 * v));
@@ -33,47 +34,59 @@ void HoldAlongNormals::look_along(const double* normal, const double* x,
     const double whole = tolerance_[v] * tolerance_[v];
     reach_[v] = std::sqrt(std::max(whole - offset.squaredNorm() + along_[v] * along_[v],
                                    least_reach * least_reach * whole));
-    if (sides.empty() && std::abs(along_[v]) > (1 - least_reach) * reach_[v])
-      sides_[v] = along_[v] > 0 ? 1 : -1;
+    if (ends.empty() && std::abs(along_[v]) > (1 - least_reach) * reach_[v])
+      ends_[v] = along_[v] > 0 ? 1 : -1;
     choose_weight(v);
   }
 }
 
 // No spring at all would not keep a closed surface in its place.
-void HoldAlongNormals::choose_weight(std::size_t v) {
+void IntervalConstraints::choose_weight(std::size_t v) {
   const double least = std::max(base_[v], rounding * unit_);
-  weights_[v] = sides_[v] != 0 ? std::max(least, stiff * std::max(stiffness_[v], unit_)) : least;
+  weights_[v] = on_end(v) ? std::max(least, stiff * std::max(stiffness_[v], unit_)) : least;
 }
 
-bool HoldAlongNormals::settled(double energy, double wanted, const double* h) {
+double IntervalConstraints::end_for(std::size_t v, double h) const {
+  if (on_end(v)) return pressure(v, h) < 0 && changes_[v] < most_changes ? 0.0 : ends_[v];
+  if (!(excess(v, h) > 0)) return 0.0;
+  return along_[v] + h > 0 ? 1.0 : -1.0;
+}
+
+bool IntervalConstraints::settled(double energy, double wanted, const double* h) {
   double gap = 0, farthest = 0;
+  bool any_changes = false;
   for (std::size_t v = 0; v < size(); ++v) {
     if (!bound(v)) continue;
     const double outside = excess(v, h[v]);
-    if (sides_[v] != 0) {
+    if (on_end(v))
       gap += 4 * std::max(0.0, -pressure(v, h[v])) * reach_[v];
-    } else if (outside > 0) {
+    else if (outside > 0)
       gap += 2 * stiffness_[v] * outside * outside;
-    }
     farthest = std::max(farthest, 1 + outside / reach_[v]);
+    any_changes |= end_for(v, h[v]) != ends_[v];
   }
-  take_gap(gap, energy, farthest);
-  return gap_ <= wanted;
+  set_gap(gap, energy, farthest);
+  return gap_ <= wanted || !any_changes;
 }
 
-bool HoldAlongNormals::turn(const double* h) {
+bool IntervalConstraints::renew(const double* h, bool loads_settled, double* x) {
   bool any = false;
-  for (std::size_t v = 0; v < size(); ++v) {
+  for (std::size_t v = 0; v < size() && loads_settled; ++v) {
     if (!bound(v)) continue;
-    const bool leaves = sides_[v] != 0 && pressure(v, h[v]) < 0 && turns_[v] < most_turns;
-    const bool arrives = sides_[v] == 0 && excess(v, h[v]) > 0;
-    if (!leaves && !arrives) continue;
-    sides_[v] = leaves ? 0 : along_[v] + h[v] > 0 ? 1 : -1;
-    ++turns_[v];
+    const double end = end_for(v, h[v]);
+    if (end == ends_[v]) continue;
+    ends_[v] = end;
+    ++changes_[v];
     choose_weight(v);
     any = true;
   }
+  if (any) put_on_ends(x);
   return any;
+}
+
+void IntervalConstraints::put_on_ends(double* x) const {
+  for (std::size_t v = 0; v < size(); ++v)
+    if (on_end(v)) x[v] = target(v);
 }
 
 }  // namespace fairing

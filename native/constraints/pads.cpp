@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/pads.h"
+#include "constraints/pads.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/rounding.h"
-#include "hold/pad_reach.h"
+#include "constraints/pad_reach.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 
@@ -50,7 +50,7 @@ double Pads::reach(std::size_t v) const {
   return farthest;
 }
 
-void Pads::leave(std::size_t v) {
+void Pads::deactivate(std::size_t v) {
   if (!under(v)) return;
   under_[v] = 0;
   rows_.vertex[v] = unknowns_.vertex[v];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/couples.h"
+#include "constraints/couples.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/multipliers.h"
 #include "grid/ring.h"
 #include "grid/runs.h"
-#include "hold/load_steps.h"
 #include "stencil/fit.h"
 
 namespace fairing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hold/control_hold.h"
+#include "constraints/control_constraints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +33,9 @@ double weight_unit(const ControlMesh& mesh) {
   return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
 }
 
-ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
-                         const Unknowns& unknowns, std::span<const double> weights, double unit,
-                         std::vector<double> tolerances)
+ControlConstraints::ControlConstraints(const ControlMesh& mesh, std::span<const Vec3> targets,
+                                       const Unknowns& unknowns, std::span<const double> weights,
+                                       double unit, std::vector<double> tolerances)
     : mesh_(mesh),
       targets_(targets),
       unknowns_(unknowns),
@@ -52,20 +52,20 @@ ControlHold::ControlHold(const ControlMesh& mesh, std::span<const Vec3> targets,
   weights_ = base_;
 }
 
-VertexWeights ControlHold::start_weights() const {
+VertexWeights ControlConstraints::start_weights() const {
   VertexWeights out = weights_;
   for (std::size_t v = 0; active_ && v < size(); ++v)
     if (bound(v)) out[v] = std::max(base_[v], stiff * unit_);
   return out;
 }
 
-void ControlHold::take_gap(double gap, double energy, double farthest) {
+void ControlConstraints::set_gap(double gap, double energy, double farthest) {
   if (start_energy_ == 0) start_energy_ = energy;
   const bool pulled = farthest > rounding && energy > 0;
   gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
 }
 
-void ControlHold::enforce(double* x) const {
+void ControlConstraints::enforce(double* x) const {
   for (std::size_t v = 0; v < tolerance_.size(); ++v) {
     if (!bound(v)) continue;
     Eigen::Map<Vec3> p(x + 3 * v);
@@ -75,24 +75,13 @@ void ControlHold::enforce(double* x) const {
   }
 }
 
-Unknowns ControlHold::without_held() const {
+Unknowns ControlConstraints::without_held() const {
   Unknowns out = unknowns_;
   out.any_vertex = false;
   for (std::size_t v = 0; v < out.vertex.size(); ++v) {
     if (v < weights_.size() && weights_[v] > 0) out.vertex[v] = 0;
     out.any_vertex |= bool(out.vertex[v]);
   }
-  return out;
-}
-
-// A spring that much softer than the surface leaves its load to itself.
-std::vector<double> compliance_ratios(const Unknowns& unknowns, const VertexWeights& weights,
-                                      std::span<const double> stiffness, const Hats& hats) {
-  std::vector<double> out;
-  for (std::size_t v = 0; v < stiffness.size(); ++v)
-    out.push_back(unknowns.vertex[v] && hats.under(v)
-                      ? std::min(weights[v] / rounding, stiffness[v]) / weights[v]
-                      : 0.0);
   return out;
 }
 

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constraints/held_solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/rounding.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+template <int N>
+LoadsOf<N> zeros(std::size_t count) {
+  return LoadsOf<N>(count, LoadsOf<N>::value_type::Zero());
+}
+
+template <int N>
+MultiplierSteps<N> steps_of(const HeldSystem<N>& system,
+                            const typename HeldSolve<N>::Constraints* constraints) {
+  std::vector<double> weights;
+  if constexpr (N == 3)
+    if (constraints) weights = constraints->comparable(system.hats);
+  return multiplier_steps<N>(system.hats, std::move(weights),
+                             system.couples ? system.couples->mass() : Moments{});
+}
+
+}  // namespace
+
+template <int N>
+void HeldSolve<N>::Left::set(double next) {
+  const double before = std::exchange(now, next);
+  if (first == 0) first = next;
+  if (before > 0 && now > 0) share = std::min(now / before, 1.0);
+}
+
+template <int N>
+HeldSolve<N>::HeldSolve(const HeldSystem<N>& system, const HeldLimits& limits,
+                        Constraints* constraints, Multipliers<N>& multipliers, HeldReport& report)
+    : system_(system),
+      limits_(limits),
+      constraints_(constraints),
+      multipliers_(multipliers),
+      report_(report),
+      steps_(steps_of<N>(system, constraints)),
+      forces_(zeros<N>(multipliers.loads.size())),
+      vertices_(zeros<N>(system.unknowns.vertex.size())) {}
+
+// What holds control vertices at their points, into the rows of r: of a fixed one the force that its
+// row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On
+// pads it becomes forces[v], which the loads are to take. r has none of a fixed vertex, be it fixed
+// since the pads were made.
+template <int N>
+template <class Away>
+void HeldSolve<N>::add_springs(Away&& away, const LoadsOf<N>& loads, LoadsOf<N>& forces,
+                               double* r) const {
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    Eigen::Map<Vector> row(r + N * v);
+    if (!system_.unknowns.vertex[v]) {
+      if (on_pad(v)) forces[v] = -row;
+      row.setZero();
+    } else if (!system_.weights.empty()) {
+      Vector pull = system_.weights[v] * away(v);
+      if (on_pad(v)) forces[v] = pull -= system_.hats->total(v) * loads[v];
+      row += pull;
+    }
+  }
+}
+
+template <int N>
+void HeldSolve<N>::compute_residual(const double* x, double* r) {
+  system_.residual(x, r);
+  if (system_.hats) system_.hats->add_loads(multipliers_.loads, r);
+  if constexpr (N == 3)
+    if (system_.couples) system_.couples->add(multipliers_.moments, r);
+  add_springs(
+      [&](std::size_t v) {
+        return Vector(system_.target(v) - Eigen::Map<const Vector>(x + N * v));
+      },
+      multipliers_.loads, forces_, r);
+}
+
+template <int N>
+void HeldSolve<N>::solve(bool whole) {
+  PcgLimits now = limits_.solve;
+  const bool is_short = !whole && !limits_.solve.from_start;
+  if (is_short) {
+    now.from_start = true;
+    now.tolerance = std::max(now.tolerance, solve_gain);
+    // After a correction something has to move: forces that are read again say nothing.
+    if (!constraints_ && iterations_ == 0) now.enough = limits_.solve.tolerance;
+  }
+  const double begun = norm(system_.workers, system_.size, r_);
+  const int before = solved_.iterations;
+  solved_ =
+      system_.solve(now, {[this](const double* y, double* r) { compute_residual(y, r); }, x_, r_});
+  if (solved_.iterations > 0 && solved_.residuals.size() > 1 && solved_.residuals.back() > 0)
+    gain_ += std::log(solved_.residuals.front() / solved_.residuals.back());
+  solved_.iterations += before;
+  if (is_short) {
+    const double scale =
+        limits_.solve.residual_scale > 0 ? begun / limits_.solve.residual_scale : 0.0;
+    solved_.residual *= scale;
+    for (double& r : solved_.residuals) r *= scale;
+  }
+  if (system_.hats && !system_.leaves_residual) compute_residual(x_, r_);
+  own_forces_ = forces_;
+  correct_by_residual(solved_.direct);
+}
+
+// A direct solve has left none.
+template <int N>
+void HeldSolve<N>::correct_by_residual(bool direct) {
+  for (std::size_t v = 0; v < vertices_.size(); ++v)
+    vertices_[v] = Eigen::Map<const Vector>(x_ + N * v);
+  if (direct || !system_.restrict_to_vertices || (!system_.hats && !constraints_)) return;
+  LoadsOf<N> rest = zeros<N>(vertices_.size());
+  system_.restrict_to_vertices({r_, system_.size}, rest);
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    const double w = spring(v);
+    if (system_.unknowns.vertex[v]) rest[v] *= w > 0 ? w / (w + system_.stiffness[v]) : 0.0;
+    if (on_pad(v)) forces_[v] -= rest[v];
+    if (w > 0) vertices_[v] += rest[v] / w;
+  }
+}
+
+// A spring much softer than the surface leaves its load to itself.
+template <int N>
+typename HeldSolve<N>::Sizes HeldSolve<N>::correct_loads() {
+  std::vector<double> compliance;  // how much each spring gives way before its load: s / w
+  for (std::size_t v = 0; v < system_.stiffness.size(); ++v) {
+    const double w = spring(v), s = system_.stiffness[v];
+    compliance.push_back(w > 0 && on_pad(v) ? std::min(w / rounding, s) / w : 0.0);
+  }
+  const Hats& hats = *system_.hats;
+  LoadsOf<N> product;
+  hats.divide_by_mass<N>(forces_, correction_.loads, compliance);
+  hats.multiply_mass<N>(multipliers_.loads, product);
+  return {dot<N>(correction_.loads, forces_), dot<N>(multipliers_.loads, product)};
+}
+
+template <int N>
+typename HeldSolve<N>::Sizes HeldSolve<N>::correct_couples() {
+  const LevelCouples& couples = *system_.couples;
+  correction_.moments = couples.correction(system_.compliance_of_couples(), x_);
+  report_.normal_angle = tilt_ = 0;
+  Sizes out;
+  for (std::size_t c = 0; c < couples.size(); ++c) {
+    const double angle = couples.angle(c, x_);
+    report_.normal_angle = std::max(report_.normal_angle, angle);
+    tilt_ = std::max(tilt_, std::min(angle, std::numbers::pi - angle));
+    out.left += couples.mass()[c].dot(correction_.moments[c].cwiseAbs2());
+    out.all += couples.mass()[c].dot(multipliers_.moments[c].cwiseAbs2());
+  }
+  return out;
+}
+
+// Whether little enough is left of forces, and of the angles to fixed normals; the correction is what
+// would take it off.
+template <int N>
+bool HeldSolve<N>::read_loads() {
+  if (!system_.hats && !system_.couples) return true;
+  const Sizes loads = system_.hats ? correct_loads() : Sizes{},
+              couples = system_.couples ? correct_couples() : Sizes{};
+  const double all = std::sqrt(std::max(0.0, loads.all + couples.all));
+  force_.set(std::sqrt(std::max(0.0, loads.left + couples.left)));
+  report_.pad_force = all > 0 ? force_.now / all : force_.now > 0 ? 1.0 : 0.0;
+  return tilt_ <= limits_.angle && (report_.pad_force <= limits_.force ||
+                                    force_.now <= limits_.of_first_force * force_.first ||
+                                    std::sqrt(dot<N>(forces_, forces_)) <= limits_.solve.noise);
+}
+
+template <int N>
+bool HeldSolve<N>::read_bounds() {
+  if (!constraints_) return true;
+  const double wanted = std::max(limits_.gap, limits_.of_first_gap * gap_.first);
+  const bool settled = constraints_->settled(system_.energy(x_), wanted, vertices_[0].data());
+  gap_.set(constraints_->gap());
+  report_.constraint_gap = constraints_->gap();
+  return settled;
+}
+
+// Whether one more correction will settle all, as the last ones did, with as much to spare as a solve
+// leaves.
+template <int N>
+bool HeldSolve<N>::nearly_settled() const {
+  return force_.share * report_.pad_force <= solve_gain * limits_.force &&
+         force_.share * tilt_ <= solve_gain * limits_.angle &&
+         gap_.share * gap_.now <= solve_gain * limits_.gap;
+}
+
+// Of other springs earlier corrections tell nothing. After a correction of loads alone the residual is
+// known: that of the solve, and theirs.
+template <int N>
+void HeldSolve<N>::correct() {
+  ++corrections_;
+  const bool may_renew = loads_settled_ || corrections_ > limits_.corrections;
+  if (constraints_ && constraints_->renew(vertices_[0].data(), may_renew, x_)) {
+    system_.set_weights(constraints_->weights());
+    ++report_.constraint_rounds;
+    steps_.forget();
+    corrections_ = 0;
+    return compute_residual(x_, r_);
+  }
+  if constexpr (N == 3)
+    if (constraints_) {
+      correction_.bounds = constraints_->correction(vertices_[0].data(), forces_);
+      if (system_.hats) correct_loads();
+      ++report_.constraint_rounds;
+    }
+  report_.pad_corrections += system_.hats || system_.couples;
+  const Multipliers<N> change = steps_.change(correction_);
+  for (std::size_t v = 0; v < change.loads.size(); ++v) multipliers_.loads[v] += change.loads[v];
+  for (std::size_t c = 0; c < change.moments.size(); ++c)
+    multipliers_.moments[c] += change.moments[c];
+  if constexpr (N == 3)
+    if (constraints_) constraints_->shift(change.bounds);
+  if (!system_.hats || system_.couples || constraints_) return compute_residual(x_, r_);
+  LoadsOf<N> shift = zeros<N>(forces_.size());
+  system_.hats->add_loads(change.loads, r_);
+  add_springs([](std::size_t) { return Vector(Vector::Zero()); }, change.loads, shift, r_);
+  for (std::size_t v = 0; v < forces_.size(); ++v) forces_[v] = own_forces_[v] + shift[v];
+}
+
+// A correction after a solve to the end may ask for less than that solve leaves: then nothing would
+// move, and forces would be read that say nothing. So short solves go on until all has settled.
+template <int N>
+LevelSolve HeldSolve<N>::run(double* x, double* r) {
+  x_ = x, r_ = r;
+  compute_residual(x_, r_);
+  for (bool whole = !system_.hats && !system_.couples && !constraints_;; ++iterations_) {
+    solve(whole);
+    loads_settled_ = read_loads();
+    const bool bounds = read_bounds(), settled = loads_settled_ && bounds;
+    const bool loads_end = loads_settled_ || corrections_ >= limits_.corrections;
+    const bool ends = (loads_end && bounds) || iterations_ >= most_corrections;
+    if (ends && (whole || !limits_.ends_whole || solved_.enough)) return solved_;
+    whole = settled || nearly_settled() || iterations_ + 1 >= most_corrections;
+    if (!settled)
+      correct();
+    else if (!system_.hats)
+      compute_residual(x_, r_);
+    else
+      forces_ = own_forces_;
+  }
+}
+
+template class HeldSolve<1>;
+template class HeldSolve<3>;
+
+}  // namespace fairing

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plate on one level, with what holds its control vertices (constraints/held_solve.h).
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/held_solve.h"
+#include "thin_plate/run.h"
+
+namespace fairing {
+namespace {
+
+// Who asks for an exact surface gets exact loads.
+double force_tolerance(double relative_residual) {
+  return std::min(10 * std::sqrt(relative_residual), largest_force_left);
+}
+
+// Rows at a free border may be stiff without bounds, and H follows them: the prolongation is not near
+// H there (docs/notes/performance.md), and forces are read from the vertices' own rows.
+bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.edges[e].boundary() && unknowns.edge[e]) return true;
+  return false;
+}
+
+}  // namespace
+
+HeldLimits ThinPlateSolver::Run::held_limits(int level, const PcgLimits& limits) const {
+  const bool is_top = level == top();
+  HeldLimits out;
+  out.solve = limits;
+  out.ends_whole = is_top;
+  out.force =
+      std::max(rough_force, is_top ? force_tolerance(solver.options_.solve.relative_residual)
+                                   : coarse_force_tolerance);
+  out.angle = largest_angle_left / largest_force_left * out.force;
+  out.gap = is_top ? gap_wanted : coarse_gap;
+  return out;
+}
+
+ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLimits& limits,
+                                                         BallConstraints* constraints) {
+  PlateSupports& supports = solver.supports_;
+  Workers& workers = levels().workers();
+  const Unknowns& unknowns = levels().shared().unknowns;
+  const std::shared_ptr<const Hats> hats = supports.hats(level);
+  const std::shared_ptr<const LevelCouples> couples = supports.couples(level);
+  const auto residual = [&](const double* y, double* out) {
+    levels().apply_with(level, hats ? hats->rows() : unknowns, y, out);
+    for_each_index(workers, size(level), [&](std::size_t i) { out[i] = -out[i]; });
+    levels().add_pull(level, goal, out);
+    for (std::size_t i = 0; i < forces.size(); ++i) out[i] += forces[i];
+  };
+  int iterations = 0;
+  const auto solve_level = [&](const PcgLimits& now, const LinearSystem& system) {
+    LevelSolve solved = levels().solve(level, now, system, [&](const PcgResult& so_far) {
+      // nobody knows how many iterations there will be
+      report_done(level, 1 - 1 / std::sqrt(1.0 + iterations + so_far.iterations));
+    });
+    iterations += solved.iterations;
+    return solved;
+  };
+  using Restriction = decltype(HeldSystem<3>::restrict_to_vertices);
+  const Restriction restrict_to_vertices = [&](std::span<const double> y, std::span<Vec3> sums) {
+    levels().restrict_to_vertices(level, y.data(), sums);
+  };
+  const HeldSystem<3> system{
+      workers,
+      size(level),
+      unknowns,
+      levels().weights(level),
+      supports.stiffness(),
+      hats.get(),
+      couples.get(),
+      [&](std::size_t v) {
+        return (constraints ? constraints->shifted_targets() : data.targets)[v];
+      },
+      residual,
+      levels().op(level).single_precision_suffices(),
+      solve_level,
+      has_free_border(levels().shared().mesh, unknowns) ? Restriction{} : restrict_to_vertices,
+      [&](const VertexWeights& weights) { levels().set_weights(weights, level); },
+      [&](const double* y) { return levels().energy(level, y); },
+      [&]() -> const Compliance& {
+        return supports.compliance(level, solver.options_.solve.max_iterations);
+      }};
+  const HeldLimits held = held_limits(level, limits);
+  LevelReport report = report_of(level);
+  report.constraint_rounds = constraints != nullptr;
+  HeldSolve<3> solve(system, held, constraints, state, report);
+  static_cast<LevelSolve&>(report) = solve.run(x.data(), r.data());
+  report.converged &= solve.loads_settled();
+  if (constraints) {
+    constraints->enforce(x.data());
+    report.converged &= report.constraint_gap <= held.gap;
+  }
+  // Couples hold a tangent plane, whichever of its sides the surface turns up.
+  if (couples && level == top()) report.converged &= report.normal_angle <= largest_angle_left;
+  LevelSolve equivalent = report;
+  if (solve.gain() > 0 && (hats || constraints || couples))
+    equivalent.iterations = int(-report.iterations * std::log(limits.tolerance) / solve.gain());
+  return {report, equivalent};
+}
+
+}  // namespace fairing
