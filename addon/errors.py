@@ -144,9 +144,8 @@ def _may_be_tauter(settings: Any) -> bool:
 
 def error_text(object_name: str, error: Any, remedies: Mapping[str, str] = REMEDIES) -> str:
     """One paragraph for a FairingError: which object, what to do, what is wrong where."""
-    cause, _, theirs = str(error).partition(". ")
     # ours knows Blender: what the core says to do is for callers in Python
-    cure = remedies.get(error.code, theirs)
+    cause, cure = error.cause, remedies.get(error.code, error.cure)
     if cure and "_" not in cause.partition(" ")[0]:  # no name of Python's
         cause = cause[:1].upper() + cause[1:]
     return f"{object_name}: {' '.join(_sentence(part) for part in (cure, cause) if part)}"
@@ -213,18 +212,18 @@ _CURES = {
 }
 
 
-def _thickness_text(message: str) -> tuple[str, str]:
-    """What to do, and what is so, from the core's message of another thickness."""
-    cause, _, cures = message.partition(". Use ")
-    help_by = [words for setting, words in _CURES.items() if setting in cures]
-    words = _listed(help_by, "or")
-    return words[0].upper() + words[1:], cause
+def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
+    """What to do, and what is so: for the core's warning of another thickness."""
+    words = _listed(
+        [words for setting, words in _CURES.items() if setting in warning["cure"]], "or"
+    )
+    return words[0].upper() + words[1:], warning["cause"]
 
 
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     """One of the core's warnings, in words for the user."""
     if warning["code"] == "THICKNESS_CHANGED":
-        return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning['message'])))}"
+        return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning)))}"
     told = _UNFINISHED.get(warning["code"], (warning["message"],))
     return f"{object_name}: {' '.join(map(_sentence, told))}"
 

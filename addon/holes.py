@@ -29,7 +29,8 @@ from .transfer.hole_loops import (
 )
 from .units import Units
 
-NO_HOLE = "NO_HOLE"  # code of a JobError: there is nothing to fill
+# codes of a JobError: there is nothing to fill; or only what Largest Hole leaves open
+NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
 
 
 @dataclass(frozen=True)
@@ -102,11 +103,10 @@ class Filled:
 
 def _skipped(hole: Any, vertices: np.ndarray) -> dict[str, Any]:
     """A hole that the core has left, with elements of the mesh whose part has these `vertices` (n,)."""
-    _, _, why = hole.message.partition(": ")  # behind the elements, by the numbers of the part
     ids = vertices[np.array(hole.elements, np.int64)].tolist()
     return {
         "code": errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code,
-        "message": why,
+        "message": hole.why,
         "kind": hole.kind,
         "elements": ids,
         "severity": "error",
@@ -157,10 +157,8 @@ class HoleJob:
                 if any(not chosen.isdisjoint(sides_of(loop)) for loop in hole)
             ]
         if not self._holes:
-            raise JobError(
-                f"{self.name}: {_none_text(wish, self._editing, self._unclear, len(loops), units)}",
-                NO_HOLE,
-            )
+            code, why = _why_none(wish, self._editing, self._unclear, len(loops), units)
+            raise JobError(f"{self.name}: {why}", code)
         self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
 
     @property
@@ -298,21 +296,24 @@ def _no_wider(
     return [[loop.tolist() for loop in hole] for hole in wanted]
 
 
-def _none_text(wish: Wish, editing: bool, unclear: int, loops: int, units: Units) -> str:
+def _why_none(wish: Wish, editing: bool, unclear: int, loops: int, units: Units) -> tuple[str, str]:
+    """The code, and a sentence."""
     if wish.edge is not None:
-        return "Press Check Mesh again: this hole is no longer there"
+        return NO_HOLE, "Press Check Mesh again: this hole is no longer there"
     if unclear:
-        return _unclear_text(unclear)
+        return NO_HOLE, _unclear_text(unclear)
     if not editing and not loops:
-        return "Delete faces first: there is no hole, every edge has a face on both sides"
+        return NO_HOLE, "Delete faces first: there is no hole, every edge has a face on both sides"
     if not editing and wish.largest > 0.0:
         most = units.lengths(wish.largest)(wish.largest)
-        return f"Raise Largest Hole: there is no hole of a width of at most {most}"
+        return LARGER_HOLES, f"Raise Largest Hole: there is no hole of a width of at most {most}"
     if not editing:
-        return "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
+        why = "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
+        return LARGER_HOLES, why
     if wish.replaces:
-        return "Select faces with others around them: the selected ones leave no hole"
-    return "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
+        return NO_HOLE, "Select faces with others around them: the selected ones leave no hole"
+    why = "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
+    return NO_HOLE, why
 
 
 def _unclear_text(count: int) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 from ..blender import Object, current_context
 from ..choices import JOINTS
 from ..errors import JobError
-from ..holes import NO_HOLE, HoleJob, Wish, doubts
+from ..holes import LARGER_HOLES, NO_HOLE, HoleJob, Wish, doubts
 from .report import counts
 
 DEFAULTS: dict[str, Any] = {
@@ -88,9 +88,9 @@ def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], li
     try:
         job = HoleJob(current_context(), source, wish)
     except JobError as error:
-        if error.code != NO_HOLE:
+        if error.code not in (NO_HOLE, LARGER_HOLES):
             raise
-        said = [] if "Largest Hole" in str(error) else [f"{error}."]
+        said = [f"{error}."] if error.code == NO_HOLE else []
         return entry | {"result": entry["control"], "report": {"holes": []}}, said
     job.compute(**watchers)
     if job.error is not None:

@@ -9,59 +9,35 @@ namespace {
 
 constexpr std::size_t shown = 5;  // ids in a message: a line of text
 
-template <class Item>
-std::string list(Words noun, std::size_t count, Item item, Words verb) {
-  std::string text = std::to_string(count) + " " + (count == 1 ? noun.one : noun.many) + " (";
-  for (std::size_t i = 0; i < std::min(count, shown); ++i) text += (i ? ", " : "") + item(i);
-  return text + (count > shown ? ", …) " : ") ") + (count == 1 ? verb.one : verb.many);
-}
-
-// Both numbers of an English verb. What is past is the same in both, but for "was".
-std::pair<std::string, std::string> both_numbers(const std::string& verb) {
-  for (const Words& irregular : {Words{"is", "are"}, Words{"has", "have"}, Words{"was", "were"}})
-    if (verb == irregular.one || verb == irregular.many) return {irregular.one, irregular.many};
-  if (verb.ends_with('d')) return {verb, verb};
-  const std::string stem = verb.ends_with('s') ? verb.substr(0, verb.size() - 1) : verb;
-  return {stem + "s", stem};
-}
-
-// The noun of a message, if that is one for elements of this kind.
-const Words* noun_of(ElementKind kind, const std::string& noun) {
-  static constexpr std::pair<ElementKind, Words> nouns[] = {{ElementKind::face, face_s},
-                                                            {ElementKind::vertex, vertex_s},
-                                                            {ElementKind::edge, edge_s},
-                                                            {ElementKind::edge, crease_s}};
-  for (const auto& [of, words] : nouns)
-    if (of == kind && (noun == words.one || noun == words.many)) return &words;
-  return nullptr;
-}
-
-// "12 faces (0, 4, …) have" in a message: what it says, and where it begins and ends.
-struct Listed {
-  std::string noun, verb;
-  std::size_t begin, end;
+struct Noun {
+  std::string_view one, many;
 };
+constexpr Noun nouns[] = {{"face", "faces"},
+                          {"vertex", "vertices"},
+                          {"edge", "edges"},
+                          {"crease", "creases"},
+                          {"boundary edge", "boundary edges"}};
 
-std::optional<Listed> find_listed(const std::string& message) {
-  const std::size_t open = message.find(" ("), close = message.find(") ", open);
-  if (open == std::string::npos || close == std::string::npos) return std::nullopt;
-  const std::size_t space = message.rfind(' ', open - 1);
-  if (space == std::string::npos) return std::nullopt;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t begin = space;
-  while (begin > 0 && is_digit(message[begin - 1])) --begin;
-  if (begin == space) return std::nullopt;
-  const std::size_t verb = close + 2, end = std::min(message.find(' ', verb), message.size());
-  return Listed{message.substr(space + 1, open - space - 1), message.substr(verb, end - verb),
-                begin, end};
+std::string listed(const Noun& noun, ElementKind kind, std::span<const std::int64_t> ids) {
+  const std::size_t each = kind == ElementKind::edge ? 2 : 1, count = ids.size() / each;
+  std::string out = std::to_string(count) + " " + std::string(count == 1 ? noun.one : noun.many);
+  for (std::size_t i = 0; i < std::min(count, shown); ++i) {
+    out.append(i ? ", " : " (").append(std::to_string(ids[each * i]));
+    if (each == 2) out.append("-").append(std::to_string(ids[2 * i + 1]));
+  }
+  return out + (count > shown ? ", …)" : ")");
 }
 
-// The text, with the first of these words, in either number, in the one asked for.
-std::string with_number(std::string text, Words words, bool single) {
-  const std::string wrong = single ? words.many : words.one;
-  if (const std::size_t at = text.find(wrong); at != std::string::npos)
-    text.replace(at, wrong.size(), single ? words.one : words.many);
-  return text;
+// What a place stands for; nothing where the braces are part of the text.
+std::optional<std::string> filled(std::string_view place, ElementKind kind,
+                                  std::span<const std::int64_t> ids) {
+  if (const std::size_t bar = place.find('|'); bar != place.npos) {
+    const bool single = ids.size() == (kind == ElementKind::edge ? 2u : 1u);
+    return std::string(single ? place.substr(0, bar) : place.substr(bar + 1));
+  }
+  for (const Noun& noun : nouns)
+    if (place == noun.one) return listed(noun, kind, ids);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -140,29 +116,24 @@ ElementKind usual_kind(ErrorCode code) {
   return ElementKind::mesh;
 }
 
-std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb) {
-  return list(noun, ids.size(), [&](std::size_t i) { return std::to_string(ids[i]); }, verb);
+std::string text(const std::string& sentence, ElementKind kind, std::span<const std::int64_t> ids) {
+  std::string out;
+  std::size_t from = 0;
+  while (!ids.empty()) {
+    const std::size_t open = sentence.find('{', from), close = sentence.find('}', open);
+    if (close == std::string::npos) break;
+    const auto place = std::string_view(sentence).substr(open + 1, close - open - 1);
+    const std::optional<std::string> words = filled(place, kind, ids);
+    out.append(sentence, from, words ? open - from : close + 1 - from);
+    out += words.value_or("");
+    from = close + 1;
+  }
+  return out.append(sentence, from);
 }
 
-std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb) {
-  const auto pair = [&](std::size_t i) {
-    return std::to_string(ids[2 * i]) + "-" + std::to_string(ids[2 * i + 1]);
-  };
-  return list(noun, ids.size() / 2, pair, verb);
-}
-
-std::string relisted(const std::string& message, ElementKind kind,
-                     std::span<const std::int64_t> ids) {
-  const std::optional<Listed> found = find_listed(message);
-  const Words* noun = found ? noun_of(kind, found->noun) : nullptr;
-  if (!noun) return message;
-  const auto [one, many] = both_numbers(found->verb);
-  const Words verb{one.c_str(), many.c_str()};
-  const bool is_edge = kind == ElementKind::edge;
-  const std::string start = is_edge ? listing_pairs(*noun, ids, verb) : listing(*noun, ids, verb);
-  const bool single = ids.size() == (is_edge ? 2u : 1u);
-  return message.substr(0, found->begin) + start +
-         with_number(message.substr(found->end), {" and was ", " and were "}, single);
+std::string text(const Message& message, ElementKind kind, std::span<const std::int64_t> ids) {
+  const std::string cause = text(message.cause, kind, ids);
+  return message.cure.empty() ? cause : cause + " " + text(message.cure, kind, ids);
 }
 
 }  // namespace fairing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one exception type of the core, the warnings, and how their messages begin. Every refusal
-// names its elements: a message is what the user reads, the ids are what the add-on selects.
+// The one exception type of the core, the warnings, and their messages. Every refusal names its
+// elements: a message is what the user reads, the ids are what the add-on selects.
 #pragma once
 
 #include <cstdint>
@@ -53,19 +53,35 @@ ElementKind kind_named(std::string_view text);
 // What the elements of such an error usually are.
 ElementKind usual_kind(ErrorCode code);
 
+// A message as data: text is made of it last, so that ids can change on the way to the caller. In a
+// sentence "{face}", "{vertex}", "{edge}" or "{crease}" stands for the elements, "12 faces (0, 4, 9, 11,
+// 12, …)", and "{has|have}" for the word that agrees with their number. Edges are shown as "4-9".
+struct Message {
+  Message(const char* sentence) : cause(sentence) {}
+  Message(std::string sentence, std::string advice = {})
+      : cause(std::move(sentence)), cure(std::move(advice)) {}
+
+  std::string cause;  // what is wrong, a sentence
+  std::string cure;   // what to do about it, sentences; or empty
+};
+
+std::string text(const std::string& sentence, ElementKind kind, std::span<const std::int64_t> ids);
+std::string text(const Message& message, ElementKind kind, std::span<const std::int64_t> ids);
+
 // `elements` are ids in the caller's own numbering, of the kind that `kind` says.
 class FairingError : public std::runtime_error {
  public:
-  FairingError(ErrorCode error, const std::string& message, std::vector<std::int64_t> ids = {})
-      : FairingError(error, message, std::move(ids), usual_kind(error)) {}
-  FairingError(ErrorCode error, const std::string& message, std::vector<std::int64_t> ids,
-               ElementKind of)
-      : std::runtime_error(message),
+  FairingError(ErrorCode error, const Message& about, std::vector<std::int64_t> ids = {})
+      : FairingError(error, about, std::move(ids), usual_kind(error)) {}
+  FairingError(ErrorCode error, const Message& about, std::vector<std::int64_t> ids, ElementKind of)
+      : std::runtime_error(text(about, of, ids)),
         code(error),
+        message(about),
         kind(ids.empty() ? ElementKind::mesh : of),
         elements(std::move(ids)) {}
 
   ErrorCode code;
+  Message message;
   ElementKind kind;
   std::vector<std::int64_t> elements;
 };
@@ -73,28 +89,9 @@ class FairingError : public std::runtime_error {
 // Something that the user should know and that stops nothing.
 struct Warning {
   std::string code;  // of an ErrorCode, as "ISOLATED_VERTICES", or "NOT_CONVERGED"
-  std::string message;
+  Message message;
   std::vector<std::int64_t> elements;
   ElementKind kind = ElementKind::mesh;
 };
-
-// How messages begin: the count of elements, the first few ids, and the verb in agreement.
-struct Words {
-  const char *one, *many;
-};
-
-constexpr Words face_s{"face", "faces"}, vertex_s{"vertex", "vertices"}, edge_s{"edge", "edges"},
-    crease_s{"crease", "creases"};
-
-// "1 face (7) has", "12 faces (0, 4, 9, 11, 12, …) have".
-std::string listing(Words noun, std::span<const std::int64_t> ids, Words verb);
-
-// Ids laid end to end in pairs: "2 edges (0-4, 4-9) have".
-std::string listing_pairs(Words noun, std::span<const std::int64_t> ids, Words verb);
-
-// A message about other ids: its first listing and the verbs after that agree with their number.
-// One that lists nothing comes back as it is.
-std::string relisted(const std::string& message, ElementKind kind,
-                     std::span<const std::int64_t> ids);
 
 }  // namespace fairing

@@ -141,9 +141,8 @@ void require_corners(const std::vector<std::int32_t>& corners, std::size_t point
         outside.push_back(std::int64_t(i / 3));
   if (!outside.empty())
     throw FairingError(ErrorCode::index_out_of_range,
-                       listing(face_s, outside, {"names", "name"}) +
-                           " a vertex that does not exist: there are " + std::to_string(points) +
-                           " points.",
+                       "{face} {names|name} a vertex that does not exist: there are " +
+                           std::to_string(points) + " points.",
                        outside);
 }
 

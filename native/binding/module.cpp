@@ -26,13 +26,25 @@ namespace {
 
 PyObject* fairing_error_type = nullptr;
 
+// The package's own errors have codes that the core does not know.
+py::object python_error(const std::string& code, const std::string& cause, const std::string& cure,
+                        const std::vector<std::int64_t>& elements, const std::string& kind) {
+  const ElementKind of = kind_named(kind);
+  py::object value = py::reinterpret_borrow<py::object>(fairing_error_type)(
+      text(Message(cause, cure), of, elements));
+  value.attr("code") = code;
+  value.attr("cause") = text(cause, of, elements);
+  value.attr("cure") = text(cure, of, elements);
+  value.attr("elements") = elements;
+  value.attr("kind") = kind;
+  value.attr("_sentences") = py::make_tuple(cause, cure);
+  return value;
+}
+
 void set_python_error(const FairingError& error) {
-  const py::object type = py::reinterpret_borrow<py::object>(fairing_error_type);
-  py::object value = type(error.what());
-  value.attr("code") = name(error.code);
-  value.attr("elements") = error.elements;
-  value.attr("kind") = name(error.kind);
-  PyErr_SetObject(type.ptr(), value.ptr());
+  const py::object value = python_error(name(error.code), error.message.cause, error.message.cure,
+                                        error.elements, name(error.kind));
+  PyErr_SetObject(fairing_error_type, value.ptr());
 }
 
 // FairingError is the one exception of the core, and the one of this module.
@@ -40,9 +52,10 @@ void bind_errors(py::module_& m) {
   fairing_error_type = PyErr_NewExceptionWithDoc(
       "discrete_fairing.FairingError",
       "Base of all errors of this package.\n\n"
-      "code: str, what is wrong (\"DUPLICATE_FACE\", ...); elements: list of int, the ids\n"
-      "concerned; kind: \"vertex\", \"edge\" (ids in pairs, end to end), \"face\" or, without\n"
-      "elements, \"mesh\".",
+      "code: str, what is wrong (\"DUPLICATE_FACE\", ...); cause, cure: str, the same as a\n"
+      "sentence, and what to do about it (or empty); elements: list of int, the ids concerned;\n"
+      "kind: \"vertex\", \"edge\" (ids in pairs, end to end), \"face\" or, without elements,\n"
+      "\"mesh\".",
       PyExc_ValueError, nullptr);
   // One reference stays with set_python_error().
   m.attr("FairingError") = py::reinterpret_borrow<py::object>(fairing_error_type);
@@ -124,9 +137,9 @@ py::dict predicted_size(std::int64_t vertices, const Ids& corners, const Ids& of
   return to_python(predict_size(vertices, faces.corners, faces.offsets, levels, shapes, energy));
 }
 
-std::string relisted_message(const std::string& message, const std::string& kind,
-                             const std::vector<std::int64_t>& ids) {
-  return relisted(message, kind_named(kind), ids);
+std::string text_of(const std::string& sentence, const std::string& kind,
+                    const std::vector<std::int64_t>& ids) {
+  return text(sentence, kind_named(kind), ids);
 }
 
 }  // namespace
@@ -149,8 +162,11 @@ PYBIND11_MODULE(_native, m) {
   m.def("predicted_size", &predicted_size, py::arg("vertices"), exact("corners"), exact("offsets"),
         py::arg("levels"), py::arg("shapes"), py::arg("energy"),
         "What a run of so many vertices and these faces makes and takes.");
-  m.def("relisted", &relisted_message, py::arg("message"), py::arg("kind"), py::arg("ids"),
-        "A message about other elements of that kind.");
+  m.def("error", &python_error, py::arg("code"), py::arg("cause"), py::arg("cure"),
+        py::arg("elements"), py::arg("kind"),
+        "A FairingError; its sentences have places for the elements (native/base/error.h).");
+  m.def("text", &text_of, py::arg("sentence"), py::arg("kind"), py::arg("elements"),
+        "A sentence with the elements in their places.");
   bind_solver(m);
   bind_strain(m);
   bind_outline(m);

@@ -2,7 +2,7 @@
 // FairOptions as Python sees it: flat, one attribute a setting, under the names of fair()'s
 // keywords. The package converts what callers write (discrete_fairing/options.py); here types are
 // exact.
-#include "fairing/options.h"
+#include "fairing/settings.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -59,51 +59,16 @@ void bind_options(py::module_& m) {
   m.attr("most_levels") = most_levels;
   py::class_<FairOptions> options(m, "Options", "All settings; new ones hold the defaults.");
   define_constructor(options);
-  const auto setting = [&](const char* name, auto... member) {
+  for_each_setting([&](const char* name, const auto&, auto... member) {
     bind_setting(options, name, member...);
-  };
-  using O = FairOptions;
-  setting("levels", &O::levels);
-  setting("energy", &O::energy);
-  setting("step_tolerance", &O::step_tolerance);
-  setting("max_steps", &O::max_steps);
-  setting("chart", &O::paper, &PaperOptions::chart);
-  setting("metric_exponent", &O::metric_exponent);
-  setting("chart_blend", &O::paper, &PaperOptions::chart_blend);
-  setting("crease_edges", &O::features, &FeatureOptions::crease_edges);
-  setting("corner_vertices", &O::features, &FeatureOptions::corner_vertices);
-  setting("crease_angle", &O::features, &FeatureOptions::crease_angle);
-  setting("corner_angle", &O::features, &FeatureOptions::corner_angle);
-  setting("boundary", &O::features, &FeatureOptions::boundary);
-  setting("boundary_edges", &O::features, &FeatureOptions::boundary_edges);
+  });
   // Once it is set there is a region, be it an empty one.
   options.def_property(
-      "region", [](const O& o) { return o.features.region.faces; },
-      [](O& o, std::vector<std::int64_t> faces) {
+      "region", [](const FairOptions& o) { return o.features.region.faces; },
+      [](FairOptions& o, std::vector<std::int64_t> faces) {
         o.features.region.given = true;
         o.features.region.faces = std::move(faces);
       });
-  setting("joint", &O::features, &FeatureOptions::region, &RegionOptions::joint);
-  setting("repair", &O::repair);
-  setting("weld", &O::weld);
-  setting("interpolation", &O::interpolation);
-  setting("tolerance", &O::tolerance);
-  setting("weights", &O::weights);
-  setting("limit", &O::limit);
-  setting("edge_sharpness", &O::sharpness, &Sharpness::edges);
-  setting("vertex_sharpness", &O::sharpness, &Sharpness::vertices);
-  setting("epsilon", &O::paper, &PaperOptions::epsilon);
-  setting("pad_size", &O::pad_size);
-  setting("normals", &O::normals);
-  setting("tension", &O::tension);
-  setting("method", &O::paper, &PaperOptions::method);
-  setting("relative_residual", &O::solve, &SolveOptions::relative_residual);
-  setting("max_iterations", &O::solve, &SolveOptions::max_iterations);
-  setting("smoother_degree", &O::solve, &SolveOptions::smoother_degree);
-  setting("sweeps", &O::paper, &PaperOptions::sweeps);
-  setting("threads", &O::threads);
-  setting("memory_limit", &O::memory_limit);
-  setting("measure", &O::measure);
 }
 
 }  // namespace fairing

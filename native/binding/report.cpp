@@ -74,8 +74,8 @@ py::dict to_python(const SheetReport& s) {
 py::list to_python(const std::vector<Warning>& warnings) {
   py::list list;
   for (const Warning& w : warnings) {
-    list.append(py::dict("code"_a = w.code, "message"_a = w.message, "elements"_a = w.elements,
-                         "kind"_a = name(w.kind)));
+    list.append(py::dict("code"_a = w.code, "cause"_a = w.message.cause, "cure"_a = w.message.cure,
+                         "elements"_a = w.elements, "kind"_a = name(w.kind)));
   }
   return list;
 }
@@ -136,7 +136,8 @@ py::list to_python(const Defects& defects) {
   for (const Defect& defect : defects) {
     const bool in_pairs = defect.kind == ElementKind::edge;
     list.append(py::dict(
-        "code"_a = name(defect.code), "message"_a = defect.message,
+        "code"_a = name(defect.code),
+        "message"_a = text(defect.message, defect.kind, defect.elements),
         "elements"_a = in_pairs ? py::cast(pairs_of(defect.elements)) : py::cast(defect.elements),
         "kind"_a = name(defect.kind),
         "severity"_a = defect.severity == Severity::error ? "error" : "warning",

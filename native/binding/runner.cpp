@@ -167,8 +167,9 @@ bool Runner::is_left_behind() const { return process_ != current_process(); }
 void Runner::require_own_process() const {
   if (is_left_behind())
     throw FairingError(ErrorCode::forked,
-                       "This belongs to the process that the present one was forked from; its "
-                       "threads have stayed there. Make another solver here.");
+                       {"This belongs to the process that the present one was forked from; its "
+                        "threads have stayed there.",
+                        "Make another solver here."});
 }
 
 void Runner::run_quietly(const std::function<void()>& job) {

@@ -13,12 +13,12 @@ namespace {
 void require_two_sides(const std::vector<Warning>& warnings) {
   for (const Warning& warning : warnings)
     if (warning.code == name(ErrorCode::non_orientable))
-      throw FairingError(ErrorCode::non_orientable,
-                         listing(face_s, warning.elements, {"belongs", "belong"}) +
-                             " to a surface with only one side, like a Möbius strip. Only the thin "
-                             "plate takes it: for the other energies a surface needs normals that "
-                             "agree all over. Use energy=\"thin_plate\", or cut it open.",
-                         warning.elements);
+      throw FairingError(
+          ErrorCode::non_orientable,
+          {"{face} {belongs|belong} to a surface with only one side, like a Möbius strip.",
+           "Only the thin plate takes it: for the other energies a surface needs normals that "
+           "agree all over. Use energy=\"thin_plate\", or cut it open."},
+          warning.elements);
 }
 
 }  // namespace

@@ -89,10 +89,11 @@ void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_
 void require_numbers(std::span<const double> coordinates, const std::string& where) {
   const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
   if (!bad.empty())
-    throw FairingError(ErrorCode::non_finite,
-                       where + listing(vertex_s, bad, {"has", "have"}) +
-                           " a coordinate that is NaN, infinite or beyond 1e100. Move them.",
-                       bad);
+    throw FairingError(
+        ErrorCode::non_finite,
+        {where + "{vertex} {has|have} a coordinate that is NaN, infinite or beyond 1e100.",
+         "Move them."},
+        bad);
 }
 
 }  // namespace
@@ -152,10 +153,10 @@ void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes) {
 
 void check_positions(std::size_t vertices, std::span<const double> coordinates) {
   if (coordinates.size() != 3 * vertices)
-    throw FairingError(ErrorCode::bad_shape, std::to_string(coordinates.size() / 3) +
-                                                 " vertices where the solver's mesh has " +
-                                                 std::to_string(vertices) +
-                                                 ". Make another solver.");
+    throw FairingError(ErrorCode::bad_shape, {std::to_string(coordinates.size() / 3) +
+                                                  " vertices where the solver's mesh has " +
+                                                  std::to_string(vertices) + ".",
+                                              "Make another solver."});
   require_numbers(coordinates, "");
 }
 

@@ -65,12 +65,11 @@ void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) 
   const double out_of_reach = 1 / std::numeric_limits<double>::epsilon();
   std::vector<std::int64_t> far = vertices_outside(out_of_reach, mesh, control);
   if (far.empty()) return;
-  const std::string names = listing(vertex_s, far, {"lies", "lie"});
-  throw FairingError(ErrorCode::too_extreme,
-                     names +
-                         " so far from the mesh that no digits would be left to the rest. Move or "
-                         "delete them.",
-                     std::move(far));
+  throw FairingError(
+      ErrorCode::too_extreme,
+      {"{vertex} {lies|lie} so far from the mesh that no digits would be left to the rest.",
+       "Move or delete them."},
+      std::move(far));
 }
 
 void require_finite(const ControlMesh& mesh, const ControlPositions& control, Workers& workers,
@@ -78,14 +77,16 @@ void require_finite(const ControlMesh& mesh, const ControlPositions& control, Wo
   if (std::isfinite(largest(workers, size, [&](std::size_t i) { return x[i]; }))) return;
   std::vector<std::int64_t> far = vertices_far_away(mesh, control);
   if (far.empty())
-    throw FairingError(ErrorCode::too_extreme,
-                       "The surface cannot be computed: lengths or angles of the mesh are too far "
-                       "apart. Even out its thinnest faces, or use energy=\"thin_plate\".");
-  const std::string names = listing(vertex_s, far, {"lies", "lie"});
-  throw FairingError(ErrorCode::too_extreme,
-                     "The surface cannot be computed: " + names +
-                         " over a thousand times as far out as most. Move or delete them.",
-                     std::move(far));
+    throw FairingError(
+        ErrorCode::too_extreme,
+        {"The surface cannot be computed: lengths or angles of the mesh are too far apart.",
+         "Even out its thinnest faces, or use energy=\"thin_plate\"."});
+  throw FairingError(
+      ErrorCode::too_extreme,
+      {"The surface cannot be computed: {vertex} {lies|lie} over a thousand times as "
+       "far out as most.",
+       "Move or delete them."},
+      std::move(far));
 }
 
 }  // namespace fairing

@@ -75,7 +75,7 @@ void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const P
     fair_once(systems, control, false, watch, own, result.shapes.emplace_back());
     const std::string of = "Shape " + std::to_string(s) + ": ";
     for (Warning& warning : own.warnings) {
-      warning.message = of + warning.message;
+      warning.message.cause = of + warning.message.cause;
       report.warnings.push_back(std::move(warning));
     }
     warn_unconverged(own, problem.options, of, report);
@@ -137,7 +137,7 @@ auto with_named_errors(Call&& call) {
 
 FairingError out_of_memory() {
   return FairingError(ErrorCode::out_of_memory,
-                      "Out of memory. Use fewer levels, or close other programs.");
+                      {"Out of memory.", "Use fewer levels, or close other programs."});
 }
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {

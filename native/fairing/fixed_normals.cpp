@@ -53,9 +53,9 @@ void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& norma
   }
   if (!far.empty())
     throw FairingError(ErrorCode::bad_option,
-                       listing(vertex_s, far, {"is", "are"}) +
-                           " to have a normal more than 80 degrees away from that of the faces "
-                           "around. Turn these normals or these faces, or free the normals.",
+                       {"{vertex} {is|are} to have a normal more than 80 degrees away from that of "
+                        "the faces around.",
+                        "Turn these normals or these faces, or free the normals."},
                        far, ElementKind::vertex);
 }
 
@@ -64,9 +64,8 @@ void report_normals(const ChosenNormals& normals, const LevelReport& finest, Rep
   report.normals.largest_angle = finest.normal_angle / degree;
   if (normals.left.empty()) return;
   report.warnings.push_back({"NORMAL_NOT_FIXED",
-                             listing(vertex_s, normals.left, {"has", "have"}) +
-                                 " a normal that is not fixed: on curves, and where sheets touch, "
-                                 "the surface takes none.",
+                             "{vertex} {has|have} a normal that is not fixed: on curves, and where "
+                             "sheets touch, the surface takes none.",
                              normals.left, ElementKind::vertex});
 }
 

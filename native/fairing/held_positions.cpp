@@ -22,8 +22,8 @@ void check_held(const HeldPositions& held, const PolygonMesh& input, Repair repa
     check({limits, input.corners, input.offsets}, {repair == Repair::mend});
   } catch (const FairingError& error) {
     throw FairingError(error.code,
-                       std::string("At the limit positions of the vertices: ") + error.what() +
-                           " Or use interpolation=\"exact\".",
+                       {"At the limit positions of the vertices: " + error.message.cause,
+                        error.message.cure + " Or use interpolation=\"exact\"."},
                        error.elements, error.kind);
   }
 }

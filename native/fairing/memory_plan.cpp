@@ -193,14 +193,15 @@ void require_fit(const RunSize& size, const FairOptions& options) {
   };
   if (limit && size.bytes > std::int64_t(limit))
     throw FairingError(ErrorCode::too_large,
-                       "This takes about " + gigabytes(double(size.bytes)) + " for " +
-                           std::to_string(size.triangles) + " triangles, over the limit of " +
-                           gigabytes(double(limit)) + ". Use fewer levels, or raise memory_limit.");
+                       {"This takes about " + gigabytes(double(size.bytes)) + " for " +
+                            std::to_string(size.triangles) + " triangles, over the limit of " +
+                            gigabytes(double(limit)) + ".",
+                        "Use fewer levels, or raise memory_limit."});
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (3 * size.solved > most || 3 * size.triangles > most)
-    throw FairingError(ErrorCode::too_large,
-                       std::to_string(size.triangles) +
-                           " triangles are more than 32-bit ids can name. Use fewer levels.");
+    throw FairingError(ErrorCode::too_large, {std::to_string(size.triangles) +
+                                                  " triangles are more than 32-bit ids can name.",
+                                              "Use fewer levels."});
 }
 
 void require_fit(const PolygonMesh& mesh, const FairOptions& options) {

@@ -202,9 +202,7 @@ void Mending::restore(Report& report) const {
   if (options_.repair == Repair::mend && !report.flipped_faces.empty())
     report.repairs.push_back(
         {name(ErrorCode::inconsistent_orientation),
-         listing(face_s, report.flipped_faces,
-                 {"looked the other way than the neighbours and was turned over.",
-                  "looked the other way than the neighbours and were turned over."}),
+         "{face} looked the other way than the neighbours and {was|were} turned over.",
          report.flipped_faces, ElementKind::face});
 }
 
@@ -212,15 +210,12 @@ void Mending::restore(Report& report) const {
 void Mending::restore(std::vector<Warning>& warnings) const {
   if (!mended_.changed()) return;
   for (Warning& warning : warnings) {
-    if (warning.kind == ElementKind::face) {
+    if (warning.kind == ElementKind::face)
       warning.elements = faces_of_input(warning.elements);
-      warning.message = relisted(warning.message, warning.kind, warning.elements);
-    } else if (warning.code == name(ErrorCode::isolated_vertices)) {
+    else if (warning.code == name(ErrorCode::isolated_vertices))
       std::erase_if(warning.elements, [&](std::int64_t v) {
         return mended_.vertex_origin[std::size_t(v)] != Index(v);
       });
-      warning.message = isolated_vertices(warning.elements).message;
-    }
   }
   std::erase_if(warnings, [](const Warning& warning) {
     return warning.elements.empty() && warning.kind != ElementKind::mesh;
@@ -238,9 +233,7 @@ Ids Mending::faces_of_input(std::span<const std::int64_t> faces) const {
 
 FairingError Mending::restored(const FairingError& error) const {
   if (!mended_.changed() || error.kind != ElementKind::face) return error;
-  Ids ids = faces_of_input(error.elements);
-  const std::string message = relisted(error.what(), error.kind, ids);
-  return {error.code, message, std::move(ids), error.kind};
+  return {error.code, error.message, faces_of_input(error.elements), error.kind};
 }
 
 }  // namespace fairing

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/rounding.h"
+#include "fairing/settings.h"
 #include "parallel/memory.h"
 
 namespace fairing {
@@ -16,10 +19,22 @@ namespace {
   throw FairingError(ErrorCode::bad_option, message, std::move(elements));
 }
 
-void in_range(const char* option, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    refuse(std::string(option) + " is " + std::to_string(value) + "; it must be from " +
-           std::to_string(low) + " to " + std::to_string(high) + ".");
+void in_range(const char* option, double value, Range range) {
+  if (value >= range.low && value <= range.high) return;
+  char text[120];
+  if (range.high >= any_length.high)
+    std::snprintf(text, sizeof text, "%s is %g; it must be %g or more.", option, value, range.low);
+  else
+    std::snprintf(text, sizeof text, "%s is %g; it must be from %g to %.10g.", option, value,
+                  range.low, range.high);
+  refuse(text);
+}
+
+void check_ranges(const FairOptions& o) {
+  for_each_setting([&](const char* option, auto range, auto... member) {
+    if constexpr (std::is_same_v<decltype(range), Range>)
+      in_range(option, double((o.*....*member)), range);
+  });
 }
 
 // One a vertex, and none negative or NaN.
@@ -47,10 +62,10 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
     if (std::any_of(&o.normals[i], &o.normals[i] + 3, [](double n) { return std::isinf(n); }))
       bad.push_back(std::int64_t(i / 3));
   if (!bad.empty())
-    throw FairingError(ErrorCode::bad_option,
-                       listing(vertex_s, bad, {"has", "have"}) +
-                           " an infinite normal; give finite numbers, or NaN for none.",
-                       bad, ElementKind::vertex);
+    throw FairingError(
+        ErrorCode::bad_option,
+        "{vertex} {has|have} an infinite normal; give finite numbers, or NaN for none.", bad,
+        ElementKind::vertex);
   if (!o.has_normals()) return;
   if (o.energy != Energy::thin_plate)
     refuse(
@@ -68,13 +83,10 @@ constexpr double tightest = 10;
 
 void check_paper(const FairOptions& o) {
   const PaperOptions& paper = o.paper;
-  in_range("chart_blend", paper.chart_blend, 0, 1);
-  in_range("epsilon", paper.epsilon, 0, 1e300);
   if (paper.epsilon > 0 && o.energy != Energy::thin_plate)
     refuse(
         "epsilon is for the thin plate; under another energy use interpolation=\"approximate\" "
         "with a tolerance.");
-  if (paper.sweeps < 0 || paper.sweeps > 1000000) refuse("sweeps must be from 0 to 1000000.");
   if (paper.method != Method::back_leg) return;
   if (o.energy != Energy::thin_plate)
     refuse("method=\"back_leg\" is for the thin plate only; use multigrid for other energies.");
@@ -131,34 +143,21 @@ double membrane_strength(double tension) { return tautest * tension / (4 - 3 * t
 double pull_to_limits(double limit) { return tightest * std::pow(limit, 4); }
 
 void check_options(const PolygonMesh& mesh, const FairOptions& o) {
-  if (o.levels < 0 || o.levels > most_levels)
-    refuse("levels is " + std::to_string(o.levels) + "; it must be from 0 to " +
-           std::to_string(most_levels) + ".");
-  in_range("metric_exponent", o.metric_exponent, 0, 1);
+  check_ranges(o);
   if (o.tolerance.size() == 1)
-    in_range("tolerance", o.tolerance[0], 0, 1e300);
+    in_range("tolerance", o.tolerance[0], any_length);
   else
     check_per_vertex(mesh, "tolerance", o.tolerance);
-  if (!(o.weld <= 1e300)) refuse("weld must be a length, 0 or more.");
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
-  in_range("limit", o.limit, 0, 1);
   check_edge_sharpness(mesh.vertex_count(), o.sharpness);
   if (!o.sharpness.vertices.empty())
     check_per_vertex(mesh, "vertex_sharpness", o.sharpness.vertices);
-  in_range("relative_residual", o.solve.relative_residual, 1e-13, 0.5);
-  in_range("step_tolerance", o.step_tolerance, 0, 0.1);
-  if (o.max_steps < 1) refuse("max_steps must be at least 1.");
-  if (o.solve.max_iterations < 1) refuse("max_iterations must be at least 1.");
-  if (o.threads < 0 || o.threads > 1024) refuse("threads must be from 0 (all cores) to 1024.");
-  in_range("pad_size", o.pad_size, 0, 1);
-  in_range("tension", o.tension, 0, 1);
   check_normals(mesh, o);
   if (o.tension > 0 && o.energy == Energy::minimum_variation)
     refuse(
         "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "
         "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
-  in_range("smoother_degree", o.solve.smoother_degree, 0, 1000);
   check_paper(o);
   if (o.weights.empty()) return;
   if (o.interpolation != Interpolation::approximate)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every setting of fair() and FairSolver, with its default, unit and range. A new setting goes
-// here, into check_options, into the binding's list (binding/options.cpp), and into the package's
-// (discrete_fairing/options.py and fair()'s signature).
+// Every setting of fair() and FairSolver, with its default, unit and range. A new setting goes here,
+// into the table beside (settings.h), and into the package's (discrete_fairing/options.py).
 #pragma once
 
 #include <cstdint>

@@ -16,15 +16,16 @@ namespace fairing {
 FairOptions options_of_strain(const FairOptions& given) {
   if (given.energy == Energy::minimum_variation)
     throw FairingError(ErrorCode::bad_option,
-                       "energy=\"minimum_variation\" has no strain: its control vertices stand on "
-                       "no pads, so no loads tell of them. Use energy=\"thin_plate\".");
+                       {"energy=\"minimum_variation\" has no strain: its control vertices stand on "
+                        "no pads, so no loads tell of them.",
+                        "Use energy=\"thin_plate\"."});
   if (given.energy != Energy::thin_plate)
     throw FairingError(ErrorCode::bad_option,
-                       "Strain is that of the thin plate. Use energy=\"thin_plate\".");
+                       {"Strain is that of the thin plate.", "Use energy=\"thin_plate\"."});
   if (given.interpolation != Interpolation::exact)
     throw FairingError(ErrorCode::bad_option,
-                       "Strain asks how control vertices that stay fight the surface. Use "
-                       "interpolation=\"exact\".");
+                       {"Strain asks how control vertices that stay fight the surface.",
+                        "Use interpolation=\"exact\"."});
   if (!(given.width_of_pads() > 0))
     throw FairingError(ErrorCode::bad_option,
                        "Strain is read off the loads on pads, and there are none: use a pad_size "

@@ -89,10 +89,10 @@ void StrainGauge::require_room(const FairingProblem& problem, int rings_apart) {
       std::size_t(predict_size(problem.mesh, problem.unknowns, problem.options.levels).bytes);
   if (surface + matrix <= problem.options.bytes_allowed()) return;
   throw FairingError(ErrorCode::too_large,
-                     "The loads that " + std::to_string(vertices) + " vertices ask for take " +
-                         std::to_string(matrix / 1000000) + " MB beside the surface's " +
-                         std::to_string(surface / 1000000) +
-                         ", over the limit. Raise memory_limit, or ease parts of the mesh.");
+                     {"The loads that " + std::to_string(vertices) + " vertices ask for take " +
+                          std::to_string(matrix / 1000000) + " MB beside the surface's " +
+                          std::to_string(surface / 1000000) + ", over the limit.",
+                      "Raise memory_limit, or ease parts of the mesh."});
 }
 
 // To the matrix of loads on pads.

@@ -67,11 +67,11 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
   for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
     if (!held[v]) loose.push_back(std::int64_t(v));
   if (!loose.empty())
-    throw FairingError(ErrorCode::underdetermined,
-                       "Nothing holds the part of the mesh around vertex " +
-                           std::to_string(loose[0]) +
-                           ". Give a vertex of it a weight, or interpolate one.",
-                       loose);
+    throw FairingError(
+        ErrorCode::underdetermined,
+        {"Nothing holds the part of the mesh around vertex " + std::to_string(loose[0]) + ".",
+         "Give a vertex of it a weight, or interpolate one."},
+        loose);
 }
 
 }  // namespace fairing

@@ -35,73 +35,70 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
 namespace {
 
 template <class... Parts>
-Warning warning(const char* code, const char* format, Parts... parts) {
-  char text[300];
-  std::snprintf(text, sizeof text, format, parts...);
-  return {code, text, {}, ElementKind::mesh};
+Warning warning(const char* code, const char* cure, const char* format, Parts... parts) {
+  char cause[300];
+  std::snprintf(cause, sizeof cause, format, parts...);
+  return {code, {cause, cure}, {}, ElementKind::mesh};
 }
 
 Warning of_tolerance(int level, double gap) {
-  return warning(
-      "NOT_CONVERGED_TOLERANCE",
-      "On level %d the tolerance is kept, but the energy may be %.1e above the least one, "
-      "relative. The surface is usable; a smaller tolerance settles sooner.",
-      level, gap);
+  return warning("NOT_CONVERGED_TOLERANCE",
+                 "The surface is usable; a smaller tolerance settles sooner.",
+                 "On level %d the tolerance is kept, but the energy may be %.1e above the least "
+                 "one, relative.",
+                 level, gap);
 }
 
 Warning of_plate(const LevelReport& level, const FairOptions& options) {
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
   if (level.normal_angle > std::numbers::pi / 2)
-    return warning(
-        "NOT_CONVERGED_TURNED_OVER",
-        "On level %d the surface has turned over at a fixed normal: it looks to the other side, up "
-        "to %.3g degrees away. Turn that normal towards the faces around it, or free it.",
-        level.level, level.normal_angle / degree);
+    return warning("NOT_CONVERGED_TURNED_OVER",
+                   "Turn that normal towards the faces around it, or free it.",
+                   "On level %d the surface has turned over at a fixed normal: it looks to the "
+                   "other side, up to %.3g degrees away.",
+                   level.level, level.normal_angle / degree);
   if (level.normal_angle > largest_angle_left)
     return warning(
         "NOT_CONVERGED_NORMALS",
+        "The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
         "On level %d fixed normals have not settled after %d corrections: up to %.2g degrees are "
-        "left. The surface is usable; fewer normals, or nearer to the mesh's own, settle sooner.",
+        "left.",
         level.level, level.pad_corrections, level.normal_angle / degree);
   if (level.pad_corrections > 0 && level.residual <= options.solve.relative_residual)
-    return warning(
-        "NOT_CONVERGED_PADS",
-        "On level %d the loads on pads have not settled after %d corrections: %.1e of them is "
-        "still changing. The surface is usable; a smaller pad_size settles sooner.",
-        level.level, level.pad_corrections, level.pad_force);
-  return warning(
-      "NOT_CONVERGED",
-      "On level %d the solver stopped after %d iterations at a relative residual of %.1e (target: "
-      "%.1e). The surface is usable.",
-      level.level, level.iterations, level.residual, options.solve.relative_residual);
+    return warning("NOT_CONVERGED_PADS",
+                   "The surface is usable; a smaller pad_size settles sooner.",
+                   "On level %d the loads on pads have not settled after %d corrections: %.1e of "
+                   "them is still changing.",
+                   level.level, level.pad_corrections, level.pad_force);
+  return warning("NOT_CONVERGED", "The surface is usable.",
+                 "On level %d the solver stopped after %d iterations at a relative residual of "
+                 "%.1e (target: %.1e).",
+                 level.level, level.iterations, level.residual, options.solve.relative_residual);
 }
 
 Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
   if (level.swollen)
     return warning(
         "NOT_CONVERGED_SWOLLEN",
+        "You get the thin plate's surface. Use energy=\"thin_plate\", tension or "
+        "interpolation=\"limit\".",
         "On level %d most of the surface would swell to many times the thickness of the control "
-        "mesh, or turn inside out, and steps would not settle soon. You get the thin plate's "
-        "surface. Use energy=\"thin_plate\", tension or interpolation=\"limit\".",
+        "mesh, or turn inside out, and steps would not settle soon.",
         level.level);
   if (level.kept_start)
-    return warning(
-        "NOT_CONVERGED_START",
-        "On level %d the steps made the surface worse, so it was left as they found it. Use fewer "
-        "levels or the thin plate.",
-        level.level);
+    return warning("NOT_CONVERGED_START", "Use fewer levels or the thin plate.",
+                   "On level %d the steps made the surface worse, so it was left as they found it.",
+                   level.level);
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
   if (!std::isfinite(level.left))
-    return warning(
-        "NOT_CONVERGED",
-        "On level %d no step made the surface any fairer, and nobody knows how much is left to "
-        "move. Use fewer levels or the thin plate.",
-        level.level);
-  return warning(
-      "NOT_CONVERGED",
-      "On level %d the steps stopped after %zu with some %.1e of the mesh's size left to move "
-      "(target: %.1e). The surface is usable; more steps or fewer levels come nearer.",
-      level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
+    return warning("NOT_CONVERGED", "Use fewer levels or the thin plate.",
+                   "On level %d no step made the surface any fairer, and nobody knows how much is "
+                   "left to move.",
+                   level.level);
+  return warning("NOT_CONVERGED", "The surface is usable; more steps or fewer levels come nearer.",
+                 "On level %d the steps stopped after %zu with some %.1e of the mesh's size left "
+                 "to move (target: %.1e).",
+                 level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
 }
 
 // Of cures, those that have not been taken. Tension and limit positions hold what swells. What is
@@ -136,11 +133,11 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
   std::vector<std::int64_t> ids;
   for (const VertexPair& pair : ends) ids.insert(ids.end(), pair.begin(), pair.end());
   report.warnings.push_back({"STRAIGHT_CURVE",
-                             listing_pairs(edge_s, ids, {"is", "are"}) +
-                                 " straight where a border or crease is a curve: it would leave "
-                                 "them by more than the faces there are wide. Add vertices along "
-                                 "the curve, or widen these faces.",
-                             ids, ElementKind::edge});
+                             {"{edge} {is|are} straight where a border or crease is a curve: it "
+                              "would leave them by more than the faces there are wide.",
+                              "Add vertices along the curve, or widen these faces."},
+                             ids,
+                             ElementKind::edge});
 }
 
 void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
@@ -154,14 +151,18 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   for (const Index f : change.faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);
   std::sort(polygons.begin(), polygons.end());
   polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-  char how[120] = " that has passed through the opposite side. ";
-  if (change.worst > -1)
-    std::snprintf(how, sizeof how, " that is up to %.3g times as thick as the mesh. ",
+  std::string cause = "{face} {has|have} a surface that has passed through the opposite side.";
+  if (change.worst > -1) {
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "{face} {has|have} a surface that is up to %.3g times as thick as the mesh.",
                   1 + change.worst);
+    cause = text;
+  }
   report.warnings.push_back({"THICKNESS_CHANGED",
-                             listing(face_s, polygons, {"has a surface", "have a surface"}) + how +
-                                 cure_of_thickness(options, change.worst > 0),
-                             polygons, ElementKind::face});
+                             {std::move(cause), cure_of_thickness(options, change.worst > 0)},
+                             polygons,
+                             ElementKind::face});
 }
 
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
@@ -169,7 +170,7 @@ void warn_unconverged(const Report& surface, const FairOptions& options, const s
   if (surface.converged()) return;
   Warning told = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
                                            : of_steps(surface.curvature.back(), options);
-  told.message = of + told.message;
+  told.message.cause = of + told.message.cause;
   report.warnings.push_back(std::move(told));
 }
 

@@ -68,9 +68,9 @@ class FeatureFinder {
   void choose_modes() {
     mode_.assign(std::size_t(control_.first_copied_edge()), options_.boundary);
     for (std::size_t m = 0; m < boundary_modes; ++m)
-      for_each_edge(
-          options_.boundary_edges[m], "boundary edges", {"boundary edge", "boundary edges"},
-          [&](Index e) { mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m); });
+      for_each_edge(options_.boundary_edges[m], "boundary edges", "boundary edge", [&](Index e) {
+        mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m);
+      });
   }
   BoundaryMode mode(Index e) const { return mode_[std::size_t(control_.original_edge(e))]; }
   bool straight(Index e) const {
@@ -106,14 +106,14 @@ class FeatureFinder {
   }
 
   void mark_given_creases() {
-    for_each_edge(options_.crease_edges, "crease edges", {"crease", "creases"},
+    for_each_edge(options_.crease_edges, "crease edges", "crease",
                   [&](Index e) { control_.feature_edge[std::size_t(e)] = 1; });
   }
 
   // visit(e) for the edges that the caller has named; `where` and `noun` say what they are to be.
   template <class Visit>
   void for_each_edge(const std::vector<std::array<std::int64_t, 2>>& pairs, const char* where,
-                     const Words& noun, Visit&& visit) const {
+                     const char* noun, Visit&& visit) const {
     std::vector<std::int64_t> unknown_vertices, unknown_edges;
     for (const auto& [a, b] : pairs) {
       const auto outside = [&](std::int64_t v) { return v < 0 || v >= control_.input_vertices; };
@@ -129,7 +129,8 @@ class FeatureFinder {
     refuse_unknown(unknown_vertices, where);
     if (!unknown_edges.empty())
       throw FairingError(ErrorCode::bad_feature_edge,
-                         listing_pairs(noun, unknown_edges, {"joins", "join"}) +
+                         "{" + std::string(noun) +
+                             "} {joins|join}"
                              " two vertices between which the mesh has no edge (vertex pairs).",
                          unknown_edges);
   }
@@ -137,7 +138,7 @@ class FeatureFinder {
   void refuse_unknown(const std::vector<std::int64_t>& vertices, const char* where) const {
     if (vertices.empty()) return;
     throw FairingError(ErrorCode::index_out_of_range,
-                       listing(vertex_s, vertices, {"is", "are"}) + " named among the " + where +
+                       std::string("{vertex} {is|are} named among the ") + where +
                            " but not in the mesh: ids run from 0 to " +
                            std::to_string(control_.input_vertices - 1) + ".",
                        vertices, ElementKind::vertex);

@@ -73,11 +73,11 @@ void require_faces(const RegionOptions& options, std::int64_t faces) {
   for (std::int64_t f : options.faces)
     if (f < 0 || f >= faces) unknown.push_back(f);
   if (!unknown.empty())
-    throw FairingError(ErrorCode::index_out_of_range,
-                       listing(face_s, unknown, {"is", "are"}) +
-                           " named in the region but not in the mesh: ids run from 0 to " +
-                           std::to_string(faces - 1) + ".",
-                       unknown, ElementKind::face);
+    throw FairingError(
+        ErrorCode::index_out_of_range,
+        "{face} {is|are} named in the region but not in the mesh: ids run from 0 to " +
+            std::to_string(faces - 1) + ".",
+        unknown, ElementKind::face);
 }
 
 void find_region(const RegionOptions& options, ControlMesh& control) {

@@ -22,11 +22,11 @@ void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness) {
       if (!(values[k] >= 0)) bad.push_back(v);
     }
   if (!unknown.empty())
-    throw FairingError(ErrorCode::index_out_of_range,
-                       listing(vertex_s, unknown, {"is", "are"}) +
-                           " named by edge_sharpness but not in the mesh: ids run from 0 to " +
-                           std::to_string(vertices - 1) + ".",
-                       unknown, ElementKind::vertex);
+    throw FairingError(
+        ErrorCode::index_out_of_range,
+        "{vertex} {is|are} named by edge_sharpness but not in the mesh: ids run from 0 to " +
+            std::to_string(vertices - 1) + ".",
+        unknown, ElementKind::vertex);
   if (!bad.empty())
     refuse("edge_sharpness must be zero or positive; see the edge of the vertices " +
                std::to_string(bad[0]) + " and " + std::to_string(bad[1]) + ".",

@@ -101,11 +101,11 @@ class Splitter {
         too_long.push_back(f);
     }
     if (!too_long.empty())
-      throw FairingError(ErrorCode::too_large,
-                         listing(face_s, too_long, {"has", "have"}) +
-                             " more than 1000 corners and no point that sees them all. Cut them "
-                             "into smaller ones.",
-                         too_long);
+      throw FairingError(
+          ErrorCode::too_large,
+          {"{face} {has|have} more than 1000 corners and no point that sees them all.",
+           "Cut them into smaller ones."},
+          too_long);
   }
 
   Treatment choose(std::int64_t f, const std::vector<std::uint8_t>& pinched) const {

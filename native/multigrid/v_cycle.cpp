@@ -88,8 +88,8 @@ void CoarseSolver::refactor() {
   if (factors()) return;
   if (std::exchange(trace_, usual_trace) < usual_trace && factors()) return;
   throw FairingError(ErrorCode::underdetermined,
-                     "The surface is not determined: a part of the mesh has too few fixed points. "
-                     "Interpolate more control vertices, or give them weights.");
+                     {"The surface is not determined: a part of the mesh has too few fixed points.",
+                      "Interpolate more control vertices, or give them weights."});
 }
 
 bool CoarseSolver::lessen_trace() {

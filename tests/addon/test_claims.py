@@ -8,6 +8,7 @@ from pathlib import Path
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing.options import OPTIONAL, SETTINGS
 
 from addon.preferences import DiscreteFairingPreferences
 from addon.settings import FairingSettings
@@ -19,6 +20,16 @@ def table_rows(text, first):
     """Cells of the rows of the first table whose head begins with `first`."""
     lines = text[text.index(f"| {first}") :].split("\n\n")[0].splitlines()
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+def default_argument(name):
+    """Of an argument of fair(); None where it has none."""
+    if name in SETTINGS:
+        core = getattr(df._native.Options(), name)
+        plain = core[0] if isinstance(core, list) else core
+        return None if name in OPTIONAL else getattr(plain, "name", plain)
+    default = inspect.signature(df.fair).parameters[name].default
+    return None if default is inspect.Parameter.empty else default
 
 
 def test_settings_have_the_defaults_that_their_page_says():
@@ -49,14 +60,13 @@ def test_preferences_have_the_defaults_that_their_table_says():
 
 def test_arguments_have_the_defaults_that_their_tables_say():
     text = (REFERENCE / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
-    parameters = inspect.signature(df.fair).parameters
     checked = 0
     for names, value in re.findall(r"^\| ([^|]*) \| `?([^|`]*)`? \|", text, re.MULTILINE):
         for name in re.findall(r"`(\w+)`", names)[:1]:
-            default = parameters[name].default
+            default = default_argument(name)
             said = value.strip().strip('"')
             if said in ("", "none"):
-                assert default in (inspect.Parameter.empty, None), name
+                assert default is None, name
             elif isinstance(default, bool) or default is None or isinstance(default, str):
                 assert str(default) == said, name
             else:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
+from discrete_fairing.errors import fairing_error
 from scenes import CUBE, add, fair
 
 from addon import errors
@@ -77,13 +78,11 @@ def test_every_code_of_the_core_has_a_remedy():
 
 
 def test_what_to_do_stands_before_what_is_wrong():
-    class Refusal(Exception):
-        code = "UNDERDETERMINED"
-
-    text = errors.error_text("Box", Refusal("Nothing holds vertex 3. Give it a weight."))
+    loose = fairing_error("UNDERDETERMINED", "Nothing holds vertex 3.", cure="Give it a weight.")
+    text = errors.error_text("Box", loose)
     assert text == "Box: Set Vertices to Through, or a smaller tolerance. Nothing holds vertex 3."
-    Refusal.code = "BAD_OPTION"
-    text = errors.error_text("Box", Refusal("1 vertex (3) is to look away. Free its normal."))
+    away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
+    text = errors.error_text("Box", away)
     assert text == "Box: Free its normal. 1 vertex (3) is to look away."
 
 
@@ -100,24 +99,20 @@ def test_another_thickness_names_its_cures_as_the_panel_does():
     assert len(cures) == len(errors._CURES)
     assert all(any(setting in cure for cure in cures) for setting in errors._CURES)
     cause = "2 faces (4, 5) have a surface that is up to 1.9 times as thick as the mesh."
-    message = f"{cause} Use more tension or more vertices there."
-    text = errors.warning_text("Box", {"code": "THICKNESS_CHANGED", "message": message})
+    cure = "Use more tension or more vertices there."
+    text = errors.warning_text("Box", {"code": "THICKNESS_CHANGED", "cause": cause, "cure": cure})
     assert text == f"Box: Raise Tension or add vertices there. {cause}"
 
 
 def test_every_code_has_a_remedy_or_speaks_for_itself():
-    class Refusal(Exception):
-        code = "NO_FACES"
-
-    assert errors.error_text("Wire", Refusal("the mesh has no faces")) == (
+    assert errors.error_text("Wire", fairing_error("NO_FACES", "the mesh has no faces")) == (
         "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."
     )
-    Refusal.code = "INCONSISTENT_ORIENTATION"
+    turned = fairing_error("INCONSISTENT_ORIENTATION", "no")
     mend = "or let Defects be Mend"
-    assert mend in errors.error_text("Wire", Refusal("no"))
-    assert mend not in errors.error_text("Wire", Refusal("no"), errors.WITHOUT_MENDING)
-    Refusal.code = "SOMETHING_NEW"
-    assert errors.error_text("Wire", Refusal("no")) == "Wire: no."
+    assert mend in errors.error_text("Wire", turned)
+    assert mend not in errors.error_text("Wire", turned, errors.WITHOUT_MENDING)
+    assert errors.error_text("Wire", fairing_error("SOMETHING_NEW", "no")) == "Wire: no."
 
 
 def test_no_remedy_is_given_twice():

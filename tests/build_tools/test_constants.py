@@ -25,7 +25,11 @@ TWINS = """
     grain
 """
 
-SETTINGS = {"fairing/options.h", "paper/options.h"}  # defaults, described in docs/reference
+SETTINGS = {
+    "fairing/options.h",
+    "fairing/settings.h",
+    "paper/options.h",
+}  # defaults, described in docs/reference
 
 # Names of what is exact, or laid down: by mathematics, by a format, by what another number is.
 FACTS = """

@@ -213,7 +213,8 @@ TEST(Check, MessagesNameTheFirstFew) {
   EXPECT_NE(std::string(thrown([] { check(flipped_cube_face().view()); }).what())
                 .find("1 face (2) looks"),
             std::string::npos);
-  EXPECT_NE(check(three_on_an_edge().view()).warnings.at(0).message.find("1 edge (0-1) joins"),
+  const Warning joined = check(three_on_an_edge().view()).warnings.at(0);
+  EXPECT_NE(text(joined.message, joined.kind, joined.elements).find("1 edge (0-1) joins"),
             std::string::npos);
 }
 

@@ -8,34 +8,39 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-TEST(Relisted, AgreesWithTheNewNumber) {
-  const std::string two = "2 faces (4, 9) have no area. Dissolve or delete them.";
-  EXPECT_EQ(relisted(two, ElementKind::face, Ids{3}),
-            "1 face (3) has no area. Dissolve or delete them.");
-  EXPECT_EQ(relisted("1 vertex (7) lies far out.", ElementKind::vertex, Ids{1, 2}),
-            "2 vertices (1, 2) lie far out.");
-  EXPECT_EQ(relisted("1 face (7) had no area and was dissolved.", ElementKind::face, Ids{1, 2}),
-            "2 faces (1, 2) had no area and were dissolved.");
-  EXPECT_EQ(relisted("2 faces (1, 2) had no area and were dissolved.", ElementKind::face, Ids{7}),
-            "1 face (7) had no area and was dissolved.");
+TEST(Message, AgreesWithTheNumberOfElements) {
+  const Message message("{face} {has|have} no area.", "Dissolve or delete {it|them}.");
+  EXPECT_EQ(text(message, ElementKind::face, Ids{3}),
+            "1 face (3) has no area. Dissolve or delete it.");
+  EXPECT_EQ(text(message, ElementKind::face, Ids{4, 9}),
+            "2 faces (4, 9) have no area. Dissolve or delete them.");
 }
 
-TEST(Relisted, NamesEdgesByPairs) {
-  EXPECT_EQ(relisted("2 edges (0-4, 4-9) are shared.", ElementKind::edge, Ids{3, 8}),
+TEST(Message, NamesEdgesByPairs) {
+  EXPECT_EQ(text(Message("{edge} {is|are} shared."), ElementKind::edge, Ids{3, 8}),
             "1 edge (3-8) is shared.");
-  EXPECT_EQ(relisted("1 crease (0-4) joins two", ElementKind::edge, Ids{3, 8, 8, 9}),
-            "2 creases (3-8, 8-9) join two");
+  EXPECT_EQ(text(Message("{crease} {joins|join} two."), ElementKind::edge, Ids{3, 8, 8, 9}),
+            "2 creases (3-8, 8-9) join two.");
 }
 
-TEST(Relisted, ShowsTheFirstFive) {
-  EXPECT_EQ(relisted("1 face (7) is large.", ElementKind::face, Ids{1, 2, 3, 4, 5, 6}),
+TEST(Message, ShowsTheFirstFive) {
+  EXPECT_EQ(text(Message("{face} {is|are} large."), ElementKind::face, Ids{1, 2, 3, 4, 5, 6}),
             "6 faces (1, 2, 3, 4, 5, …) are large.");
 }
 
-TEST(Relisted, LeavesWhatListsNothingOrOtherElements) {
-  const std::string other = "1 vertex (7) lies far out.";
-  EXPECT_EQ(relisted(other, ElementKind::face, Ids{1}), other);
-  EXPECT_EQ(relisted("Out of memory.", ElementKind::mesh, {}), "Out of memory.");
+TEST(Message, LeavesBracesThatAreNoPlaces) {
+  EXPECT_EQ(text(Message("region is {3, 4}; {vertex} {is|are} out."), ElementKind::vertex, Ids{7}),
+            "region is {3, 4}; 1 vertex (7) is out.");
+  EXPECT_EQ(text(Message("{a|b} {"), ElementKind::mesh, {}), "{a|b} {");
+  EXPECT_EQ(text(Message("open {"), ElementKind::vertex, Ids{7}), "open {");
+}
+
+TEST(Message, OfAnErrorThatIsAboutOtherElements) {
+  const FairingError of_double(ErrorCode::degenerate_face,
+                               {"{face} {has|have} no area.", "Delete."}, {1, 9});
+  EXPECT_STREQ(of_double.what(), "2 faces (1, 9) have no area. Delete.");
+  const FairingError of_half(of_double.code, of_double.message, {1}, of_double.kind);
+  EXPECT_STREQ(of_half.what(), "1 face (1) has no area. Delete.");
 }
 
 }  // namespace

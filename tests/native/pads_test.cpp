@@ -186,7 +186,7 @@ TEST(Pads, AGapThatStaysOpenIsTold) {
   report.levels.emplace_back().constraint_gap = 2 * gap_wanted;
   warn_unconverged(report, {}, "", report);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].message.find("tolerance is kept"), std::string::npos);
+  EXPECT_NE(report.warnings[0].message.cause.find("tolerance is kept"), std::string::npos);
 }
 
 TEST(Pads, GoAlone) {

@@ -110,7 +110,8 @@ def test_a_refusal_for_memory_says_what_it_counts():
     points, faces = hull()
     error = failure(points, faces, memory_limit=10_000)
     assert error.code == "TOO_LARGE"
-    assert f"{2 * len(faces) * 2 * 4**2} triangles of both halves" in str(error)
+    assert error.cause.startswith("Both halves together: ")
+    assert f"{2 * len(faces) * 2 * 4**2} triangles" in error.cause
 
 
 def test_the_predicted_memory_is_that_of_both_halves():

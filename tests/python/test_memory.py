@@ -228,7 +228,7 @@ def test_the_plan_is_near_the_peak(name, levels):
     """Whatever is fixed, merged away or apart."""
     mesh, options = PLANNED[name]
     report = df.fair(*mesh, levels, threads=1, **options).report
-    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.45
+    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.5
 
 
 def test_vertices_merged_away_make_no_run_too_large():

@@ -63,7 +63,8 @@ def test_faces_without_area_leave_no_gap(seed):
     assert [d for d in df.check(points, now) if d.code != "ISOLATED_VERTICES"] == []
     assert [r["code"] for r in result.report["repairs"]] == ["DEGENERATE_FACE"]
     assert np.array_equal(result.vertices[: len(points)], points)
-    assert result.report["warnings"] == [], "every vertex is still a corner"
+    codes = {warning["code"] for warning in result.report["warnings"]}
+    assert codes <= {"THICKNESS_CHANGED"}, "every vertex is still a corner"
     m = result.mended
     corners = np.concatenate(faces)
     at = points[corners[m.corner_origin]]

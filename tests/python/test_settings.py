@@ -1,21 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of settings stands in fair()'s signature, in the package and in the core: one list."""
+"""The table of settings in the package, and the core's: one list."""
 
 import inspect
+from typing import get_args, get_type_hints
 
 import discrete_fairing as df
 import pytest
 from discrete_fairing import _native
-from discrete_fairing.options import OPTIONAL, SETTINGS, native_options
-
-OTHER_ARGUMENTS = {
-    *("vertices", "faces", "shapes", "symmetry_plane", "strain", "progress", "monitor"),
-}
-PARAMETERS = inspect.signature(df.fair).parameters
-
-
-def test_fair_takes_every_setting():
-    assert set(PARAMETERS) - OTHER_ARGUMENTS == set(SETTINGS)
+from discrete_fairing.options import OPTIONAL, SETTINGS, AllSettings, native_options
 
 
 def test_the_core_has_every_setting():
@@ -23,12 +15,36 @@ def test_the_core_has_every_setting():
     assert members == set(SETTINGS)
 
 
-def test_defaults_are_those_of_the_core():
-    ours = {name: PARAMETERS[name].default for name in SETTINGS}
-    assert {name for name, default in ours.items() if default is None} == set(OPTIONAL)
-    passed, core = native_options(**ours), _native.Options()
-    for name in SETTINGS:
-        assert getattr(passed, name) == getattr(core, name), name
+def test_arguments_by_place_have_the_defaults_of_the_core():
+    parameters, core = inspect.signature(df.fair).parameters, _native.Options()
+    assert parameters["levels"].default == core.levels
+    assert parameters["energy"].default == core.energy.name
+
+
+def test_choices_are_those_of_the_core():
+    checked = 0
+    for name, hint in get_type_hints(AllSettings).items():
+        core = getattr(_native.Options(), name)
+        if not hasattr(type(core), "__members__"):
+            continue
+        plain = [arg for arg in (hint, *get_args(hint)) if isinstance(arg, str)]
+        listed = plain or [value for arg in get_args(hint) for value in get_args(arg)]
+        assert set(listed) == set(type(core).__members__), name
+        checked += 1
+    assert checked == 7
+
+
+def test_what_may_be_none_is_the_default_then():
+    for name in OPTIONAL:
+        assert getattr(native_options({name: None}), name) == getattr(_native.Options(), name)
+    with pytest.raises(df.FairingError, match="chart is None"):
+        native_options({"chart": None})
+
+
+def test_a_name_that_is_no_setting_is_refused():
+    with pytest.raises(TypeError, match="'padsize' is no setting"):
+        df.fair([[0, 0, 0]], [], padsize=1.0)
+    assert "pad_size" in SETTINGS
 
 
 @pytest.mark.parametrize(
@@ -45,4 +61,4 @@ def test_defaults_are_those_of_the_core():
     ],
 )
 def test_a_tolerance_that_is_given_says_that_vertices_may_be_missed(given, interpolation):
-    assert native_options(**given).interpolation.name == interpolation
+    assert native_options(given).interpolation.name == interpolation

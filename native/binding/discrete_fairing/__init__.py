@@ -17,6 +17,7 @@ from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes, with_islands
 from .fitting import fit_patches
+from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces
 from .result import Result
@@ -26,6 +27,7 @@ from .strain import Strain, strain
 
 __all__ = [
     "Act",
+    "AllSettings",
     "Cleaned",
     "Defect",
     "Denoised",
@@ -39,6 +41,7 @@ __all__ = [
     "Piece",
     "Result",
     "SkippedHole",
+    "Settings",
     "Solver",
     "SplinePatches",
     "Strain",

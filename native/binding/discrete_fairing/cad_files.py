@@ -72,8 +72,8 @@ def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
     if not all(np.isfinite(array).all() for array in arrays):
         raise fairing_error(
             "BAD_OPTION",
-            f"scale is {factor:g}, which leaves part {k} without finite coordinates. Give a smaller "
-            "scale, or a larger unit.",
+            f"scale is {factor:g}, which leaves part {k} without finite coordinates.",
+            cure="Give a smaller scale, or a larger unit.",
         )
     return scaled
 

@@ -66,7 +66,7 @@ def ease(
     symmetry_plane: str | None = None,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **settings: Any,
+    **settings: Any,  # AllSettings, but for tolerance
 ) -> Eased:
     """Move control vertices of the thin plate so little, and so, that they stop fighting it.
 
@@ -106,15 +106,15 @@ def ease(
     count = len(points)
     bounds, stays = _bounds(tolerance, count), _fixed(fixed, count)
     chosen = _most(most, tolerance)
-    given, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
+    start, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
+    given: dict[str, Any] = dict(settings)
     if symmetry_plane is not None:
-        repair = native_options(**settings).repair
-        half = Half(points, corners, offsets, symmetry_plane, repair)
+        half = Half(points, corners, offsets, symmetry_plane, native_options(given).repair)
         axis = half.axis
-        points, settings = half.points(points), half.settings(settings)
+        points, given = half.points(points), half.settings(given)
         corners, offsets = half.faces(corners, offsets)
         bounds, stays, images = half.values(bounds), half.values(stays), half.images
-    options = native_options(**settings)
+    options = native_options(given)
     with half.named() if half else nullcontext():
         found = _native.ease(
             points,
@@ -131,7 +131,7 @@ def ease(
         )
     if half:
         found["moves"][half.in_plane, axis] = 0.0
-    return Eased(given, found)
+    return Eased(start, found)
 
 
 def _bounds(tolerance: ArrayLike | None, count: int) -> np.ndarray:
@@ -158,7 +158,7 @@ def _amount(amount: float | None, most: int | None) -> float:
     if amount is None:
         return -1.0
     if most is not None:
-        raise fairing_error("BAD_OPTION", "most and amount exclude each other. Give one of them.")
+        raise fairing_error("BAD_OPTION", "most and amount exclude each other.", cure="Give one.")
     if (
         isinstance(amount, bool)
         or not isinstance(amount, (int, float, np.number))
@@ -173,7 +173,7 @@ def _most(most: int | None, tolerance: ArrayLike | None) -> int:
         return 0
     if tolerance is not None:
         raise fairing_error(
-            "BAD_OPTION", "most and tolerance exclude each other. Give one of them."
+            "BAD_OPTION", "most and tolerance exclude each other.", cure="Give one."
         )
     if isinstance(most, bool) or not isinstance(most, (int, np.integer)) or most < 1:
         raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer from 1 on.")

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors of the Python layer, of the same type as the core's."""
+"""Errors and warnings: data until somebody reads them, with places in their sentences for the elements."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _native
 from ._native import FairingError
 
 
@@ -9,11 +15,34 @@ class MemoryWarning(RuntimeWarning):
 
 
 def fairing_error(
-    code: str, message: str, elements: list[int] | None = None, kind: str = "mesh"
+    code: str,
+    cause: str,
+    elements: Sequence[int] = (),
+    kind: str = "mesh",
+    cure: str = "",
 ) -> FairingError:
-    """A FairingError with its code, element ids and their kind set."""
-    error = FairingError(message)
-    error.code = code
-    error.elements = elements or []
-    error.kind = kind
-    return error
+    """A FairingError. In `cause` and `cure` "{face}", "{vertex}" and "{edge}" stand for the elements,
+    "{has|have}" for the word that agrees with their number.
+    """
+    return _native.error(code, cause, cure, list(elements), kind)
+
+
+def about(error: FairingError, elements: Sequence[int], prefix: str = "") -> FairingError:
+    """The same error of other elements of its kind; `prefix`: of its first sentence."""
+    cause, cure = error._sentences
+    return fairing_error(error.code, prefix + cause, elements, error.kind, cure)
+
+
+def written(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """A warning or repair of the core's report as callers see it: its sentences, and both as "message"."""
+    kind, elements = entry["kind"], entry["elements"]
+    cause, cure = (_native.text(entry[name], kind, elements) for name in ("cause", "cure"))
+    message = f"{cause} {cure}".rstrip()
+    return {**entry, "cause": cause, "cure": cure, "message": message}
+
+
+def written_report(found: dict[str, Any]) -> dict[str, Any]:
+    """What the core returns, with its report as callers see it."""
+    report = found["report"]
+    lists = {name: [written(entry) for entry in report[name]] for name in ("warnings", "repairs")}
+    return {**found, "report": {**report, **lists}}

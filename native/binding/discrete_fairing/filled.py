@@ -70,6 +70,8 @@ class SkippedHole:
         the elements are the border edges there.
     code, message: str
         What is wrong and what to do about it, as in FairingError.
+    why: str
+        The message without the elements.
     elements: list
         Ids of vertices, or edges as pairs (a, b) of vertices.
     kind: "vertex" or "edge"
@@ -83,6 +85,7 @@ class SkippedHole:
     loops: list[np.ndarray]
     code: str
     message: str
+    why: str
     elements: list[int] | list[tuple[int, int]]
     kind: str
     cure: str
@@ -97,6 +100,7 @@ class SkippedHole:
             loops,
             why["code"],
             f"At {_named(why['kind'], found)}: {why['message']}",
+            why["message"],
             found,
             why["kind"],
             _CURES.get(why["code"], ""),

@@ -136,7 +136,7 @@ def fill_holes(
         raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(RINGS)}.")
     if rim not in RIMS:
         raise fairing_error("BAD_OPTION", f"rim is {rim!r}; it must be one of {list(RIMS)}.")
-    native_options(energy=energy, threads=threads)  # refuses what fair() would
+    native_options({"energy": energy, "threads": threads})  # refuses what fair() would
     if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
         raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
     if not isinstance(quads, bool):

@@ -295,14 +295,12 @@ class _Run:
 
     def refuse(self, faces: list[int]) -> None:
         if faces and not self.insist:
-            listed = ", ".join(map(str, faces[:5])) + (", …" if len(faces) > 5 else "")
-            noun, verb = ("face", "has") if len(faces) == 1 else ("faces", "have")
             raise fairing_error(
                 "UNRESOLVED",
-                f"{len(faces)} {noun} ({listed}) {verb} a surface that folds or turns too sharply "
-                "for patches. Move or add control vertices, crease the edges there, or give insist=True.",
+                "{face} {has|have} a surface that folds or turns too sharply for patches.",
                 faces,
                 "face",
+                "Move or add control vertices, crease the edges there, or give insist=True.",
             )
 
 

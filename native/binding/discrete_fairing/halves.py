@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _native
 from ._native import FairingError
-from .errors import fairing_error
+from .errors import about, fairing_error
 from .options import edges_with_sharpness
 
 PLANES = {"x": 0, "y": 1, "z": 2}
@@ -76,7 +76,8 @@ class Half:
             raise fairing_error(
                 "BAD_OPTION",
                 f'symmetry_plane is "{self.plane}", but no border edge lies in the plane '
-                f"{self.plane} = 0. Put the vertices of the border that meets its mirror image there.",
+                f"{self.plane} = 0.",
+                cure="Put the vertices of the border that meets its mirror image there.",
             )
         return found
 
@@ -92,14 +93,11 @@ class Half:
         if away:
             raise fairing_error(
                 "BAD_OPTION",
-                _native.relisted(
-                    f"0 vertex () are not in the plane {self.plane} = 0{where}, where symmetry_plane "
-                    "has the mesh meet its mirror image. Put the border back there.",
-                    "vertex",
-                    away,
-                ),
+                f"{{vertex}} {{is|are}} not in the plane {self.plane} = 0{where}, where symmetry_plane "
+                "has the mesh meet its mirror image.",
                 away,
                 "vertex",
+                "Put the border back there.",
             )
 
     def shapes(self, shapes: np.ndarray) -> np.ndarray:
@@ -198,10 +196,8 @@ class Half:
             yield
         except FairingError as error:
             own = self._own(error.elements, error.kind)
-            message = _native.relisted(str(error), error.kind, own)
-            if error.code == "TOO_LARGE":
-                message = message.replace(" triangles", " triangles of both halves", 1)
-            raise fairing_error(error.code, message, own, error.kind) from None
+            both = "Both halves together: " if error.code == "TOO_LARGE" else ""
+            raise about(error, own, both) from None
 
     def _own(self, elements: Sequence[int], kind: str) -> list[int]:
         """The elements of the half that these of the double are, or are images of; each once."""
@@ -275,9 +271,7 @@ class Half:
         return given
 
     def _cut_entry(self, entry: dict[str, Any]) -> dict[str, Any]:
-        own = self._own(entry["elements"], entry["kind"])
-        message = _native.relisted(entry["message"], entry["kind"], own)
-        return {**entry, "elements": own, "message": message}
+        return {**entry, "elements": self._own(entry["elements"], entry["kind"])}
 
 
 def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
@@ -288,12 +282,8 @@ def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
     if unknown:
         raise fairing_error(
             "INDEX_OUT_OF_RANGE",
-            _native.relisted(
-                f"0 {kind} () are named in {name} but not in the mesh: "
-                f"ids run from 0 to {count - 1}.",
-                kind,
-                unknown,
-            ),
+            f"{{{kind}}} {{is|are}} named in {name} but not in the mesh: "
+            f"ids run from 0 to {count - 1}.",
             unknown,
             kind,
         )

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Settings as callers write them, turned into the core's.
 
-SETTINGS lists them all, each with what checks and converts it. fair() has their defaults, types and
-meaning; Solver takes the same. Ranges are the core's to check (native/fairing/options.cpp).
+AllSettings is the one table: of each setting the type, what checks and converts it, and its meaning.
+Defaults and ranges are the core's (native/fairing/settings.h).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import isfinite
+from typing import Annotated, Any, Literal, TypedDict, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ from .arrays import holds_bool, index_array, numbers
 from .errors import fairing_error
 
 
-def native_options(**settings: object) -> _native.Options:
+def native_options(settings: Mapping[str, Any]) -> _native.Options:
     """The core's options; settings that are not given keep their defaults.
 
     Those of OPTIONAL may be None, which means the default too; of `interpolation` it is "approximate"
@@ -192,54 +193,166 @@ def switch(name: str, value: object) -> bool:
         ) from None
 
 
-SETTINGS = {
-    "levels": whole,
-    "energy": choice(_native.Energy),
-    "metric_exponent": real,
-    "chart_blend": real,
-    "chart": choice(_native.Chart),
-    "interpolation": choice(_native.Interpolation),
-    "tolerance": lengths,
-    "weights": weight_array,
-    "limit": real,
-    "edge_sharpness": edges_with_sharpness,
-    "vertex_sharpness": weight_array,
-    "epsilon": real,
-    "pad_size": real,
-    "normals": normal_rows,
-    "tension": real,
-    "crease_edges": vertex_pairs,
-    "crease_angle": real,
-    "corner_vertices": corner_ids,
-    "corner_angle": real,
-    "boundary": choice(_native.Boundary),
-    "boundary_edges": pairs_by_boundary,
-    "region": region_faces,
-    "joint": choice(_native.RegionContinuity),
-    "repair": choice(_native.Repair),
-    "weld": distance,
-    "method": choice(_native.Method),
-    "relative_residual": real,
-    "max_iterations": whole,
-    "smoother_degree": whole,
-    "step_tolerance": real,
-    "max_steps": whole,
-    "sweeps": whole,
-    "threads": whole,
-    "memory_limit": whole,
-    "measure": switch,
+class Settings(TypedDict, total=False):
+    """The settings of fair(), Solver, strain(), ease() and pieces(), beside `levels` and `energy`."""
+
+    metric_exponent: Annotated[float, real]
+    """From 0 to 1, 0.5: charts are made from control edge lengths to this power: 1 the paper's, 0
+    uniform, 0.5 centripetal."""
+
+    chart_blend: Annotated[float, real]
+    """From 0 to 1, 1: the paper's linear blend of charts: 0 uniform, 1 the chart itself."""
+
+    chart: Annotated[Literal["exponential", "tangent"], choice(_native.Chart)]
+    """Exponential map of the control metric, or projection to its tangent planes."""
+
+    interpolation: Annotated[
+        Literal["exact", "approximate", "limit"] | None, choice(_native.Interpolation)
+    ]
+    """None: approximate where there is a tolerance or weights, else exact. Exact: control vertices
+    stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`; vertices
+    on curves always stay. Limit: the surface passes exactly through the vertices' limit positions,
+    where Catmull-Clark subdivision would take them, and charts are made of the surface through these:
+    for cages drawn to look right under subdivision. The first n rows of `vertices` are then the limit
+    positions. Creases, borders and corners have their own rules [DeRose, Kass, Truong 1998]; vertices
+    at corners and on straight borders, and those not inside a region, stay."""
+
+    tolerance: Annotated[float | ArrayLike, lengths]
+    """Mesh units, one number or (n,), 0. Approximate: the farthest that any control vertex moves, or
+    each of them; the energy is as low as that allows. One number 0 means none. In an array, 0
+    interpolates a vertex, and infinity leaves it to its weight."""
+
+    weights: Annotated[ArrayLike | None, weight_array]
+    """(n,) float, dimensionless. Approximate: the pull of each control vertex on the surface. 0 leaves
+    a vertex free (where there is no tolerance), infinity interpolates it."""
+
+    limit: Annotated[float, real]
+    """From 0 to 1, 1. Limit: how closely the thin plate follows the subdivision surface between the
+    limit positions, from 0, not at all, to 1: rims and thin walls then do not wave. Other energies do
+    not follow."""
+
+    edge_sharpness: Annotated[tuple[ArrayLike, ArrayLike] | None, edges_with_sharpness]
+    """(edges, sharpness): (k, 2) int and (k,) float or one number, subdivision steps. Limit: vertex
+    pairs of semi-sharp edges, and for how many subdivision steps each is sharp; 10 and more is for
+    ever. It counts for a crease too, which otherwise is sharp for ever. Blender's crease c has the
+    sharpness 10 c**2."""
+
+    vertex_sharpness: Annotated[ArrayLike | None, weight_array]
+    """(n,) float, subdivision steps. Limit: the same of vertices; 0: none."""
+
+    epsilon: Annotated[float, real]
+    """Mesh units, 0: how far interpolated vertices may move after the solve, to remove cusps [Kobbelt
+    1997a, section 5]. For the thin plate only."""
+
+    pad_size: Annotated[float, real]
+    """From 0 to 1, 1: what holds control vertices off curves. 0: point forces, which leave a spot of
+    curvature at each. Otherwise forces spread over pads, which leave none: each reaches the same
+    length along all edges, at 1 up to 1.5 times the shortest edge at its vertex, and less where the
+    mesh turns unevenly. The surface still passes through every vertex."""
+
+    normals: Annotated[ArrayLike | None, normal_rows]
+    """(n, 3) float: the surface's normal at each control vertex, of any length; NaN or zero: none.
+    Vertices on curves take none (report["warnings"]). For the thin plate, from level 1 on."""
+
+    tension: Annotated[float, real]
+    """From 0 to 1, 0: a membrane stretched over the control mesh beside its bending, against swelling
+    and overshoots: 0 none, 1 as taut as is of use."""
+
+    crease_edges: Annotated[ArrayLike | None, vertex_pairs]
+    """(k, 2) int: vertex pairs of the edges that are creases."""
+
+    crease_angle: Annotated[float | None, real]
+    """Radians: edges folded by more are creases. None: no such rule."""
+
+    corner_vertices: Annotated[ArrayLike | None, corner_ids]
+    """(c,) int: vertices where curves end; inside a surface, the tip of a cone."""
+
+    corner_angle: Annotated[float | None, real]
+    """Radians: curves that turn by more at a vertex end there. None: no such rule."""
+
+    boundary: Annotated[Literal["curve", "linear", "free"], choice(_native.Boundary)]
+    """A smooth curve through the boundary's own vertices ("curve", the default), its straight edges,
+    or fixed at its vertices only."""
+
+    boundary_edges: Annotated[Mapping[str, ArrayLike] | None, pairs_by_boundary]
+    """By "curve", "linear" or "free" (k, 2) int: vertex pairs of the boundary edges that are other
+    than `boundary` says. Curves end where the kind of boundary changes. Edges that are no boundary are
+    left alone."""
+
+    region: Annotated[ArrayLike | None, region_faces]
+    """(r,) int: the faces to fair; all others are refined linearly, and stay. None: all faces."""
+
+    joint: Annotated[Literal["position", "tangent", "curvature"], choice(_native.RegionContinuity)]
+    """How the region meets the other faces: along straight edges, with their tangent planes (the
+    default), or with curvature that fades out as well. A crease on the joint makes it "position"
+    there."""
+
+    repair: Annotated[Literal["refuse", "mend"], choice(_native.Repair)]
+    """What happens to a mesh with defects. Mend: duplicate faces, doubled corners, sides without
+    length and faces without area go, and faces that look the wrong way turn over (report["repairs"],
+    result.mended). All ids, of creases, regions and the result, stay those of the mesh as given."""
+
+    weld: Annotated[float | None, distance]
+    """Mesh units, with repair="mend": vertices no farther apart become one; 0: those at one point.
+    None: no welding."""
+
+    method: Annotated[Literal["multigrid", "back_leg"], choice(_native.Method)]
+    """The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps a
+    level."""
+
+    relative_residual: Annotated[float, real]
+    """1e-4: where the solver stops: residual relative to the control polyhedron's, and error relative
+    to the solution in the energy norm. 1e-4 leaves nothing to see: positions within 1e-4 of the mesh's
+    size, on smooth meshes within 1e-5 in the median. Take 1e-8 for measurements."""
+
+    max_iterations: Annotated[int, whole]
+    """200: the most iterations of a linear solve."""
+
+    smoother_degree: Annotated[int, whole]
+    """Work of the smoother; 0 is chosen from how the coarse levels converge."""
+
+    step_tolerance: Annotated[float, real]
+    """Share of the mesh's size: the Gauss-Newton steps stop when the points still have to move less
+    than this. 0: 0.1 of relative_residual, from 1e-6 to 1e-5."""
+
+    max_steps: Annotated[int, whole]
+    """20: the most Gauss-Newton steps on a level."""
+
+    sweeps: Annotated[int, whole]
+    """10: of method="back_leg"."""
+
+    threads: Annotated[int, whole]
+    """0: all cores. The result is the same, to the last bit, for any number."""
+
+    memory_limit: Annotated[int, whole]
+    """Bytes: refuse runs that would take more; 0: three quarters of the machine's memory."""
+
+    measure: Annotated[bool, switch]
+    """Measure the energies of the result, the control polyhedron and the prediction (else NaN); takes
+    up to half of a run's time again."""
+
+
+class AllSettings(Settings, total=False):
+    """With those that fair() and Solver also take by their place."""
+
+    levels: Annotated[int, whole]
+    """3: how often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels
+    quads."""
+
+    energy: Annotated[
+        Literal["thin_plate", "total_curvature", "minimum_variation"], choice(_native.Energy)
+    ]
+    """Thin plate: the paper's quadratic energy over charts of the control mesh, one linear solve
+    [Kobbelt 1997a, section 4]. Total curvature: the integral of k1**2 + k2**2 over the surface itself,
+    which turns points on a sphere into that sphere. Minimum variation: the change of curvature along
+    the surface [Moreton, Sequin 1992]. Both take Gauss-Newton steps from the thin plate's surface
+    (report["curvature"])."""
+
+
+_HINTS = get_type_hints(AllSettings, include_extras=True)
+# of each setting what checks and converts it
+SETTINGS: dict[str, Callable[[str, Any], Any]] = {
+    name: hint.__metadata__[0] for name, hint in _HINTS.items()
 }
-OPTIONAL = (
-    "interpolation",
-    "weights",
-    "edge_sharpness",
-    "vertex_sharpness",
-    "normals",
-    "crease_edges",
-    "crease_angle",
-    "corner_vertices",
-    "corner_angle",
-    "boundary_edges",
-    "region",
-    "weld",
-)
+# those that may be None
+OPTIONAL = {name for name, hint in _HINTS.items() if type(None) in get_args(hint.__origin__)}

@@ -6,16 +6,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from threading import Lock
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, vertex_array
-from .errors import fairing_error
+from .errors import fairing_error, written_report
 from .halves import Half
-from .options import native_options
+from .options import Settings, native_options
 from .result import Result
 from .watching import Progress, check_watchers
 
@@ -31,8 +31,8 @@ class Solver:
     vertices, faces, levels, energy
         As those of fair().
     **settings
-        Its keyword settings, but for shapes, progress and monitor. `measure` is False unless given;
-        then no energy is measured at all (NaN in the report). method="back_leg" is refused.
+        discrete_fairing.Settings. Without `measure` no energy is measured (NaN in the report).
+        method="back_leg" is refused.
 
     Raises
     ------
@@ -51,17 +51,17 @@ class Solver:
         energy: str = "thin_plate",
         *,
         symmetry_plane: str | None = None,
-        **settings: Any,
+        **settings: Unpack[Settings],
     ):
-        settings = {"measure": False, **settings, "levels": levels, "energy": energy}
-        options = native_options(**settings)
+        given: dict[str, Any] = {**settings, "levels": levels, "energy": energy}
+        options = native_options(given)
         points = vertex_array(vertices)
         corners, offsets = face_arrays(faces)
         self._control_vertices = len(points)
         self._half: Half | None = None
         if symmetry_plane is not None:
             half = self._half = Half(points, corners, offsets, symmetry_plane, options.repair)
-            options = native_options(**half.settings(settings))
+            options = native_options(half.settings(given))
             points, (corners, offsets) = half.points(points), half.faces(corners, offsets)
         with self._named():
             self._native = _native.Solver(points, corners, offsets, options)
@@ -119,7 +119,7 @@ class Solver:
         with self._alone(), self._named():
             solved = self._native.solve(points, monitor, progress)
             found = {**self._constants, "shapes": [], **solved}
-            return Result(self._half.cut(found) if self._half else found)
+            return Result(written_report(self._half.cut(found) if self._half else found))
 
     def rebase(self, vertices: ArrayLike) -> None:
         """Take charts, stencils and curves from these positions (n, 3) from now on.
@@ -150,7 +150,8 @@ class Solver:
             self._native.require_own_process()  # a fork keeps the lock of whoever was at work
             raise fairing_error(
                 "BUSY",
-                "The solver is at work in another call. Wait for it, or make another solver.",
+                "The solver is at work in another call.",
+                cure="Wait for it, or make another solver.",
             )
         try:
             yield

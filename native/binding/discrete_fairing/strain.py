@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import nullcontext
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, vertex_array
 from .halves import Half
-from .options import native_options
+from .options import AllSettings, native_options
 from .watching import Progress, check_watchers
 
 # What a scatter of one makes of strain away from curves, root mean square: 1.31 to 1.40 on grids of
@@ -90,7 +90,7 @@ def strain(
     symmetry_plane: str | None = None,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **settings: Any,
+    **settings: Unpack[AllSettings],
 ) -> Strain:
     """Which control vertices spoil the thin plate's surface: measured offsets that are wrong.
 
@@ -114,12 +114,12 @@ def strain(
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     half = None
+    given: dict[str, Any] = dict(settings)
     if symmetry_plane is not None:
-        repair = native_options(**settings).repair
-        half = Half(points, corners, offsets, symmetry_plane, repair)
-        points, settings = half.points(points), half.settings(settings)
+        half = Half(points, corners, offsets, symmetry_plane, native_options(given).repair)
+        points, given = half.points(points), half.settings(given)
         corners, offsets = half.faces(corners, offsets)
-    return _measured(points, corners, offsets, settings, half, monitor, progress)
+    return _measured(points, corners, offsets, given, half, monitor, progress)
 
 
 def strain_of(
@@ -137,7 +137,7 @@ def strain_of(
 
 def require_strain(settings: dict[str, Any]) -> None:
     """Raises what strain_of() would for these settings."""
-    _native.require_strain(native_options(**_of_plate(settings)))
+    _native.require_strain(native_options(_of_plate(settings)))
 
 
 def _of_plate(settings: dict[str, Any]) -> dict[str, Any]:
@@ -155,7 +155,7 @@ def _measured(
     monitor: _native.Monitor | None,
     progress: Progress | None,
 ) -> Strain:
-    options = native_options(**settings)
+    options = native_options(settings)
     with half.named() if half else nullcontext():
         found = _native.strain(
             points, corners, offsets, options, monitor or _native.Monitor(), progress

@@ -31,8 +31,8 @@ void require_simple(const Hole& hole) {
     for (const std::int64_t v : loop)
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
-                           "The rim comes by a vertex twice. Cut it there into two holes.", {v},
-                           ElementKind::vertex);
+                           {"The rim comes by a vertex twice.", "Cut it there into two holes."},
+                           {v}, ElementKind::vertex);
   if (seen.size() > longest_hole)
     throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
 }
@@ -51,14 +51,14 @@ std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims, 
   if (edge.empty()) edge = first_missing(loop, rims, false);
   if (rims.is_border(edge[0], edge[1]))
     throw FairingError(ErrorCode::inconsistent_orientation,
-                       "Faces at the rim look different ways. Recalculate their normals.", edge,
-                       ElementKind::edge);
-  const std::string begin = "An edge of the rim ";
+                       {"Faces at the rim look different ways.", "Recalculate their normals."},
+                       edge, ElementKind::edge);
   const std::string why =
       rims.are_joined(edge[0], edge[1]) ? "has faces on both sides" : "is none of the mesh";
-  throw FairingError(ErrorCode::bad_option,
-                     begin + why + ". A hole is a closed walk along edges of one face each.", edge,
-                     ElementKind::edge);
+  throw FairingError(
+      ErrorCode::bad_option,
+      {"An edge of the rim " + why + ".", "A hole is a closed walk along edges of one face each."},
+      edge, ElementKind::edge);
 }
 
 void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
@@ -69,10 +69,10 @@ void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
     if (on_loop.contains(torn[i]) || on_loop.contains(torn[i + 1]))
       found.insert(found.end(), {torn[i], torn[i + 1]});
   if (!found.empty())
-    throw FairingError(ErrorCode::nonmanifold_edge,
-                       "More than two faces meet at an edge of the rim. Delete the faces that are "
-                       "too many.",
-                       found);
+    throw FairingError(
+        ErrorCode::nonmanifold_edge,
+        {"More than two faces meet at an edge of the rim.", "Delete the faces that are too many."},
+        found);
 }
 
 // Each side may be on one loop alone.
@@ -92,7 +92,7 @@ void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, c
     const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
     if (used.contains(Rims::side(a, b)))
       throw FairingError(ErrorCode::bad_option,
-                         "An edge of the rim is one of another hole too. Name each hole once.",
+                         {"An edge of the rim is one of another hole too.", "Name each hole once."},
                          {a, b}, ElementKind::edge);
   }
 }

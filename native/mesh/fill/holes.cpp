@@ -121,15 +121,15 @@ HoleLoop from_least(const Loop& loop) {
 
 FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
   if (torn)
-    return {
-        ErrorCode::nonmanifold_edge,
-        "More than two faces meet at an edge, so that nobody can tell what a hole is. Delete the "
-        "faces that are too many.",
-        std::move(edges)};
+    return {ErrorCode::nonmanifold_edge,
+            {"More than two faces meet at an edge, so that nobody can tell what a hole is.",
+             "Delete the faces that are too many."},
+            std::move(edges)};
   return {ErrorCode::inconsistent_orientation,
-          "Faces look different ways, so that nobody can tell what a hole is. Recalculate their "
-          "normals.",
-          std::move(edges), ElementKind::edge};
+          {"Faces look different ways, so that nobody can tell what a hole is.",
+           "Recalculate their normals."},
+          std::move(edges),
+          ElementKind::edge};
 }
 
 // Of border edges (half-edges), by those that share vertices.

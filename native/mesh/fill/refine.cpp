@@ -347,9 +347,9 @@ class Refinement {
 }  // namespace
 
 void too_dense() {
-  throw FairingError(ErrorCode::too_large,
-                     "The filling would have more than a hundred million vertices. Lower the "
-                     "density.");
+  throw FairingError(
+      ErrorCode::too_large,
+      {"The filling would have more than a hundred million vertices.", "Lower the density."});
 }
 
 void refine(Patch& patch, const std::function<bool(Index, Index)>& joined, Relaxation relaxation) {

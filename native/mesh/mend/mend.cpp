@@ -33,9 +33,9 @@ void require_mendable(const PolygonMesh& mesh) {
   std::erase_if(bad, [&](std::int64_t v) { return !used[std::size_t(v)]; });
   if (!bad.empty())
     throw FairingError(ErrorCode::non_finite,
-                       listing(vertex_s, bad, {"has", "have"}) +
-                           " a coordinate that is NaN, infinite or beyond 1e100, and faces: no "
-                           "program could tell where the surface is. Delete or move them.",
+                       {"{vertex} {has|have} a coordinate that is NaN, infinite or beyond 1e100, "
+                        "and faces: no program could tell where the surface is.",
+                        "Delete or move them."},
                        bad);
 }
 
@@ -151,42 +151,38 @@ class Mender {
     const CountedBytes counted(out_.bytes());  // from here on the caller's
   }
 
-  void add_act(ErrorCode code, Words noun, ElementKind kind, Ids ids, Words done) {
+  void add_act(ErrorCode code, ElementKind kind, Ids ids, const char* done) {
     if (ids.empty()) return;
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    std::string text = listing(noun, ids, done);
-    out_.acts.push_back({name(code), std::move(text), std::move(ids), kind});
+    out_.acts.push_back({name(code), done, std::move(ids), kind});
   }
 
   void tell() {
-    const auto faces = [&](ErrorCode code, const Ids& ids, Words done) {
-      add_act(code, face_s, ElementKind::face, ids, done);
+    const auto faces = [&](ErrorCode code, const Ids& ids, const char* done) {
+      add_act(code, ElementKind::face, ids, done);
+    };
+    const auto vertices = [&](ErrorCode code, const Ids& ids, const char* done) {
+      add_act(code, ElementKind::vertex, ids, done);
     };
     faces(ErrorCode::bad_shape, few_,
-          {"had fewer than three corners and was dropped.",
-           "had fewer than three corners and were dropped."});
+          "{face} had fewer than three corners and {was|were} dropped.");
     faces(ErrorCode::index_out_of_range, absent_,
-          {"named a vertex that the mesh does not have and was dropped.",
-           "named vertices that the mesh does not have and were dropped."});
-    add_act(ErrorCode::non_finite, vertex_s, ElementKind::vertex, lost_,
-            {"had no finite position and no face, and was moved to a vertex that has both.",
-             "had no finite position and no face, and were moved to a vertex that has both."});
-    add_act(
-        ErrorCode::non_finite, vertex_s, ElementKind::vertex, far_,
-        {"had a coordinate beyond 1e100 and no face, and was moved to a vertex that has one.",
-         "had a coordinate beyond 1e100 and no face, and were moved to a vertex that has one."});
+          "{face} named {a vertex|vertices} that the mesh does not have and {was|were} dropped.");
+    vertices(
+        ErrorCode::non_finite, lost_,
+        "{vertex} had no finite position and no face, and {was|were} moved to a vertex that has "
+        "both.");
+    vertices(ErrorCode::non_finite, far_,
+             "{vertex} had a coordinate beyond 1e100 and no face, and {was|were} moved to a vertex "
+             "that has one.");
     faces(ErrorCode::repeated_vertex, repeated_,
-          {"named a vertex twice: the doubled corner was dropped.",
-           "named a vertex twice: the doubled corners were dropped."});
-    add_act(ErrorCode::coincident_vertices, vertex_s, ElementKind::vertex, merged_,
-            {"was merged with the vertex at the same place.",
-             "were merged with vertices at the same place."});
+          "{face} named a vertex twice: the doubled {corner was|corners were} dropped.");
+    vertices(ErrorCode::coincident_vertices, merged_,
+             "{vertex} {was|were} merged with {the vertex|vertices} at the same place.");
     faces(ErrorCode::duplicate_face, duplicates_,
-          {"had the same vertices as an earlier one and was dropped.",
-           "had the same vertices as earlier ones and were dropped."});
-    faces(ErrorCode::degenerate_face, flat_,
-          {"had no area and was dissolved.", "had no area and were dissolved."});
+          "{face} had the same vertices as {an earlier one|earlier ones} and {was|were} dropped.");
+    faces(ErrorCode::degenerate_face, flat_, "{face} had no area and {was|were} dissolved.");
   }
 
   const PolygonMesh& mesh_;

@@ -54,9 +54,8 @@ bool check_sizes(const PolygonMesh& mesh, Defects& found) {
 bool check_corner_counts(const PolygonMesh& mesh, Defects& found) {
   const Ids bad = faces_where(mesh, [](auto face) { return face.size() < 3; });
   if (!bad.empty())
-    found.emplace_back(
-        ErrorCode::bad_shape,
-        listing(face_s, bad, {"has", "have"}) + " fewer than three corners. Delete them.", bad);
+    found.emplace_back(ErrorCode::bad_shape,
+                       Message{"{face} {has|have} fewer than three corners.", "Delete them."}, bad);
   return bad.empty();
 }
 
@@ -65,8 +64,8 @@ bool check_finite(const PolygonMesh& mesh, Defects& found) {
   if (bad.empty()) return true;
   found.emplace_back(
       ErrorCode::non_finite,
-      listing(vertex_s, bad, {"has", "have"}) +
-          " a coordinate that is NaN, infinite or beyond 1e100. Delete or move them.",
+      Message{"{vertex} {has|have} a coordinate that is NaN, infinite or beyond 1e100.",
+              "Delete or move them."},
       bad);
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   found.back().repairable =
@@ -87,8 +86,7 @@ bool check_range(const PolygonMesh& mesh, Defects& found) {
       faces_where(mesh, [&](auto face) { return names_absent_vertex(face, vertices); });
   if (outside.empty()) return true;
   found.emplace_back(ErrorCode::index_out_of_range,
-                     listing(face_s, outside, {"names", "name"}) +
-                         " a vertex that does not exist: ids run from 0 to " +
+                     "{face} {names|name} a vertex that does not exist: ids run from 0 to " +
                          std::to_string(vertices - 1) + "." + counts_from_one(mesh),
                      outside);
   found.back().repairable = std::int64_t(outside.size()) < mesh.face_count();
@@ -100,8 +98,8 @@ bool check_repetition(const PolygonMesh& mesh, Defects& found) {
       faces_where(mesh, [](auto face) { return face.size() >= 3 && repeats_a_vertex(face); });
   if (!repeated.empty())
     found.emplace_back(ErrorCode::repeated_vertex,
-                       listing(face_s, repeated, {"names", "name"}) +
-                           " the same vertex twice. Delete them or dissolve the doubled corner.",
+                       Message{"{face} {names|name} the same vertex twice.",
+                               "Delete them or dissolve the doubled corner."},
                        repeated);
   return repeated.empty();
 }

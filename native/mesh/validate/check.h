@@ -19,14 +19,14 @@ enum class Severity { error, warning };
 // One kind of thing that is wrong with a mesh, with all elements concerned.
 struct Defect {
   ErrorCode code;
-  std::string message;
+  Message message;
   std::vector<std::int64_t> elements{};
   Severity severity = Severity::error;
   ElementKind kind = ElementKind::mesh;
   // mend() mends it (mesh/mend/mend.h).
   bool repairable = false;
 
-  Defect(ErrorCode what, std::string text, std::vector<std::int64_t> ids = {},
+  Defect(ErrorCode what, Message text, std::vector<std::int64_t> ids = {},
          Severity how = Severity::error)
       : code(what),
         message(std::move(text)),

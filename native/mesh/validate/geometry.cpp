@@ -99,8 +99,8 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
   if (!touching.empty())
     found.emplace_back(ErrorCode::coincident_vertices,
-                       listing(vertex_s, touching, {"lies", "lie"}) +
-                           " exactly on another vertex of the same face. Merge them by distance.",
+                       Message{"{vertex} {lies|lie} exactly on another vertex of the same face.",
+                               "Merge them by distance."},
                        touching);
 
   std::erase_if(shared, [&](std::int64_t v) {
@@ -108,26 +108,24 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   });
   if (shared.empty()) return;
   std::sort(shared.begin(), shared.end());
-  found.emplace_back(
-      ErrorCode::coincident_vertices,
-      listing(vertex_s, shared, {"shares", "share"}) +
-          " a point with others without being joined to them: the surface is open there. "
-          "Merge by distance if it should be closed.",
-      shared, Severity::warning);
+  found.emplace_back(ErrorCode::coincident_vertices,
+                     Message{"{vertex} {shares|share} a point with others without being joined to "
+                             "them: the surface is open there.",
+                             "Merge by distance if it should be closed."},
+                     shared, Severity::warning);
 }
 
 void check_areas(const PolygonMesh& mesh, Defects& found) {
   const Ids bad = faces_where(mesh, [&](auto face) { return has_no_area(mesh.coordinates, face); });
   if (bad.empty()) return;
   found.emplace_back(ErrorCode::degenerate_face,
-                     listing(face_s, bad, {"has", "have"}) + " no area. Dissolve or delete them.",
-                     bad);
+                     Message{"{face} {has|have} no area.", "Dissolve or delete them."}, bad);
 }
 
 Defect isolated_vertices(std::vector<std::int64_t> ids) {
-  std::string text =
-      listing(vertex_s, ids, {"belongs", "belong"}) + " to no face: kept where they are.";
-  return {ErrorCode::isolated_vertices, std::move(text), std::move(ids), Severity::warning};
+  return {ErrorCode::isolated_vertices,
+          "{vertex} {belongs|belong} to no face: kept where they are.", std::move(ids),
+          Severity::warning};
 }
 
 void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {

@@ -78,8 +78,8 @@ void check_duplicate_faces(const PolygonMesh& mesh, Defects& found) {
   for (const SameVertices& same : faces_with_same_vertices(mesh)) duplicates.push_back(same.face);
   if (duplicates.empty()) return;
   found.emplace_back(ErrorCode::duplicate_face,
-                     listing(face_s, duplicates, {"has", "have"}) +
-                         " the same vertices as another face. Delete all but one of each.",
+                     Message{"{face} {has|have} the same vertices as another face.",
+                             "Delete all but one of each."},
                      duplicates);
 }
 
@@ -88,9 +88,9 @@ void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found) {
   if (pairs.empty()) return;
   found.emplace_back(
       ErrorCode::nonmanifold_edge,
-      listing_pairs(edge_s, pairs, {"joins", "join"}) +
-          " more than two faces (vertex pairs): sheets meet there in a curve. Delete inner faces "
-          "that you do not want.",
+      Message{
+          "{edge} {joins|join} more than two faces (vertex pairs): sheets meet there in a curve.",
+          "Delete inner faces that you do not want."},
       pairs, Severity::warning);
 }
 
@@ -111,27 +111,25 @@ void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_e
       bad.push_back(std::int64_t(v));
   }
   if (bad.empty()) return;
-  found.emplace_back(ErrorCode::nonmanifold_vertex,
-                     listing(vertex_s, bad, {"joins", "join"}) +
-                         " parts of the surface that share no edge there: they touch in a point.",
-                     bad, Severity::warning);
+  found.emplace_back(
+      ErrorCode::nonmanifold_vertex,
+      "{vertex} {joins|join} parts of the surface that share no edge there: they touch in a point.",
+      bad, Severity::warning);
 }
 
 void check_orientation(const Orientation& orientation, bool repair, Defects& found) {
   const auto& [to_flip, one_sided] = orientation;
   if (!one_sided.empty())
-    found.emplace_back(
-        ErrorCode::non_orientable,
-        listing(face_s, one_sided, {"belongs", "belong"}) +
-            " to a surface with only one side, like a Möbius strip: no turning of faces can "
-            "help. Only the thin plate takes it; cut it open for other energies.",
-        one_sided, Severity::warning);
+    found.emplace_back(ErrorCode::non_orientable,
+                       Message{"{face} {belongs|belong} to a surface with only one side, like a "
+                               "Möbius strip: no turning of faces can help.",
+                               "Only the thin plate takes it; cut it open for other energies."},
+                       one_sided, Severity::warning);
   if (!to_flip.empty())
-    found.emplace_back(
-        ErrorCode::inconsistent_orientation,
-        listing(face_s, to_flip, {"looks", "look"}) +
-            " the other way than the neighbours. Recalculate the normals, or ask for the repair.",
-        to_flip, repair ? Severity::warning : Severity::error);
+    found.emplace_back(ErrorCode::inconsistent_orientation,
+                       Message{"{face} {looks|look} the other way than the neighbours.",
+                               "Recalculate the normals, or ask for the repair."},
+                       to_flip, repair ? Severity::warning : Severity::error);
 }
 
 }  // namespace fairing

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from .. import _native
 from ..arrays import face_arrays, shape_array, vertex_array
 from ..errors import fairing_error
-from ..options import whole
+from ..options import Settings, whole
 from .outline import Outline
 from .partition import neighbours, partition
 from .piece import Piece
@@ -28,10 +28,13 @@ def pieces(
     vertices: ArrayLike,
     faces: ArrayLike | Sequence[Sequence[int]],
     levels: int = 3,
+    energy: str = "thin_plate",
     *,
     count: int,
     rings: int = 8,
-    **settings: Any,
+    shapes: ArrayLike | Sequence[ArrayLike] | None = None,
+    symmetry_plane: str | None = None,
+    **settings: Unpack[Settings],
 ) -> list[Piece]:
     """Cut a control mesh into pieces whose surfaces together are the whole's.
 
@@ -41,7 +44,7 @@ def pieces(
 
     Parameters
     ----------
-    vertices, faces, levels
+    vertices, faces, levels, energy, shapes
         As fair() takes them.
     count : int
         How many pieces; there are fewer where the mesh has fewer faces. More than one needs the
@@ -50,8 +53,8 @@ def pieces(
         Of control faces around each piece that are faired with it. With every ring the difference
         to the whole's surface becomes about 2.6 times smaller.
     **settings
-        Those of fair(), shapes too, but for symmetry_plane and measure, which exclude pieces, and for
-        threads, memory_limit, progress and monitor, which Piece.fair() takes.
+        Those of fair(), but for symmetry_plane and measure, which exclude pieces, and for threads and
+        memory_limit, which Piece.fair() takes.
 
     Returns
     -------
@@ -67,9 +70,10 @@ def pieces(
     if wanted < 1:
         raise fairing_error("BAD_OPTION", f"count is {wanted}; it must be 1 or more.")
     points = vertex_array(vertices)
-    shapes = shape_array(settings.pop("shapes", None), len(points))
-    given, options = checked(settings, levels)
-    outline = Outline(points, *face_arrays(faces), shapes, options)
+    others = shape_array(shapes, len(points))
+    asked = {**settings, "energy": energy, "symmetry_plane": symmetry_plane}
+    given, options = checked(asked, levels)
+    outline = Outline(points, *face_arrays(faces), others, options)
     weights = np.bincount(outline.polygon, outline.quad + 1.0, outline.polygon_count)
     labels = partition(
         neighbours(outline.side_edge, outline.polygon),

@@ -87,7 +87,8 @@ class Whole:
             raise fairing_error(
                 "TOO_LARGE",
                 f"The surface has {numbering.size} points, and a mesh in memory holds less than "
-                "2**31. Keep it in parts.",
+                "2**31.",
+                cure="Keep it in parts.",
             )
         self.surface, self.numbering = first.surface, numbering
         cells = 1 << (2 * numbering.levels)
@@ -137,7 +138,8 @@ class Whole:
         if missing:
             raise fairing_error(
                 "BAD_OPTION",
-                f"Parts are missing: {', '.join(map(str, missing[:20]))}. Fair these pieces too.",
+                f"Parts are missing: {', '.join(map(str, missing[:20]))}.",
+                cure="Fair these pieces too.",
             )
         self.vertices[self.first["alone"]] = self.first["alone_points"]
         for vertices, alone in zip(self.shapes, self.first["alone_shapes"]):

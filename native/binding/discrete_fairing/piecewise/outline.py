@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..errors import written_report
 from .lattice import Numbering
 
 
@@ -50,7 +51,7 @@ class Outline:
         self.curve_points: np.ndarray = found["curve_points"].reshape(curves)
         self.shapes: np.ndarray = found["shapes"].reshape(len(shapes), len(self.vertices), 3)
         self.units: tuple[float, float, float, float] = found["units"]
-        self.report: dict[str, Any] = found["report"]
+        self.report: dict[str, Any] = written_report(found)["report"]
         self.centres: np.ndarray = found["centres"].reshape(1 + len(shapes), -1, 3)
         self.quad = self.face[:, 3] >= 0
         self.quads_before = np.cumsum(self.quad) - self.quad

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from .. import _native
+from ..errors import written
 from .files import Record
 from .lattice import Numbering, closed_ids
 
@@ -209,12 +209,11 @@ def _in_whole(
 ) -> dict[str, Any] | None:
     """A warning in ids of the whole; None where it is about what others own, or about the cut."""
     if not warning["elements"]:
-        return {**warning, "message": f"Piece {piece.index}: {warning['message']}"}
+        return written({**warning, "cause": f"Piece {piece.index}: {warning['cause']}"})
     if warning["kind"] != "vertex":
         return None  # of the mesh itself, which the whole's outline has warned of
     ids = piece.vertex_id[np.asarray(warning["elements"])]
     ids = ids[np.isin(ids, vertex_id)].tolist()
     if not ids:
         return None
-    message = _native.relisted(warning["message"], "vertex", ids)
-    return {**warning, "elements": ids, "message": message}
+    return written({**warning, "elements": ids})

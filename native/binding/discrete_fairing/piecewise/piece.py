@@ -75,7 +75,7 @@ class Piece(Record):
         sharp = settings.get("edge_sharpness")
         if sharp is not None:
             settings["edge_sharpness"] = (sharp["edges"], sharp["sharpness"])
-        options = native_options(**settings)
+        options = native_options(settings)
         own = Outline(self.vertices, self.corners, self.offsets, self.shapes, options)
         if is_outside:
             control = zip((self.vertices, *self.shapes), own.centres)

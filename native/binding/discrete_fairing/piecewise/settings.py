@@ -49,7 +49,7 @@ def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native
                 "BAD_OPTION", f"{name} is no setting of pieces(); give it to fair() of each piece."
             )
     settings["levels"] = whole("levels", levels)
-    return settings, native_options(**settings)
+    return settings, native_options(settings)
 
 
 class PieceSettings:
