@@ -240,7 +240,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     systems_->plate();
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
-    take_metric(watch);
+    solve_basis_first(watch);
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
     if (report.warm)
       systems_->report_held(report);
@@ -267,16 +267,18 @@ std::vector<Vec3> FairSolver::positions_of(const ControlPositions& control) cons
   return out;
 }
 
-// That of a surface is that of the basis, whatever is solved first: then shapes mix, and nothing depends
-// on what was solved before.
-void FairSolver::take_metric(Stopwatch& watch) {
+// The metric of a limit surface, and where folds of a plate are filled, are those of the basis,
+// whatever is solved first: then shapes mix, and nothing depends on what was solved before.
+void FairSolver::solve_basis_first(Stopwatch& watch) {
   const ControlPositions& basis = problem_->basis;
-  if (!problem_->held.surface || systems_->plate().levels().is_measured(problem_->options.levels) ||
-      positions_of(control_) == positions_of(basis))
+  const bool has_metric =
+      !problem_->held.surface || systems_->plate().levels().is_measured(problem_->options.levels);
+  if ((has_metric && systems_->knows_folds()) || positions_of(control_) == positions_of(basis))
     return;
   Report unused = built_;
   recent_.state() = systems_->solve(basis, false, watch, unused, recent_.surface());
   recent_.remember(positions_of(basis));
+  systems_->find_folds_of_basis(recent_.surface().data());
 }
 
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {

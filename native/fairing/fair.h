@@ -64,7 +64,7 @@ class FairSolver {
   void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
   std::vector<Vec3> positions_of(const ControlPositions& control) const;
-  void take_metric(Stopwatch& watch);
+  void solve_basis_first(Stopwatch& watch);
   void solve_from_nothing(Stopwatch& watch, Report& report);
   bool solve_from_last(Stopwatch& watch, Report& report);
   void write(Stopwatch& watch, Report& report, double* out);

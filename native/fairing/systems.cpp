@@ -169,27 +169,31 @@ void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, R
   watch.enter(Phase::solve, 0.25);
 }
 
+void FairingSystems::find_folds_of_basis(const double* x) {
+  repair_.emplace();
+  if (problem_.options.energy != Energy::thin_plate ||
+      find_folds(finest(), *problem_.workers, x, {}).count() == 0)
+    return;
+  Array<double> surface(3 * finest().size());
+  std::copy_n(x, surface.size(), surface.begin());
+  *repair_ = unfold_plate(problem_, problem_.basis, finest(), surface);
+}
+
 FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control, Report& report,
                                                  const double* x) {
   Upright out{x};
-  const bool basis = control.working == problem_.basis.working;
-  if (basis) repair_ = {};
-  const bool folded = basis && problem_.options.energy == Energy::thin_plate &&
-                      find_folds(finest(), *problem_.workers, x, {}).count() > 0;
-  if (folded || repair_.any()) {
+  if (control.working == problem_.basis.working) find_folds_of_basis(x);
+  std::vector<Index> straight = control.world_curves.straightened;
+  if (repair_ && repair_->any()) {
     out.own.resize(3 * finest().size());
     std::copy_n(x, out.own.size(), out.own.begin());
-    if (folded)
-      repair_ = unfold_plate(problem_, control, finest(), out.own);
-    else
-      unfold_alike(problem_, control, finest(), repair_, out.own);
-    if (repair_.any()) out.x = out.own.data();
+    unfold_alike(problem_, control, finest(), *repair_, out.own);
+    out.x = out.own.data();
   }
-  std::vector<Index> straight = control.world_curves.straightened;
-  if (!repair_.straightened.empty()) {
+  if (repair_ && !repair_->straightened.empty()) {
     out.control = control;
-    straighten(problem_.mesh, repair_.straightened, control.world, out.control->world_curves);
-    straight.insert(straight.end(), repair_.straightened.begin(), repair_.straightened.end());
+    straighten(problem_.mesh, repair_->straightened, control.world, out.control->world_curves);
+    straight.insert(straight.end(), repair_->straightened.begin(), repair_->straightened.end());
   }
   warn_straightened(problem_.mesh, straight, report);
   return out;

@@ -61,6 +61,13 @@ class FairingSystems {
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const double* x, double* world);
 
+  // Whether it is known where a plate's folds are filled, or no plate is the surface.
+  bool knows_folds() const {
+    return repair_.has_value() || problem_.options.energy != Energy::thin_plate;
+  }
+  // From the basis' surface.
+  void find_folds_of_basis(const double* x);
+
  private:
   // The thin plate's surface without folds, which is `x` where that has none; where curves had to give
   // way, `control` with these.
@@ -77,9 +84,9 @@ class FairingSystems {
   Monitor& monitor_;
   std::unique_ptr<ThinPlateSolver> plate_;
   std::unique_ptr<GaussNewtonSolver> gauss_newton_;
-  // Of the basis, once it has been written; other positions get the same linear map, so that mixes of
+  // Of the basis, once that has been solved; other positions get the same linear map, so that mixes of
   // shapes are shapes of mixes.
-  PlateRepair repair_;
+  std::optional<PlateRepair> repair_;
   Array<double> goal_;
 };
 
