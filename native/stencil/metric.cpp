@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "parallel/cancel.h"
+#include "stencil/ridges.h"
 
 namespace fairing {
 namespace {
@@ -36,8 +37,11 @@ FlatFace flat_triangle(const std::array<Vec3, 3>& p, double exponent) {
   return flat;
 }
 
-FlatFace flat_quad(const std::array<Vec3, 4>& p, double exponent) {
-  const Vec3 u = 0.5 * ((p[1] - p[0]) + (p[2] - p[3])), v = 0.5 * ((p[3] - p[0]) + (p[2] - p[1]));
+FlatFace flat_quad(const std::array<Vec3, 4>& p, const std::array<double, 2>& shares,
+                   double exponent) {
+  Vec3 u = 0.5 * ((p[1] - p[0]) + (p[2] - p[3])), v = 0.5 * ((p[3] - p[0]) + (p[2] - p[1]));
+  if (shares[0] != 1) u *= std::pow(shares[0], 1 / exponent);
+  if (shares[1] != 1) v *= std::pow(shares[1], 1 / exponent);
   const double a = std::pow(u.norm(), exponent), b = std::pow(v.norm(), exponent);
   const double plus = std::pow((u + v).norm(), exponent),
                minus = std::pow((u - v).norm(), exponent);
@@ -55,13 +59,15 @@ FlatFace flat_quad(const std::array<Vec3, 4>& p, double exponent) {
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
   std::vector<FlatFace> flat;
   flat.reserve(mesh.faces.size());
+  const std::vector<std::array<double, 2>> shares = ridge_shares(mesh, exponent);
   for (const Face& face : mesh.faces) {
     stop_if_cancelled(flat.size());
     const auto at = [&](std::size_t c) -> const Vec3& {
       return mesh.positions[std::size_t(face.vertex[c])];
     };
-    flat.push_back(face.quad() ? flat_quad({at(0), at(1), at(2), at(3)}, exponent)
-                               : flat_triangle({at(0), at(1), at(2)}, exponent));
+    flat.push_back(face.quad()
+                       ? flat_quad({at(0), at(1), at(2), at(3)}, shares[flat.size()], exponent)
+                       : flat_triangle({at(0), at(1), at(2)}, exponent));
   }
   return flat;
 }

@@ -22,7 +22,8 @@ struct FlatFace {
 // survives any exponent up to 1.
 //
 // A quad counts as the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, between
-// them the mean of the angles that its two diagonals ask for. Throws where the run has been
+// them the mean of the angles that its two diagonals ask for. Along ridges it counts as shorter
+// (ridges.h), but at the exponent 1, whose lengths are those in space. Throws where the run has been
 // cancelled.
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent);
 

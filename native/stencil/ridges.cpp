@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/ridges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "base/angle.h"
+#include "mesh/groups.h"
+#include "mesh/opposite.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+// A quad along its sides k and k + 2 is number 2 f + k here: these are its long sides, the others
+// its ends. Quads that share ends are a strip.
+class Ridges {
+ public:
+  Ridges(const ControlMesh& mesh, double exponent)
+      : mesh_(mesh), strips_(2 * mesh.faces.size()), shares_(2 * mesh.faces.size(), 1.0) {
+    planes_.reserve(mesh.faces.size());
+    for (const Face& face : mesh.faces) planes_.push_back(plane_of(face, mesh.positions));
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      for (const int s : ends(k)) {
+        if (const Side* const other = beside(k / 2, s); joins(other)) {
+          strips_.unite(Index(k), along(*other, 1));
+        }
+      }
+    }
+    find(exponent);
+  }
+
+  std::vector<std::array<double, 2>> run() {
+    while (!next_.empty()) {
+      const auto [share, k] = next_.top();
+      next_.pop();
+      if (share > shares_[k]) continue;
+      for (const int s : ends(k)) pass(k, s, 1, share);
+      for (const int s : long_sides(k)) pass(k, s, 0, 1.25 * share);
+    }
+    std::vector<std::array<double, 2>> of_faces(planes_.size());
+    for (std::size_t k = 0; k < shares_.size(); ++k) of_faces[k / 2][k % 2] = shares_[k];
+    return of_faces;
+  }
+
+ private:
+  static std::array<int, 2> long_sides(std::size_t k) { return {int(k % 2), int(k % 2) + 2}; }
+  static std::array<int, 2> ends(std::size_t k) { return {1 - int(k % 2), 3 - int(k % 2)}; }
+  static Index along(const Side& side, int ends) { return 2 * side.face + (side.local + ends) % 2; }
+
+  bool quad(std::size_t f) const { return mesh_.faces[f].quad(); }
+  bool joins(const Side* other) const { return other && quad(std::size_t(other->face)); }
+
+  // The side of the next face across side s of a quad; null at borders and creases, and of
+  // triangles.
+  const Side* beside(std::size_t f, int s) const {
+    if (!quad(f)) return nullptr;
+    const Index own = mesh_.faces[f].first_side + s;
+    const Index e = mesh_.sides[std::size_t(own)].edge;
+    const Edge& edge = mesh_.edges[std::size_t(e)];
+    if (edge.boundary() || mesh_.feature_edge[std::size_t(e)]) return nullptr;
+    return &mesh_.sides[std::size_t(edge.side[edge.side[0] == own ? 1 : 0])];
+  }
+
+  double length(std::size_t f, int s) const {
+    const Face& face = mesh_.faces[f];
+    const auto at = [&](int c) -> const Vec3& {
+      return mesh_.positions[std::size_t(face.vertex[std::size_t(c % face.size)])];
+    };
+    return (at(s + 1) - at(s)).norm();
+  }
+
+  // Positive where the mesh is convex.
+  double angle(std::size_t f, std::size_t o) const {
+    const double angle = angle_between(planes_[f].normal, planes_[o].normal);
+    return planes_[f].normal.dot(planes_[o].middle - planes_[f].middle) > 0 ? -angle : angle;
+  }
+
+  // By how much more the mesh turns over the quad's width than at its ends. Of the turns at its long
+  // sides it has its share against the face beside it.
+  double turn(std::size_t k) const {
+    const std::size_t f = k / 2;
+    double across = 0, at_ends = 0;
+    for (const int s : long_sides(k)) {
+      if (const Side* const other = beside(f, s)) {
+        const auto o = std::size_t(other->face);
+        across += angle(f, o) * planes_[f].area / (planes_[f].area + planes_[o].area);
+      }
+    }
+    for (const int s : ends(k)) {
+      if (const Side* const other = beside(f, s)) {
+        at_ends += std::abs(angle(f, std::size_t(other->face)));
+      }
+    }
+    return std::abs(across) - at_ends;
+  }
+
+  bool goes_on(std::size_t k) const {
+    return std::ranges::all_of(ends(k), [&](int s) {
+      const Side* const other = beside(k / 2, s);
+      return !other || joins(other);
+    });
+  }
+
+  // Starts from the strips that are ridges all along.
+  void find(double exponent) {
+    std::vector<double> shares(shares_.size(), 1.0);  // of strips, by what leads them; 0: no ridge
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      stop_if_cancelled(k);
+      double& share = shares[std::size_t(strips_.lead(Index(k)))];
+      const double by = quad(k / 2) && goes_on(k) ? turn(k) : 0;
+      if (!(by > 0)) {
+        share = 0;
+      } else if (share > 0) {
+        share = std::min(share, std::max(1.0, 1 / by) / std::pow(slenderness(k), exponent));
+      }
+    }
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      if (const double share = shares[std::size_t(strips_.lead(Index(k)))]; share > 0) {
+        lower(k, share);
+      }
+    }
+  }
+
+  double slenderness(std::size_t k) const {
+    const auto sum = [&](const std::array<int, 2>& s) {
+      return length(k / 2, s[0]) + length(k / 2, s[1]);
+    };
+    return sum(long_sides(k)) / sum(ends(k));
+  }
+
+  void pass(std::size_t k, int s, int ends, double share) {
+    const Side* const other = beside(k / 2, s);
+    if (joins(other)) lower(std::size_t(along(*other, ends)), share);
+  }
+
+  void lower(std::size_t k, double share) {
+    if (!(share < shares_[k])) return;
+    shares_[k] = share;
+    next_.emplace(share, k);
+  }
+
+  using Next = std::pair<double, std::size_t>;
+
+  const ControlMesh& mesh_;
+  Groups strips_;
+  std::vector<FacePlane> planes_;
+  std::vector<double> shares_;
+  std::priority_queue<Next, std::vector<Next>, std::greater<>> next_;
+};
+
+}  // namespace
+
+std::vector<std::array<double, 2>> ridge_shares(const ControlMesh& mesh, double exponent) {
+  if (exponent == 0 || exponent == 1 || std::ranges::none_of(mesh.faces, &Face::quad)) {
+    return std::vector<std::array<double, 2>>(mesh.faces.size(), {1.0, 1.0});
+  }
+  return Ridges(mesh, exponent).run();
+}
+
+}  // namespace fairing
