@@ -22,7 +22,6 @@ from ..preferences import preferences
 from ..settings import halves
 from . import words
 from .measure import plate_settings, settings_for
-from .strained import above
 
 _LEVELS = 2  # that the core computes on
 
@@ -140,8 +139,7 @@ class EaseJob(_Moving):
             return words.moved(self.moves, text)
         if wish.amount == "TOLERANCE":
             return words.moved_within(self.moves, wish.tolerance, before, text)
-        wrong = above(before, eased.floor)
-        return words.eased(eased.noise, self.moves, before, wrong, eased.floor, text)
+        return words.eased(eased.noise, self.moves, before, eased.wrong, eased.floor, text)
 
     def write_key(self) -> None:
         """As a shape key of the source, whose mesh stays, and so of its live surfaces."""

@@ -26,7 +26,7 @@ def default_argument(name):
     """Of an argument of fair(); None where it has none."""
     if name in SETTINGS:
         core = getattr(df._native.Options(), name)
-        plain = core[0] if isinstance(core, list) else core
+        plain = core[0] if isinstance(core, list) and core else core
         return None if name in OPTIONAL else getattr(plain, "name", plain)
     default = inspect.signature(df.fair).parameters[name].default
     return None if default is inspect.Parameter.empty else default

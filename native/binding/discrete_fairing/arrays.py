@@ -8,6 +8,7 @@ C-contiguous, aligned float64 and int64.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,7 +29,7 @@ def vertex_array(vertices: ArrayLike) -> np.ndarray:
 def shape_array(shapes: ArrayLike | Sequence[ArrayLike] | None, count: int) -> np.ndarray:
     """(k, n, 3) float64, C-contiguous. Raises FairingError BAD_SHAPE."""
     none = np.empty((0, count, 3))
-    array = none if shapes is None else numbers(shapes, "shapes", "iuf")
+    array = none if shapes is None else numbers(cast(ArrayLike, shapes), "shapes", "iuf")
     if array.ndim and not len(array):
         return none
     if array.shape[1:] != (count, 3):
@@ -46,7 +47,7 @@ def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray,
     tuple of two flat NumPy arrays. Raises FairingError BAD_SHAPE.
     """
     if is_flat_pair(faces):
-        corners, offsets = faces
+        corners, offsets = cast(tuple[np.ndarray, np.ndarray], faces)
         return index_array(corners, "face corners"), index_array(offsets, "face offsets")
     if isinstance(faces, np.ndarray) and faces.dtype != object:
         return uniform_faces(index_array(faces, "faces"))
@@ -54,7 +55,7 @@ def face_arrays(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray,
         raise fairing_error(
             "BAD_SHAPE", f"faces is {faces!r}; it must be (m, 3), (m, 4) or a list of polygons."
         )
-    return polygon_list(faces)
+    return polygon_list(cast(Sequence[Sequence[int]], faces))
 
 
 def is_flat_pair(faces: object) -> bool:

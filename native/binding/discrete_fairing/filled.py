@@ -160,7 +160,7 @@ def put_together(
     vertices = np.concatenate([mesh.points, *(f.own for f in fillings)])
     new = [f.faces.astype(np.int64).ravel() for f in fillings]
     corners = np.concatenate([mesh.corners, *new])
-    more_sizes = [np.full(*f.faces.shape) for f in fillings]
+    more_sizes = [np.full(len(f.faces), f.faces.shape[1]) for f in fillings]
     sizes = np.concatenate([np.diff(mesh.offsets), *more_sizes])
     if (sizes == 3).all():
         whole: Any = corners.reshape(-1, 3)

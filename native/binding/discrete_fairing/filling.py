@@ -159,13 +159,13 @@ def fill_holes(
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
     wanted = Wanted(energy, joint, rim == "noisy", float(density))
-    found, why = _triangulated(filler, loops, wanted.triangles, watchers)
+    by_row, why = _triangulated(filler, loops, wanted.triangles, watchers)
     skipped += [
         SkippedHole.of(list(map(np.array, asked[row])), reason, mesh.vertex_ids)
         for row, reason in why.items()
     ]
-    asked, loops = ([all_[row] for row in found] for all_ in (asked, loops))
-    found = list(found.values())
+    asked, loops = ([all_[row] for row in by_row] for all_ in (asked, loops))
+    found = list(by_row.values())
     grids: list[Filling | str] = [""] * len(found)
     if quads:
         for row, (hole, (_, triangles)) in enumerate(zip(loops, found, strict=True)):

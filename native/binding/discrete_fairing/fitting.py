@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,7 +49,7 @@ def fit_patches(
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **options: object,
+    **options: Any,
 ) -> SplinePatches:
     """Bicubic B-spline patches of a control mesh's fair surface, ready for CAD (write_step).
 
@@ -95,7 +96,7 @@ def fit_patches(
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
 
-    def surface(level: int, **watchers: object) -> Result:
+    def surface(level: int, **watchers: Any) -> Result:
         result = fair(points, polygons, level, **options, **watchers)
         if blend is not None:
             result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
@@ -122,16 +123,23 @@ def fit_patches(
     return found
 
 
-def _at_own_level(run, surface, count, runs) -> SplinePatches:
+def _at_own_level(
+    run: _Run,
+    surface: Callable[..., Result],
+    count: Callable[[int], int],
+    runs: SeveralRuns,
+) -> SplinePatches:
     """Finer and finer surfaces, until one serves or the next is too large. `surface`: one of a level;
     `count`: how many points it has.
     """
     level = FIRST_LEVEL
-    turns, missing = None, 0.0
+    turns = np.empty(0)  # of the level before
+    missing = 0.0
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:
         level -= 1
     done, folds = 0.0, False
-    coarser = best = None
+    coarser: Result | None = None
+    best: SplinePatches | None = None
     finest = _finest(count, level)
     for at in range(level - 1, LAST_LEVEL + 1):
         part = done + 0.4 * (1 - done)
@@ -145,6 +153,7 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
         before, turns = turns, run.turns(result, at, runs.run(done, done))
         folds = folds or run.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
+        assert coarser is not None  # the level before the first
         error = change_between(coarser, result, at) / ORDER
         coarser = result
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
@@ -166,8 +175,8 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
             break
         part = 1.0 if last else done + 0.5 * (1 - done)
         # a whole fit is worth its time only if the faces that had no patches have some now
-        folded = best is not None and best.unresolved.size > 0 and not run.insist
-        if folded and run.still_folded(result, at, best.unresolved, runs.run(done, part)):
+        folded: ArrayLike = [] if best is None or run.insist else best.unresolved.tolist()
+        if folded and run.still_folded(result, at, folded, runs.run(done, part)):
             done = part
             if last:
                 break
@@ -178,6 +187,7 @@ def _at_own_level(run, surface, count, runs) -> SplinePatches:
             best = found
         if last or not any(_faults(found, serves)):
             break
+    assert best is not None  # the last level fits, or refuses
     return run.checked(best)
 
 
@@ -186,7 +196,7 @@ def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
     return len(patches.unresolved), len(patches.unmet) if serves else 0
 
 
-def _finest(count, level: int) -> int:
+def _finest(count: Callable[[int], int], level: int) -> int:
     """The last level that `_at_own_level` may come to."""
     while level < LAST_LEVEL and count(level + 1) <= MOST_POINTS_FOR_FACES:
         level += 1
@@ -207,7 +217,7 @@ class _Run:
                 )
 
     def fitted(
-        self, result: Result, level: int, lattice_error: np.ndarray, watched
+        self, result: Result, level: int, lattice_error: np.ndarray, watched: dict[str, Any]
     ) -> SplinePatches:
         # however soon it is done, whoever watches hears of it
         if watched["progress"](0.0, "patches") is False:
@@ -223,7 +233,17 @@ class _Run:
         )
         return SplinePatches(arrays, result, level)
 
-    def _fit(self, vertices, triangles, quads, creases, level, threads, monitor, progress):
+    def _fit(
+        self,
+        vertices: np.ndarray,
+        triangles: np.ndarray,
+        quads: np.ndarray,
+        creases: np.ndarray,
+        level: int,
+        threads: int,
+        monitor: _native.Monitor,
+        progress: Progress,
+    ) -> tuple[dict[str, Any], np.ndarray]:
         """The core's arrays, and (F,) bool: the control faces whose patches or surface fold."""
         arrays = _native.fit_splines(
             vertices,
@@ -245,7 +265,9 @@ class _Run:
         bad[arrays["patch_face"][folded]] = True
         return arrays, bad
 
-    def still_folded(self, result: Result, level: int, faces: np.ndarray, watched) -> bool:
+    def still_folded(
+        self, result: Result, level: int, faces: ArrayLike, watched: dict[str, Any]
+    ) -> bool:
         """Whether patches of the input `faces`, fitted with their neighbours alone, still fold."""
         chosen = np.isin(control_polygons(result, level), faces)
         part = around(result, level, chosen)
@@ -253,7 +275,7 @@ class _Run:
         _, bad = self._fit(*part.arrays, level, **watched)
         return bool(bad[chosen_of_part].any())
 
-    def stays_folded(self, result: Result, level: int, finer: int, watched) -> bool:
+    def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
         """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
         refused then, unless the caller insists.
         """
@@ -265,7 +287,7 @@ class _Run:
         self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
         return bool(bad.any())
 
-    def turns(self, result: Result, level: int, watched) -> np.ndarray:
+    def turns(self, result: Result, level: int, watched: dict[str, Any]) -> np.ndarray:
         """(F,) the sharpest turn of each control face that is not lower than the tolerance."""
         least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
         return _native.lattice_turns(
@@ -284,7 +306,7 @@ class _Run:
         self.refuse(np.unique(control_polygons(result, level)[bad]).tolist())
         return bool(bad.any())
 
-    def sharp_faces(self, result: Result, level: int, watched) -> list[int]:
+    def sharp_faces(self, result: Result, level: int, watched: dict[str, Any]) -> list[int]:
         """Those where the refined surface itself folds or turns too sharply: no patch serves."""
         turns = self.turns(result, level, watched)
         return np.unique(control_polygons(result, level)[turns > TURN_LIMIT]).tolist()

@@ -154,8 +154,9 @@ class Half:
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
                 values = np.asarray(values)
                 given[name] = np.concatenate([values, values[self._copied]])
-        if np.shape(given.get("normals")) == (self.vertex_count, 3):
-            given["normals"] = self._normals(given["normals"])
+        normals = given.get("normals")
+        if normals is not None and np.shape(normals) == (self.vertex_count, 3):
+            given["normals"] = self._normals(normals)
         for name, kind in _IDS.items():
             if given.get(name) is not None:
                 given[name] = self._with_images(name, kind, given[name])

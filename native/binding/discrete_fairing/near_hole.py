@@ -162,7 +162,9 @@ class NearHole:
         known = np.concatenate([ids, np.arange(self._first, self._first + len(self._own))])
         corners = np.concatenate([mesh.corners_at(touching), self._faces.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
-        ends = np.cumsum(np.concatenate([[0], sizes, np.full(*self._faces.shape)]))
+        ends = np.cumsum(
+            np.concatenate([[0], sizes, np.full(len(self._faces), self._faces.shape[1])])
+        )
         result = fair(
             np.concatenate([mesh.points[ids], self._own]),
             (np.searchsorted(known, corners), ends),

@@ -8,8 +8,9 @@ Defaults and ranges are the core's (native/fairing/settings.h).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from enum import Enum
 from math import isfinite
-from typing import Annotated, Any, Literal, TypedDict, get_args, get_type_hints
+from typing import Annotated, Any, Literal, TypedDict, cast, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -80,7 +81,7 @@ def lengths(name: str, value: object) -> list[float] | np.ndarray:
     """One finite number for all vertices, or (n,) float64."""
     if isinstance(value, str) or not np.iterable(value):
         return [real(name, value)]
-    array = numbers(value, name, "iuf").astype(float)
+    array = numbers(cast(ArrayLike, value), name, "iuf").astype(float)
     if array.ndim != 1 or array.size < 2:
         raise fairing_error(
             "BAD_SHAPE",
@@ -127,12 +128,12 @@ def normal_rows(name: str, normals: ArrayLike) -> np.ndarray:
     return array.reshape(-1)
 
 
-def choice(enum: type):
+def choice(enum: type[Enum]) -> Callable[[str, object], Any]:
     """The converter of a setting whose values are the names of one of the core's enums."""
     members = enum.__members__
     listed = " or ".join(f'"{member}"' for member in members)
 
-    def chosen(name: str, value: object):
+    def chosen(name: str, value: object) -> Any:
         if not isinstance(value, str) or value not in members:
             raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {listed}.")
         return members[value]
@@ -157,7 +158,7 @@ def whole(name: str, value: object) -> int:
     return number
 
 
-def _number(value: object) -> object:
+def _number(value: object) -> Any:
     """The value; TypeError for True and False, which would pass for 1 and 0: weld=True is no length."""
     if holds_bool(value):
         raise TypeError

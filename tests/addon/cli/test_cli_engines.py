@@ -85,8 +85,8 @@ def test_files_side_by_side_are_those_of_one_process(capfd):
         assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
     said = sorted(capfd.readouterr().err.splitlines())
     for name in names:
-        (mine,) = [line for line in said if line.startswith(name)]
-        (theirs,) = [line for line in lines if line.startswith(name) and "%" not in line]
+        (mine,) = [line for line in said if line.startswith(f"{name} ")]
+        (theirs,) = [line for line in lines if line.startswith(f"{name} ") and "%" not in line]
         assert mine.split()[:3] == theirs.split()[:3] and mine.split()[4:] == theirs.split()[4:]
 
 

@@ -44,7 +44,8 @@ def test_the_wrong_one_goes_back_as_far_as_it_strains_and_no_other_moves():
     before, way = places(source), ways(source)[WRONG]
     assert bpy.ops.object.fairing_ease_selected() == {"FINISHED"}
     moved = places(source) - before
-    assert moved[WRONG] == pytest.approx(way, rel=0.02, abs=1e-4)
+    # the strain of a gross error is measured again without it, the move is not
+    assert moved[WRONG] == pytest.approx(way, rel=0.02, abs=0.02 * OFF)
     assert moved[WRONG, 2] == pytest.approx(-OFF, rel=0.15)
     assert not np.delete(moved, WRONG, axis=0).any(), "to the bit"
     left = np.abs(ways(source)[WRONG]).max()

@@ -75,7 +75,7 @@ def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: flo
 def loaded(parts: Parts) -> Iterable[Part]:
     """Each part in memory, one after the other."""
     for part in parts:
-        yield part if isinstance(part, Part) else Part.load(part)  # type: ignore[arg-type]
+        yield part if isinstance(part, Part) else Part.load(part)
 
 
 class Whole:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -27,8 +28,8 @@ class Lattice:
         self.i = np.concatenate([np.arange(last + 1) for last in rows])
         self.j = np.repeat(np.arange(n + 1), [last + 1 for last in rows])
 
-    def at(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-        """Where points (i, j) are among the closed lattice's."""
+    def at(self, i: Any, j: Any) -> Any:
+        """Where points (i, j) are among the closed lattice's; numbers or arrays."""
         return j * (self.n + 1) + i - (0 if self.quad else (j * j - j) // 2)
 
     @cached_property

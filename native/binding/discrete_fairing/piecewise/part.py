@@ -122,7 +122,8 @@ class Part(Record):
 
     def of_shape(self, shape: int) -> Part:
         """The same part of the surface that this shape has."""
-        return replace(self, shapes={}, **self.shapes[str(shape)])
+        of_shape: dict[str, Any] = dict(self.shapes[str(shape)])
+        return replace(self, shapes={}, **of_shape)
 
     def seam_ids(self) -> np.ndarray:
         """(s,) int64: rows of the points that this part shares and others own."""
@@ -144,7 +145,7 @@ class Part(Record):
         def rounded(points: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
             return {name: array.astype(dtype, copy=False) for name, array in points.items()}
 
-        own = rounded({name: getattr(self, name) for name in names})
+        own: dict[str, Any] = dict(rounded({name: getattr(self, name) for name in names}))
         shapes = {shape: rounded(points) for shape, points in self.shapes.items()}
         Record.save(replace(self, shapes=shapes, **own), path)
 
