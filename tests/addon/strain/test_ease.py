@@ -30,6 +30,7 @@ def core(monkeypatch):
             vertices=vertices + moves,
             moves=np.linalg.norm(moves, axis=1),
             strain_before=strain.excess,
+            wrong=strain.wrong,
             strain_after=strain.excess,
             floor=strain.floor,
             amount=1.0,
@@ -204,8 +205,10 @@ def test_the_words_are_those_of_the_run(core):
     job.compute()
     said = job.said(lambda length: f"{length:.3f}")
     held = int((~np.isnan(job.result.strain_before)).sum())
+    off = abs(job.result.strain_before[WRONG])
+    assert off == pytest.approx(OFF, rel=0.02)
     assert said.startswith(
-        f"Offsets are scattered by about 0.010. 1 of {held} vertices is off by more: 31 by 0.1"
+        f"Offsets are scattered by about 0.010. 1 of {held} vertices is off by more: 31 by {off:.3f}."
     )
 
 
