@@ -78,7 +78,7 @@ def test_a_module_for_macos_is_read(tmp_path):
 
 def installed_module():
     wheel = metadata.distribution("discrete-fairing")
-    (module,) = (path for path in wheel.files if path.name.startswith("_native"))
+    (module,) = (path for path in wheel.files if path.match("_native.*.so"))
     return module.locate()
 
 
