@@ -2,15 +2,18 @@
 """`--clean` on the command line: its options, scans made into closed surfaces, what the report says."""
 
 import argparse
-from math import inf, isfinite
+from math import isfinite
 from typing import Any
 
 from ..blender import Object, current_context
 from ..cleaning import STEPS, CleanJob, Wish
+from .numbers import number
 from .report import counts
 
 _NAMES = [name for name, *_ in STEPS]
 DEFAULTS: dict[str, Any] = {"clean_without": (), "clean_islands": 0.1, "clean_noise": 0}
+
+_SHARE = number("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--clean-islands",
-        type=_share,
+        type=_SHARE,
         metavar="X",
         help="parts shorter than this share of the longest go, by the diagonals of their boxes; 0: none "
         f"[{DEFAULTS['clean_islands']:g}]",
@@ -96,13 +99,6 @@ def table_line(record: dict[str, Any], width: int) -> str:
     )
 
 
-def _share(text: str) -> float:
-    value = _float(text)
-    if not 0.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 1")
-    return value
-
-
 def _passes(text: str) -> int | str:
     if text == "auto":
         return text
@@ -111,10 +107,3 @@ def _passes(text: str) -> int | str:
             f"{text!r} is neither auto nor a whole number from 0 to 1000"
         )
     return int(text)
-
-
-def _float(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return -inf

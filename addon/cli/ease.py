@@ -21,7 +21,10 @@ from ..strain.measure import StrainJob
 from ..strain.strained import Strained
 from ..units import digits_of
 from .files import write_text
+from .numbers import number
 from .places import Place, tables
+
+_LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--ease-tolerance",
-        type=_length,
+        type=_LENGTH,
         metavar="LENGTH",
         help="the same with no vertex moved farther than this, in the file's unit; implies --ease",
     )
@@ -172,13 +175,3 @@ def _what_moved(job: EaseJob) -> dict[str, Any]:
         "vertex": int(np.argmax(moves)) if moves.any() else -1,
         "said": job.said(digits_of),
     }
-
-
-def _length(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length above 0")
-    return value

@@ -8,6 +8,7 @@ from ..blender import Object, current_context
 from ..choices import JOINTS
 from ..errors import JobError
 from ..holes import LARGER_HOLES, NO_HOLE, HoleJob, Wish, doubts
+from .numbers import number
 from .report import counts
 
 DEFAULTS: dict[str, Any] = {
@@ -17,6 +18,8 @@ DEFAULTS: dict[str, Any] = {
     "fill_quads": False,
 }
 ENERGY = "TOTAL_CURVATURE"
+
+_DENSITY = number("a number from 0 to 100", lambda value: 0.0 <= value <= 100.0)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--fill-density",
-        type=_density,
+        type=_DENSITY,
         metavar="X",
         help="new edges are so many times as short as those of the rim; 0: no new vertices "
         f"[{DEFAULTS['fill_density']:g}]",
@@ -128,13 +131,3 @@ def table_line(record: dict[str, Any], width: int) -> str:
         f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
         f"{len(holes):>7,} {sum(hole['folds'] > 0 for hole in holes):>7,}"
     )
-
-
-def _density(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value <= 100.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 100")
-    return value

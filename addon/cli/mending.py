@@ -9,11 +9,14 @@ from typing import Any
 
 from ..settings import NAMES
 from . import clean, fill
+from .numbers import number
 from .places import Place, is_cad
 
 _OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
 _OF_BOTH: dict[str, Any] = {"largest_hole": 0.0}
 _MODULES: dict[str, Any] = {"fill": fill, "clean": clean}
+
+_WIDTH = number("a length, 0 or more", lambda value: 0.0 <= value < inf)
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("holes, of --fill and --clean")
     group.add_argument(
         "--largest-hole",
-        type=_width,
+        type=_WIDTH,
         metavar="LENGTH",
         help="holes of which two vertices of the rim are farther apart stay open, in the file's unit; 0: the "
         f"borders of sheets stay open, and no others [{_OF_BOTH['largest_hole']:g}]",
@@ -71,13 +74,3 @@ def asked_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Mending | 
 
 def _option(name: str) -> str:
     return "--" + name.removeprefix("use_").replace("_", "-")
-
-
-def _width(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length, 0 or more")
-    return value

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..settings import NAMES, OF_NEAR, FAIRING_PG_settings
 from . import ease, mending, step
+from .numbers import number
 from .places import FORMATS
 
 # Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
@@ -70,6 +71,8 @@ examples:
 exit codes:
   0 all done, 1 an input failed (the others are written), 2 wrong usage, 3 the native module is missing,
   130 interrupted"""
+
+_DISTANCE = number("a distance, 0 or more", lambda value: 0.0 <= value < inf)
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
@@ -255,7 +258,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--weld",
-        type=_distance,
+        type=_DISTANCE,
         metavar="DISTANCE",
         help="join vertices no farther apart than this, in the file's unit; 0: those at the same place, as --merge does "
         "[none]",
@@ -307,16 +310,6 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=110)
-
-
-def _distance(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0 <= value < inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a distance, 0 or more")
-    return value
 
 
 def _share(text: str) -> slice:

@@ -13,24 +13,27 @@ from ..cad.settings import METRES
 from ..cad.step import write_jobs
 from ..errors import JobError
 from .files import write_whole
+from .numbers import number
 from .places import Place, is_cad
 
 _TOLERANCE, _ANGLE, _UNIT = 1e-4, 0.05, "mm"
 _ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "insist")
+
+_POSITIVE = number("a number above 0 and below 90", lambda value: 0.0 < value < 90.0)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("files for CAD (OUT ends in .step or .stp)")
     group.add_argument(
         "--fit-tolerance",
-        type=_positive,
+        type=_POSITIVE,
         metavar="X",
         help="the farthest that a patch may be from the fair surface, as a share of its size "
         f"[{_TOLERANCE:g}]",
     )
     group.add_argument(
         "--fit-angle",
-        type=_positive,
+        type=_POSITIVE,
         metavar="DEGREES",
         help=f"the sharpest angle at which two patches may meet where there is no crease [{_ANGLE}]",
     )
@@ -132,13 +135,3 @@ def table_line(record: dict[str, Any], width: int) -> str:
         f"{record['input']:<{width}} {faces:>10,} {patches:>9,} {record['seconds']:>8.2f} "
         f"{words.short(off):>10} {words.short(angle) + '°':>9}"
     )
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < 90.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0 and below 90")
-    return value
