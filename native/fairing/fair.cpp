@@ -278,7 +278,8 @@ void FairSolver::solve_basis_first(Stopwatch& watch) {
   Report unused = built_;
   recent_.state() = systems_->solve(basis, false, watch, unused, recent_.surface());
   recent_.remember(positions_of(basis));
-  systems_->find_folds_of_basis(recent_.surface().data());
+  Array<double> upright;
+  systems_->find_folds_of_basis(recent_.surface().data(), upright);
 }
 
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {

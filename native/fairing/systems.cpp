@@ -169,25 +169,28 @@ void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, R
   watch.enter(Phase::solve, 0.25);
 }
 
-void FairingSystems::find_folds_of_basis(const double* x) {
+void FairingSystems::find_folds_of_basis(const double* x, Array<double>& upright) {
   repair_.emplace();
   if (problem_.options.energy != Energy::thin_plate ||
       find_folds(finest(), *problem_.workers, x, {}).count() == 0)
     return;
-  Array<double> surface(3 * finest().size());
-  std::copy_n(x, surface.size(), surface.begin());
-  *repair_ = unfold_plate(problem_, problem_.basis, finest(), surface);
+  upright.resize(3 * finest().size());
+  std::copy_n(x, upright.size(), upright.begin());
+  *repair_ = unfold_plate(problem_, problem_.basis, finest(), upright);
 }
 
 FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control, Report& report,
                                                  const double* x) {
   Upright out{x};
-  if (control.working == problem_.basis.working) find_folds_of_basis(x);
+  const bool basis = control.working == problem_.basis.working;
+  if (basis) find_folds_of_basis(x, out.own);
   std::vector<Index> straight = control.world_curves.straightened;
   if (repair_ && repair_->any()) {
-    out.own.resize(3 * finest().size());
-    std::copy_n(x, out.own.size(), out.own.begin());
-    unfold_alike(problem_, control, finest(), *repair_, out.own);
+    if (!basis) {
+      out.own.resize(3 * finest().size());
+      std::copy_n(x, out.own.size(), out.own.begin());
+      unfold_alike(problem_, control, finest(), *repair_, out.own);
+    }
     out.x = out.own.data();
   }
   if (repair_ && !repair_->straightened.empty()) {

@@ -65,8 +65,8 @@ class FairingSystems {
   bool knows_folds() const {
     return repair_.has_value() || problem_.options.energy != Energy::thin_plate;
   }
-  // From the basis' surface.
-  void find_folds_of_basis(const double* x);
+  // From the basis' surface; `upright` becomes that surface without them, where any can be filled.
+  void find_folds_of_basis(const double* x, Array<double>& upright);
 
  private:
   // The thin plate's surface without folds, which is `x` where that has none; where curves had to give
