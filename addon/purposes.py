@@ -2,7 +2,7 @@
 """What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
 
 Which energy, borders and tolerance a purpose has is decided by benchmarks (jobs, drawn, limits,
-machine_parts and measured_points in benchmarks/), and told in docs/explanation/comparison.md.
+machine_parts and measured_points in benchmarks/), and told in docs/developers/notes/figures.md.
 """
 
 import ast

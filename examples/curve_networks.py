@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks of curves, each as (name, points, closed) to be passed: the shapes of docs/curves.md. Plain NumPy."""
+"""Networks of curves, each as (name, points, closed) to be passed: the shapes of docs/how-to/curves.md. Plain NumPy."""
 
 import numpy as np
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves, the control mesh over them and the surface in stripes: the pictures of docs/curves.md.
+"""Curves, the control mesh over them and the surface in stripes: the pictures of docs/how-to/curves.md.
 
     .venv/bin/python examples/render_curves.py           all of them, to docs/images/curves/
     .venv/bin/python examples/render_curves.py hull      only those named

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of docs/tutorials/, of the very meshes that their scripts make.
+"""The pictures of docs/trades/, of the very meshes that their scripts make.
 
     .venv/bin/python examples/render_tutorials.py           all of them, to docs/images/tutorials/
     .venv/bin/python examples/render_tutorials.py hull      only those named
@@ -21,6 +21,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 from render_row import View, draw_rows, render_tile  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "tutorials"
+PAGES = {"fender": "panel"}  # where a picture has another name than its page
 HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
 FENDER = View(2.9, turn=-28, elevation=14, height=0.58, stripes=14)
 SCAN = View(2.5, turn=20, elevation=12, height=1.0)
@@ -29,7 +30,7 @@ MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
 
 def scripted(tutorial, scripts=1):
     """The active object after so many of the tutorial's scripts."""
-    text = (ROOT / "docs" / "tutorials" / f"{tutorial}.md").read_text("utf-8")
+    text = (ROOT / "docs" / "trades" / f"{PAGES.get(tutorial, tutorial)}.md").read_text("utf-8")
     found = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     names = {}
     for script in found[:scripts]:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the core returns, as dicts, lists and NumPy arrays: all names that the package reads stand
-// in report.cpp, and docs/reference/numpy-api.md describes them.
+// in report.cpp, and docs/python/fair.md describes them.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run has to say besides the surface. binding/report.cpp makes dicts of these structs, field
-// by field in the same order; docs/reference/numpy-api.md describes them to callers.
+// by field in the same order; docs/python/fair.md describes them to callers.
 #pragma once
 
 #include <chrono>

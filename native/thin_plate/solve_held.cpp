@@ -15,7 +15,7 @@ double force_tolerance(double relative_residual) {
 }
 
 // Rows at a free border may be stiff without bounds, and H follows them: the prolongation is not near
-// H there (docs/notes/performance.md), and forces are read from the vertices' own rows.
+// H there (docs/developers/notes/performance.md), and forces are read from the vertices' own rows.
 bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.edges[e].boundary() && unknowns.edge[e]) return true;

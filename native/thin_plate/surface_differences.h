@@ -2,7 +2,7 @@
 // The divided differences of one level in the metric of a surface, a set of rows a point: what takes
 // the place of those by control vertex, edge and face (stencil/stencils.h). The metric of the control
 // faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
-// that the plate is nearly its total curvature (docs/explanation/method.md).
+// that the plate is nearly its total curvature (docs/developers/notes/method.md).
 //
 // Such a plate swings between the points that hold it, farther than a thin wall is thick. So it is drawn
 // to a surface that does not, the goal: P, a weight a point, is part of the matrix, and P goal of what

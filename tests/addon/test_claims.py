@@ -13,7 +13,8 @@ from discrete_fairing.options import OPTIONAL, SETTINGS
 from addon.preferences import DiscreteFairingPreferences
 from addon.settings import FairingSettings
 
-REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "reference"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+REFERENCE = DOCS / "reference"
 
 
 def table_rows(text, first):
@@ -59,7 +60,7 @@ def test_preferences_have_the_defaults_that_their_table_says():
 
 
 def test_arguments_have_the_defaults_that_their_tables_say():
-    text = (REFERENCE / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    text = (DOCS / "python" / "fair.md").read_text("utf-8").partition("\n### Energy")[0]
     checked = 0
     for names, value in re.findall(r"^\| ([^|]*) \| `?([^|`]*)`? \|", text, re.MULTILINE):
         for name in re.findall(r"`(\w+)`", names)[:1]:
@@ -119,7 +120,7 @@ def takes(mesh, options, energy):
 
 
 def test_the_table_of_energies_is_what_the_core_takes():
-    rows = table_rows((REFERENCE / "numpy-api.md").read_text("utf-8"), "| Thin plate")
+    rows = table_rows((DOCS / "python" / "fair.md").read_text("utf-8"), "| Thin plate")
     said = {what: [cell == "yes" for cell in cells] for what, *cells in rows}
     assert said.keys() == ASKED.keys()
     found = {
@@ -130,6 +131,6 @@ def test_the_table_of_energies_is_what_the_core_takes():
 
 
 def test_every_public_name_of_the_package_is_explained():
-    text = (REFERENCE / "numpy-api.md").read_text("utf-8")
+    text = (DOCS / "python" / "fair.md").read_text("utf-8")
     missing = [n for n in df.__all__ if not re.search(rf"\b{n}\b", text)]
     assert missing == []

@@ -16,6 +16,7 @@ from addon.settings import FairingSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
+NOTES = "developers/notes"
 DOCUMENTS = [
     *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")),
     *sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "site"),
@@ -24,12 +25,12 @@ DOCUMENTS = [
 # Whose Python runs in Blender, and the files that it leaves.
 PYTHON = {
     "how-to/scripting.md": ["faired.blend"],
-    "tutorials/hull.md": [],
-    "tutorials/fender.md": [],
-    "tutorials/scan.md": [],
-    "tutorials/cad.md": ["cube.step"],
+    "trades/hull.md": [],
+    "trades/panel.md": [],
+    "trades/scan.md": [],
+    "trades/cad.md": ["cube.step"],
     "how-to/cad.md": [],
-    "reference/numpy-api.md": [],
+    "python/fair.md": [],
     "../README.md": [],
 }
 
@@ -130,11 +131,15 @@ def test_sources_are_there():
     assert wrong(lambda text, _: missing_sources(text)) == {}
 
 
-@pytest.mark.parametrize("folder", ["tutorials", "how-to", "reference", "explanation", "notes"])
+@pytest.mark.parametrize(
+    "folder", ["trades", "how-to", "python", "reference", "explanation", NOTES]
+)
 def test_every_page_is_listed(folder):
-    contents = (DOCS / ("notes/README.md" if folder == "notes" else "README.md")).read_text("utf-8")
+    contents = (DOCS / (f"{NOTES}/README.md" if folder == NOTES else "README.md")).read_text(
+        "utf-8"
+    )
     pages = {path.name for path in (DOCS / folder).glob("*.md")} - {"README.md"}
-    prefix = "" if folder == "notes" else f"{folder}/"
+    prefix = "" if folder == NOTES else f"{folder}/"
     assert {name for name in pages if f"({prefix}{name}" not in contents} == set()
 
 
@@ -153,7 +158,7 @@ def test_every_choice_is_explained():
 
 
 def test_every_argument_of_the_core_is_explained_once():
-    tables = (DOCS / "reference" / "numpy-api.md").read_text("utf-8").partition("\n### Energy")[0]
+    tables = (DOCS / "python" / "fair.md").read_text("utf-8").partition("\n### Energy")[0]
     by_place = set(inspect.signature(discrete_fairing.fair).parameters) - {"settings"}
     for name in by_place | set(SETTINGS):
         assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1, name

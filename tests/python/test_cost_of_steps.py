@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What total curvature takes on pads, with all defaults: counts, which are the same on all machines.
 
-They include what was tried and left (docs/explanation/total-curvature.md#cost).
+They include what was tried and left (docs/developers/notes/total-curvature.md#cost).
 """
 
 import control_meshes as meshes

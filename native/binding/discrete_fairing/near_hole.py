@@ -17,7 +17,7 @@ RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
 # Of a noisy rim: so many, of whose vertices the two outermost rows are held, and the others weigh so
 # much. Chosen of 4 and 6 rings on spheres, and of weights from 0.3 to 10 on seven surfaces, with a noise
-# of 0.02 and 0.1 edges (docs/how-to/filling.md).
+# of 0.02 and 0.1 edges (docs/developers/notes/filling.md).
 NOISY_RINGS, HELD_ROWS, NOISY_WEIGHT = 6, 2, 1.0
 
 RIMS = ("exact", "noisy")

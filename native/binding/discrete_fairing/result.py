@@ -45,7 +45,7 @@ class Result:
     shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
     mended: Mended, the mesh that was faired, where it is not the one given; else None.
     strain: (n,) float64, as Strain.lengths, where fair() was asked for it; else None.
-    report: what the run did; see docs/reference/numpy-api.md for its keys.
+    report: what the run did; see docs/python/fair.md for its keys.
     """
 
     def __init__(self, arrays: dict[str, Any]):

@@ -4,7 +4,7 @@
 //   fairing_surfaces write FILE     on one machine
 //   fairing_surfaces compare FILE   on the other one; fails where two differ by more than `bound`
 //
-// docs/packaging.md has what was measured.
+// docs/developers/packaging.md has what was measured.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -18,7 +18,7 @@ from .partition import neighbours, partition
 from .piece import Piece
 from .settings import PieceSettings, checked
 
-# How a piece's surface ends where it was cut off: along straight edges. Measured (docs/notes/pieces.md): the
+# How a piece's surface ends where it was cut off: along straight edges. Measured (docs/developers/notes/pieces.md): the
 # difference to the whole is the same as with curves there and with free edges, within a third; but
 # free edges take two to four times as long, and total curvature goes astray along them.
 CUT_BOUNDARY = "linear"
