@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Spline patches of known shapes and real meshes, measured: the table of docs/how-to/cad.md.
+"""Spline patches of known shapes and real meshes, measured: the table of docs/trades/cad.md.
 
     PYTHONPATH=build/py python benchmarks/splines.py [names …]
 

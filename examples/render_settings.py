@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture for each setting: the same object with different values, side by side, for docs/reference/settings.md and docs/how-to/modelling.md.
+"""A picture for each setting: the same object with different values, side by side, for docs/reference/settings.md.
 
     .venv/bin/python examples/render_settings.py            all of them, to docs/images/settings/
     .venv/bin/python examples/render_settings.py levels     only those named

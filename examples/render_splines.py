@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control mesh, spline patches and stripes across their edges: the pictures of docs/how-to/cad.md.
+"""Control mesh, spline patches and stripes across their edges: the pictures of docs/trades/cad.md.
 
     .venv/bin/python examples/render_splines.py           all of them, to docs/images/splines/
     .venv/bin/python examples/render_splines.py hull      only those named

@@ -29,8 +29,10 @@ PYTHON = {
     "trades/panel.md": [],
     "trades/scan.md": [],
     "trades/cad.md": ["cube.step"],
-    "how-to/cad.md": [],
     "python/fair.md": [],
+    "python/solver.md": [],
+    "python/holes.md": [],
+    "python/strain.md": [],
     "../README.md": [],
 }
 

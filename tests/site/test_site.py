@@ -77,7 +77,7 @@ def test_browser_draws_the_page(address, page, size):
     assert png_size(picture) == size
 
 
-@pytest.mark.parametrize("page", ["index", "docs/explanation/gallery", "turning"])
+@pytest.mark.parametrize("page", ["index", "docs/explanation/pads", "turning"])
 def test_browser_draws_the_page_in_the_dark(address, page):
     light, dark = (SCREENSHOTS / f"{Path(page).name}-{name}.png" for name in ("light", "dark"))
     photograph(f"{address}/{page}.html", light, WIDE)
