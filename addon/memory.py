@@ -74,7 +74,7 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     )
     unfinished: BoolProperty(
         name="Unfinished",
-        description="The mesh has fewer levels than the settings say, and the whole surface is to follow",
+        description="The mesh has fewer levels than the settings say: Recompute makes the whole surface",
         options={"HIDDEN"},
     )
     defects: StringProperty(

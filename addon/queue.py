@@ -61,13 +61,8 @@ class MeshJob(TimedJob, Protocol):
 class Queue:
     """A row of jobs. Nothing of Blender is touched on the thread: all that it runs is `compute`."""
 
-    def __init__(
-        self, jobs: Sequence[Runnable], make_monitor: Callable[[], Any], gives_way: bool = False
-    ) -> None:
-        """`make_monitor()` gives the core's Monitor, one a job. `gives_way`: whether it ends once
-        anything else is to run.
-        """
-        self.gives_way = gives_way
+    def __init__(self, jobs: Sequence[Runnable], make_monitor: Callable[[], Any]) -> None:
+        """`make_monitor()` gives the core's Monitor, one a job."""
         self.jobs = jobs
         self.error: str | None = None  # a sentence, once a job has failed
         self.cancelled = False

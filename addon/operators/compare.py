@@ -15,7 +15,6 @@ from ..job import Job
 from ..memory import source_at_hand
 from ..settings import snapshot
 from ..ui.main import settings_at_hand
-from . import fill
 from .fair import Fairing, poll_reason
 
 MEASURED = 250_000  # triangles: larger surfaces wait for Measure
@@ -43,7 +42,7 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
             for energy, *_ in ENERGIES
         ]
 
-    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
+    def after(self, context: Context, jobs: Sequence[Job]) -> None:
         source = cast(Object, jobs[0].source)
         source.hide_set(False)
         context.view_layer.update()

@@ -14,7 +14,7 @@ from ..poll import edit_mode_reason, mesh_poll_reason
 from ..strain.ease import EaseJob, EaseSelectedJob, Wish
 from ..ui.main import fairing_operator
 from ..units import Units
-from . import fill
+from . import redo
 from .fair import WholeFairing, poll_reason
 from .strain import sources_at_hand
 
@@ -137,7 +137,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
             for job in jobs:
                 job.write_key()
             if self.fair_afterwards:
-                fill.invoke_soon(context, fairing_operator(context), {})
+                redo.invoke_soon(context, fairing_operator(context), {})
         else:
             select_only(context, [job.write_copy() for job in jobs])
 

@@ -21,9 +21,9 @@ from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, wh
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..queue import ConsoleProgress, MeshJob, running
-from ..settings import FairingSettings, fill_in, take_near
+from ..settings import FairingSettings, copy_settings, fill_in, take_near
 from ..ui.layout import draw_settings
-from . import fill
+from . import redo
 from .modal import ModalRun
 
 
@@ -31,8 +31,7 @@ def poll_reason(context: Context) -> str:
     """Why nothing can be faired here, in one sentence; empty when it can."""
     if core.why_missing():
         return core.why_missing()
-    queue = running()
-    if queue is not None and not queue.gives_way:
+    if running() is not None:
         return "Wait, or press ESC: a surface is being faired at this moment"
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
         return "Go to Object Mode or Edit Mode first"
@@ -66,7 +65,7 @@ class Fairing(ExplainedPoll, ModalRun):
         """Makes the surfaces at once; None where nobody would wait so long, by what was predicted
         or by what it took.
         """
-        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
+        if redo.predicted_seconds(jobs) > prediction.PATIENCE:
             return None
         try:
             return self._block(context, jobs, Deadline(prediction.PATIENCE))
@@ -83,23 +82,26 @@ class Fairing(ExplainedPoll, ModalRun):
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
-        """Makes small surfaces, or what stands in for them, at once, and lets the whole ones follow
-        in the background.
+        """Makes surfaces with fewer levels at once, which Recompute makes whole; where not even that is
+        quick enough, the same run begins anew in the background.
         """
         jobs = self._unused(context, tried)
         if jobs is None:
             return {"CANCELLED"}
         try:
-            answer = self._block(context, fill.small_jobs(context, jobs), Deadline(fill.BUDGET))
+            answer = self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
         except JobCancelled:
-            answer = self.finish(context, [fill.StandIn(job) for job in jobs])
+            redo.repeat_soon(context, self)
+            return {"FINISHED"}
         if answer == {"FINISHED"}:
-            fill.fill_soon(context, self._written, jobs)
+            for target, job in zip(self._written, jobs, strict=True):
+                copy_settings(job.settings, target.discrete_fairing)
+                target.discrete_fairing.unfinished = True
+            self.report({"INFO"}, "Shown with fewer levels: press Recompute for the whole surface")
         return answer
 
     def _prepare(self, context: Context) -> list[Job] | None:
         """The jobs, or None after an error has been reported."""
-        fill.give_way()
         self._mode = context.mode
         try:
             return self.make_jobs(context)
@@ -121,7 +123,7 @@ class Fairing(ExplainedPoll, ModalRun):
             return {"CANCELLED"}
         return self.finish(context, jobs)
 
-    def finish(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[Job]) -> Answer:
         """Writes what finished jobs have computed, and selects it in Object Mode."""
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
@@ -152,7 +154,7 @@ class Fairing(ExplainedPoll, ModalRun):
         """What is to be computed; raises JobError."""
         raise NotImplementedError
 
-    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
+    def after(self, context: Context, jobs: Sequence[Job]) -> None:
         """For what is not common to both."""
 
 
@@ -184,7 +186,7 @@ class FairSurface(Fairing, FairingSettings):
     def make_jobs(self, context: Context) -> list[Job]:
         return [Job(context, source, self) for source in source_objects(context)]
 
-    def after(self, context: Context, jobs: Sequence[Job | fill.StandIn]) -> None:
+    def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:
             source = cast(Object, job.source)  # there, as `finish` has seen
             hidden = self.hide_source and not switch.live_surfaces_of(
@@ -196,12 +198,10 @@ class FairSurface(Fairing, FairingSettings):
 
 
 class WholeFairing(Fairing):
-    """A run that nothing smaller stands in for. From Adjust Last Operation, which cannot wait, all stays
-    for now as it was before, and the same run begins anew by itself.
-    """
+    """A run that has nothing smaller to show: where it takes long, Adjust Last Operation begins it anew."""
 
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
-        fill.repeat_soon(context, self)
+        redo.repeat_soon(context, self)
         return {"FINISHED"}
 
     def is_outdated(self, context: Context, jobs: Sequence[MeshJob]) -> bool:

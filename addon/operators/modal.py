@@ -19,8 +19,6 @@ class ModalRun(OperatorBase):
     all are done.
     """
 
-    # whether others may end the run
-    gives_way = False
     cancelled_text = "Fairing was cancelled: nothing has changed"
 
     def finish(self, context: Context, jobs: list[Job]) -> Answer:
@@ -30,7 +28,7 @@ class ModalRun(OperatorBase):
     def start(self, context: Context, jobs: list[Job]) -> Answer:
         """Begins; the operator returns what this returns."""
         self._jobs = jobs
-        self._queue = Queue(jobs, core.module().Monitor, self.gives_way)
+        self._queue = Queue(jobs, core.module().Monitor)
         set_running(self._queue)
         self._progress = Progress()
         self._told: set[int | str] = set()  # the workspaces whose status bar says how far it is
@@ -62,9 +60,9 @@ class ModalRun(OperatorBase):
         self._clean_up(context)
         if queue.error:
             self.report({"ERROR"}, queue.error)
-        elif queue.cancelled and not self.gives_way:
+        elif queue.cancelled:
             self.report({"INFO"}, self.cancelled_text)
-        elif not queue.cancelled:
+        else:
             return self.finish(context, self._jobs)
         return {"CANCELLED"}
 

@@ -13,7 +13,7 @@ from ..cad.settings import PatchSettings, StepSettings, scale_to
 from ..cad.step import summary, write_jobs
 from ..memory import source_of
 from ..mesh.read import source_objects
-from . import fair, fill
+from . import fair, redo
 from .by_browser import ByFileBrowser
 
 
@@ -103,7 +103,7 @@ class OBJECT_OT_fairing_show_patches(_Fitting, PatchSettings, bpy.types.Operator
         jobs = self._prepare(context)
         if jobs is None:
             return {"CANCELLED"}
-        if fill.predicted_seconds(jobs) > prediction.PATIENCE:
+        if redo.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)
         return self._block(context, jobs)
 

@@ -103,7 +103,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 size.why_too_large(triangles) or "A large result: Blender may be slow to draw it",
             )
         queue = running()
-        if queue is not None and not queue.gives_way:
+        if queue is not None:
             _draw_progress(layout, queue)
         elif memory is not None:
             draw_stale(layout, cast(Object, context.active_object))

@@ -13,7 +13,7 @@ from addon.in_place import InPlaceJob, Wish
 from addon.inspection.curvature import faces_of_edges
 from addon.inspection.measures import fold_angles
 from addon.mesh.read import read_mesh
-from addon.operators import fill
+from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.queue import Queue
 
@@ -332,7 +332,7 @@ def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
     before, asked = positions(target), []
     monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
     monkeypatch.setattr(prediction, "_AT_FIRST", {"THIN_PLATE": 1.0})
-    monkeypatch.setattr(fill, "invoke_soon", lambda *given: asked.append(given[1:]))
+    monkeypatch.setattr(redo, "invoke_soon", lambda *given: asked.append(given[1:]))
     after = fair(target, levels=1, factor=0.5)
     assert np.array_equal(after, before)
     ((operator, properties),) = asked

@@ -9,9 +9,10 @@ from scenes import CUBE, activate, add, fair, positions
 
 from addon import prediction
 from addon.errors import JobCancelled
+from addon.freshness import UNFINISHED, why_stale
 from addon.job import Job
 from addon.operators import fair as fairing
-from addon.operators import fill
+from addon.operators import redo as redoing
 from addon.ui import main
 
 ENERGY = "TOTAL_CURVATURE"
@@ -61,98 +62,64 @@ def redo(monkeypatch):
     monkeypatch.setattr(fairing.Fairing, "is_redone", lambda self: True)
 
 
+def by_its_button(operator):
+    """What has been shown with fewer levels, made whole."""
+    assert why_stale(bpy.context.active_object) == UNFINISHED
+    assert operator() == {"FINISHED"}
+    assert why_stale(bpy.context.active_object) == ""
+
+
 def test_a_run_that_takes_longer_than_predicted_is_broken_off(redo, monkeypatch):
-    monkeypatch.setattr(fill, "predicted_seconds", lambda jobs: 0.0)
+    monkeypatch.setattr(redoing, "predicted_seconds", lambda jobs: 0.0)
     monkeypatch.setattr(prediction, "PATIENCE", 0.02)
     add("Box", *CUBE)
     target = fair(levels=7)
     assert len(target.data.polygons) < 6 * 4**7 and target.discrete_fairing.levels == 7
-    assert [job.settings.levels for job in fill.due_jobs(bpy.context)] == [7]
+    assert why_stale(target) == UNFINISHED
 
 
-def out_of_time(monkeypatch):
-    """Whatever has a deadline misses it."""
+def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
+    """The run begins anew as the button's, with its bar; all else stays."""
 
     def compute(self, progress):
         raise JobCancelled(self.name)
 
+    begun = []
     monkeypatch.setattr(Job, "compute", compute)
-
-
-def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
-    out_of_time(monkeypatch)
-    source = add("Box", *CUBE)
-    source.vertex_groups.new(name="Theirs").add([0], 0.5, "REPLACE")
-    source.shape_key_add(name="Basis")
-    target = fair(levels=4)
-    assert np.array_equal(positions(target.data), positions(source.data)), "the control mesh"
-    assert source.hide_get() and target.discrete_fairing.levels == 4
-    monkeypatch.undo()
-    (job,) = jobs = fill.due_jobs(bpy.context)
-    job.compute()
-    fill.write_jobs(bpy.context, jobs)
-    assert len(target.data.polygons) == 6 * 4**4
-    assert [group.name for group in target.vertex_groups] == ["Theirs"]
-    activate_shown(source)
-    assert np.array_equal(positions(target.data), positions(fair(levels=4).data))
-
-
-def test_an_old_surface_stays_until_the_new_one_is_there(redo, monkeypatch):
+    monkeypatch.setattr(redoing, "invoke_soon", lambda *given: begun.append(given[1:]))
     add("Box", *CUBE)
-    target = fair(levels=2)
-    before = positions(target.data)
-    target.discrete_fairing.levels = 3
-    out_of_time(monkeypatch)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
-    assert np.array_equal(positions(target.data), before)
-    assert [job.target for job in fill.due_jobs(bpy.context)] == [target]
+    assert bpy.ops.object.fairing_surface(levels=4) == {"FINISHED"}
+    assert [o.name for o in bpy.data.objects] == ["Box"]
+    ((_, properties),) = begun
+    assert properties["levels"] == 4
 
 
-def activate_shown(source):
-    source.hide_set(False)
-    activate(source)
-
-
-def test_redo_shows_a_small_surface_and_the_whole_one_follows(redo):
+def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatch):
     source = add("Box", *CUBE)
     key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
     prediction.note("THIN_PLATE", 12 * 4**4, 1.0, key)  # a second at level 4
     target = fair(levels=5)
     assert len(target.data.polygons) == 6 * 4**3, "a quarter of a second"
     assert target.discrete_fairing.levels == 5
-    (job,) = jobs = fill.due_jobs(bpy.context)
-    job.compute()
-    fill.write_jobs(bpy.context, jobs)
+    monkeypatch.undo()
+    by_its_button(bpy.ops.object.fairing_recompute)
     assert len(target.data.polygons) == 6 * 4**5
     assert np.array_equal(positions(target.data)[:8], positions(source.data))
 
 
-def test_a_slow_energy_is_stood_in_for(redo):
+def test_a_slow_energy_is_stood_in_for(redo, monkeypatch):
     source = add("Box", *CUBE)
     key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
     prediction.note(ENERGY, 12 * 4, 10.0, key)
     target = fair(levels=3, energy=ENERGY)
     assert target.discrete_fairing.energy == ENERGY and len(target.data.polygons) == 6 * 4**3
-    assert fill.due_jobs(bpy.context)[0].settings.energy == ENERGY
-
-
-def test_what_is_gone_or_edited_is_not_filled(redo):
-    source = add("Box", *CUBE)
-    key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
-    prediction.note("THIN_PLATE", 12 * 4**3, 1.0, key)
-    target = fair(levels=3)
-    jobs = fill.due_jobs(bpy.context)
-    jobs[0].compute()
-    activate(target)
-    bpy.ops.object.mode_set(mode="EDIT")
-    fill.write_jobs(bpy.context, jobs)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(target.data.polygons) == 6 * 4**2
-    bpy.data.objects.remove(target)
-    assert fill.write_jobs(bpy.context, jobs) == []
+    bent = positions(target.data)
+    monkeypatch.undo()
+    by_its_button(bpy.ops.object.fairing_recompute_stale)
+    assert np.abs(positions(target.data) - bent).max() > 1e-3
 
 
 def test_a_quick_redo_is_whole_at_once(redo):
     add("Box", *CUBE)
-    assert len(fair(levels=3).data.polygons) == 6 * 4**3
-    assert not fill._due
+    target = fair(levels=3)
+    assert len(target.data.polygons) == 6 * 4**3 and why_stale(target) == ""

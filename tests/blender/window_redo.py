@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adjust Last Operation with a large surface: a small one at once, the whole one in the background. Prints the longest stop."""
+"""Adjust Last Operation with a large surface: a small one at once, the whole one by Recompute. Prints the longest stop."""
 
 import contextlib
 import importlib
@@ -68,59 +68,35 @@ def stops():
         bpy.app.timers.unregister(tick)
 
 
-@contextlib.contextmanager
-def small_surfaces():
-    """Inside the `with` the list has the numbers of faces of surfaces that are to be completed."""
-    fill, seen = module("operators.fill"), []
-    before = fill.fill_soon
-
-    def watch(context, targets, jobs):
-        seen.extend(len(target.data.polygons) for target in targets)
-        before(context, targets, jobs)
-
-    fill.fill_soon = watch
-    try:
-        yield seen
-    finally:
-        fill.fill_soon = before
-
-
 def test_search_takes_the_settings_of_the_panel():
     yield from first_surface(1)
     assert surface().discrete_fairing.levels == 1
     assert len(surface().data.polygons) < SUZANNE * 4**2
 
 
-def test_redo_shows_a_small_surface_and_completes_it():
+def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     yield from first_surface(2)
     module("prediction").note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
     module("prediction")._of_mesh.clear()
-    with small_surfaces() as seen, stops() as gaps:
-        yield from harness.raise_levels(surface)
-        yield from until(lambda: len(surface().data.polygons) >= SUZANNE * 4**3)
-    assert len(seen) == 1 and seen[0] < SUZANNE * 4**2, "the window has waited for the whole one"
+    with stops() as gaps:
+        for level in (3, 4):
+            yield from harness.raise_levels(surface)
+            yield from until(lambda level=level: surface().discrete_fairing.levels == level)
+            yield 0.5
+            assert len(surface().data.polygons) < SUZANNE * 4**2, "it has waited for the whole one"
     print(f"longest stop of the window in the meantime: {max(gaps):.2f} s")
     assert max(gaps) < STOP
-    harness.photograph("redo_whole")
-    assert surface().discrete_fairing.levels == 3
-    yield from harness.raise_levels(surface)
-    yield from until(lambda: surface().discrete_fairing.levels == 4)
+    harness.photograph("redo_small")
+    assert surface().discrete_fairing.unfinished
     with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
-    yield 3.0
-    assert "Suzanne Fair" not in bpy.data.objects, "undone in one step, and not made again"
-
-
-def test_another_change_ends_what_was_being_completed():
-    yield from first_surface(2)
-    module("prediction").note("THIN_PLATE", 1000, 1.0, None)
-    module("prediction")._of_mesh.clear()
-    for level in (3, 4):
-        yield from harness.raise_levels(surface)
-        yield from until(lambda level=level: surface().discrete_fairing.levels == level)
-    yield from until(lambda: len(surface().data.polygons) >= SUZANNE * 4**4)
-    assert [o.name for o in bpy.data.objects if o.name.startswith("Suzanne F")] == ["Suzanne Fair"]
-    assert module("queue").running() is None
+        bpy.ops.object.fairing_recompute("INVOKE_DEFAULT", True)
+    yield from until(lambda: not surface().discrete_fairing.unfinished)
+    assert len(surface().data.polygons) >= SUZANNE * 4**4
+    for _ in range(2):
+        with bpy.context.temp_override(**harness.view()):
+            bpy.ops.ed.undo()
+        yield 1.0
+    assert not [o for o in bpy.data.objects if o.name.startswith("Suzanne F")], "a step each"
 
 
 harness.run_in_window(globals())

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Adjust Last Operation never waits: where the whole surface takes too long, it shows one with fewer levels.
+
+Blender calls `execute` from there, which can neither be modal nor be cancelled.
+"""
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any, cast
+
+import bpy
+
+from .. import prediction
+from ..blender import Context, Object, current_context
+from ..job import Job
+from ..queue import TimedJob, running
+
+BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
+_WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
+
+
+def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
+    return sum(job.predicted_seconds for job in jobs)
+
+
+def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
+    """Jobs in the place of `jobs` that take no longer than anyone would wait; raises JobError."""
+    budget = BUDGET / len(jobs)
+    return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
+
+
+def _small(job: Job, budget: float) -> SimpleNamespace:
+    """Its settings with as many levels, and if need be the energy, that the `budget` is enough for."""
+    for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, 1)):
+        for levels in range(job.settings.levels, least - 1, -1):
+            if job.predict(energy, levels) <= budget:
+                return SimpleNamespace(**{**vars(job.settings), "levels": levels, "energy": energy})
+    return SimpleNamespace(**{**vars(job.settings), "levels": 1, "energy": _WITHOUT})
+
+
+def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
+    """Calls an operator of bpy.ops as its button does, in the window at hand, once Blender is done with the
+    present one; not at all where a run has begun meanwhile.
+    """
+    window = context.window
+    if window is None:
+        return
+    place = list(context.window_manager.windows).index(window)
+
+    def begin() -> None:
+        manager = current_context().window_manager
+        if place < len(manager.windows) and not running():
+            with current_context().temp_override(window=manager.windows[place]):
+                operator("INVOKE_DEFAULT", True, **properties)  # with a step of undo, as a button's
+
+    bpy.app.timers.register(begin, first_interval=0.01)
+
+
+def repeat_soon(context: Context, operator: Any) -> None:
+    """Lets `operator`, which Adjust Last Operation has called and which would take too long there,
+    begin anew with the same properties, in the background with its bar.
+    """
+    call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
+    invoke_soon(context, call, operator.as_keywords())
