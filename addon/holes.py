@@ -14,15 +14,15 @@ from .blender import Context, Object
 from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
 from .mesh.begun import Begun
+from .mesh.edited import edited, select_nothing
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import WorldShape, world_shape
 from .mesh.write_filling import write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import (
-    around,
     flat_faces,
-    holes_without,
+    holes_in,
     sides_of,
     unclear_edges,
     where_faces_were,
@@ -71,44 +71,31 @@ class Filled:
     holes: list[Any]  # the core's reports
     # what could not be filled, as Check Mesh keeps it, a dict each
     skipped: list[dict[str, Any]]
+    reasons: list[str]  # why, each once, with all elements
 
     @classmethod
-    def of(
-        cls, found: Any, vertices: np.ndarray, points: np.ndarray, shape: WorldShape
-    ) -> "Filled":
-        """From what the core made of the part with these `vertices` (n',) of a mesh at `points`
-        (n, 3), in the world's `shape`.
-        """
-        known = len(vertices)
-        corners = found.faces[0] if isinstance(found.faces, tuple) else found.faces
-        if isinstance(found.faces, tuple):
-            sizes = np.diff(found.faces[1])
-        else:
-            sizes = np.full(len(found.faces), 3)
-        patches, first = [], corners.size - int(sizes[found.new_faces].sum())
-        for hole in found.holes:
-            size = int(sizes[hole.faces.start])
-            last = first + size * len(hole.faces)
-            faces = corners.ravel()[first:last].reshape(-1, size)
-            patches.append(Patch.of(faces, found.vertices, known))
-            first = last
-        none = np.empty((0, 3))
+    def of(cls, found: Any, points: np.ndarray, shape: WorldShape) -> "Filled":
+        """From what the core found of a mesh at `points` (n, 3), in the world's `shape`."""
+        new, none = (
+            np.concatenate([np.empty((0, 3)), *(h.vertices for h in found.holes)]),
+            np.empty((0, 3)),
+        )
         return cls(
-            [patch.in_whole(vertices, len(points)) for patch in patches],
-            shape.back(found.vertices[known:], none, none),
+            [Patch.of(hole.faces, points, new) for hole in found.holes],
+            shape.back(new, none, none),
             found.holes,
-            [_skipped(hole, vertices) for hole in found.skipped],
+            [_skipped(hole) for hole in found.skipped],
+            found.reasons,
         )
 
 
-def _skipped(hole: Any, vertices: np.ndarray) -> dict[str, Any]:
-    """A hole that the core has left, with elements of the mesh whose part has these `vertices` (n,)."""
-    ids = vertices[np.array(hole.elements, np.int64)].tolist()
+def _skipped(hole: Any) -> dict[str, Any]:
+    """A hole that the core has left."""
     return {
         "code": errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code,
-        "message": hole.why,
+        "message": hole.message,
         "kind": hole.kind,
-        "elements": ids,
+        "elements": hole.elements,
         "severity": "error",
     }
 
@@ -136,7 +123,9 @@ class HoleJob:
                 gone[:] = False
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
-        holes = holes_without(arrays, self._points, gone)
+        self._faces = flat_faces(arrays, ~gone if gone.any() else None)
+        with errors.explained(self.name, errors.OF_HOLES):
+            holes = holes_in(self._points, self._faces)
         loops = [loop for hole in holes for loop in hole]
         unclear = unclear_edges(arrays, gone, loops)
         if self._editing and not wish.replaces:  # those that somebody has selected
@@ -147,7 +136,7 @@ class HoleJob:
             side = frozenset(wish.edge)
             self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
         elif not self._editing:
-            self._holes = _no_wider(arrays, self._points, holes, wish.largest)
+            self._holes = _no_wider(self._points, self._faces, holes, wish.largest)
         elif wish.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
@@ -190,31 +179,18 @@ class HoleJob:
         self._taken = perf_counter() - begun
 
     def _filled(self, watchers: dict[str, Any]) -> Filled:
-        """From the faces around the holes alone: to hand over all of a large mesh takes longer than to
-        fill a hole.
-        """
-        part = around(self._arrays, self._points, self._gone, self._holes, self._wish.noisy)
-        number = np.full(len(self._points), -1)
-        number[part.vertices] = np.arange(len(part.vertices))
-        loops = [[number[loop].tolist() for loop in hole] for hole in self._holes]
-        settings = {
-            "joint": self._wish.joint.lower(),
-            "energy": self._wish.energy.lower(),
-            "density": self._wish.density,
-            "rim": "noisy" if self._wish.noisy else "exact",
-            "quads": self._wish.quads,
+        found = core.module().fill_holes(
+            self._points,
+            self._faces,
+            holes=self._holes,
+            joint=self._wish.joint.lower(),
+            energy=self._wish.energy.lower(),
+            density=self._wish.density,
+            rim="noisy" if self._wish.noisy else "exact",
+            quads=self._wish.quads,
             **watchers,
-        }
-        try:
-            found = core.module().fill_holes(
-                self._points[part.vertices], flat_faces(part.arrays), holes=loops, **settings
-            )
-        except core.module().FairingError as error:
-            if error.code != "CANCELLED":  # refused again, but with the ids that Blender shows
-                whole = flat_faces(self._arrays, ~self._gone)
-                core.module().fill_holes(self._points, whole, holes=self._holes, **settings)
-            raise
-        return Filled.of(found, part.vertices, self._points, self._shape)
+        )
+        return Filled.of(found, self._points, self._shape)
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""
@@ -223,13 +199,11 @@ class HoleJob:
     def apply(self) -> Filling:
         """Makes the faces."""
         target = cast(Object, self._target.find())
-        patches, places, holes = self.result.patches, self.result.places, self.result.holes
-        if self._editing:
-            bm = bmesh.from_edit_mesh(target.data)
-            _write(bm, np.flatnonzero(self._gone), patches, places)
-            bmesh.update_edit_mesh(target.data)
-        else:
-            self._rebuild(target, patches, places)
+        patches, holes = self.result.patches, self.result.holes
+        if not self._editing:
+            select_nothing(target)
+        with edited(target) as bm:
+            _write(bm, np.flatnonzero(self._gone), patches, self.result.places)
         prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
         return Filling(
             len(holes),
@@ -252,7 +226,7 @@ class HoleJob:
         """Which holes could not be filled, and why, as a sentence; empty where all are."""
         if not self.skipped:
             return ""
-        why = _listed([defect["message"] for defect in self.skipped]).rstrip(".")
+        why = _listed(self.result.reasons).rstrip(".")
         return f"{count_text(len(self.skipped))} left, listed in the panel Check: {why}"
 
     def check_again(self, context: Context) -> None:
@@ -268,21 +242,6 @@ class HoleJob:
             new = [defect for defect in self.skipped if defect["code"] not in codes]
             store_defects(context, target, known + new)
 
-    @staticmethod
-    def _rebuild(target: Object, patches: list[Patch], places: np.ndarray) -> None:
-        """By BMesh: to lengthen the arrays of a mesh that has elements crashes Blender 5.2."""
-        mesh = target.data
-        for elements in (mesh.vertices, mesh.edges, mesh.polygons):
-            elements.foreach_set("select", np.zeros(len(elements), bool))
-        bm = bmesh.new()
-        try:
-            bm.from_mesh(mesh)
-            _write(bm, np.empty(0, int), patches, places)
-            bm.to_mesh(mesh)
-            mesh.update()
-        finally:
-            bm.free()
-
 
 def _triangles_in(edges: int, density: float) -> int:
     """Of a round flat hole with so many edges around, in equilateral triangles."""
@@ -290,9 +249,12 @@ def _triangles_in(edges: int, density: float) -> int:
 
 
 def _no_wider(
-    arrays: core.ControlArrays, points: np.ndarray, holes: list[list[list[int]]], largest: float
+    points: np.ndarray,
+    faces: tuple[np.ndarray, np.ndarray],
+    holes: list[list[list[int]]],
+    largest: float,
 ) -> list[list[list[int]]]:
-    wanted = core.module().holes_to_fill(points, flat_faces(arrays), holes, largest)
+    wanted = core.module().holes_to_fill(points, faces, holes, largest)
     return [[loop.tolist() for loop in hole] for hole in wanted]
 
 

@@ -4,8 +4,7 @@
 Only what is near takes part: the selection and the faces around it.
 """
 
-from collections.abc import Hashable, Iterator
-from contextlib import contextmanager
+from collections.abc import Hashable
 from dataclasses import dataclass
 from time import perf_counter
 from types import SimpleNamespace
@@ -21,6 +20,7 @@ from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
 from .mesh.begun import Begun
+from .mesh.edited import edited
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.shape_keys import dependent_keys
@@ -292,82 +292,66 @@ def apply(source: Object, faired: Faired) -> None:
         mesh.vertices.foreach_set("co", points.ravel())
         mesh.update()
         return
-    with _edited(source) as edited:
+    with edited(source) as bm:
         if faired.levels:
-            _refine(edited, faired, dependent_keys(source))
+            _refine(bm, faired, dependent_keys(source))
         else:
-            edited.verts.ensure_lookup_table()
+            bm.verts.ensure_lookup_table()
             for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
-                edited.verts[index].co = point
-        edited.normal_update()
+                bm.verts[index].co = point
+        bm.normal_update()
 
 
-@contextmanager
-def _edited(source: Object) -> Iterator[bmesh.types.BMesh]:
-    """Its mesh to be changed inside of the `with`, in Edit Mode and Object Mode."""
-    if source.mode == "EDIT":
-        yield bmesh.from_edit_mesh(source.data)
-        bmesh.update_edit_mesh(source.data)
-        return
-    edited = bmesh.new()
-    try:
-        edited.from_mesh(source.data)
-        yield edited
-        edited.to_mesh(source.data)
-    finally:
-        edited.free()
-
-
-def _split(edited: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
+def _split(bm: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
     """The faces that are to be refined, as the core has split them."""
-    edited.faces.ensure_lookup_table()
-    faces = [(edited.faces[index], common) for index, common in faired.splits.items()]
-    known = [edited.verts[index] for index in faired.part.vertices.tolist()]
+    bm.faces.ensure_lookup_table()
+    faces = [(bm.faces[index], common) for index, common in faired.splits.items()]
+    known = [bm.verts[index] for index in faired.part.vertices.tolist()]
     for face, common in faces:
         if not face[chosen]:
             continue
         if len(common) == 1:
-            made: Any = bmesh.ops.poke(edited, faces=[face])
+            made: Any = bmesh.ops.poke(bm, faces=[face])
             made["verts"][0][label] = faired.labels[common[0]].tolist()
         else:
             bmesh.utils.face_split(face, *(known[row] for row in common))
 
 
-def _refine(edited: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) -> None:
+def _refine(bm: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) -> None:
     """Blender's own subdivision makes the faces, with all that lies on them, and mixes the labels of
     the vertices; these say which point each new vertex is. `keys`: as `dependent_keys` has them.
     """
-    of_vertices: Any = edited.verts.layers.float_vector
-    of_faces: Any = edited.faces.layers.int
+    of_vertices: Any = bm.verts.layers.float_vector
+    of_faces: Any = bm.faces.layers.int
     label, chosen = of_vertices.new("fairing_label"), of_faces.new("fairing_chosen")
-    edited.verts.ensure_lookup_table()
+    bm.verts.ensure_lookup_table()
     for row, index in enumerate(faired.part.vertices.tolist()):
-        edited.verts[index][label] = faired.labels[row].tolist()
-    old = set(edited.verts)
-    edited.faces.ensure_lookup_table()
+        bm.verts[index][label] = faired.labels[row].tolist()
+    old = set(bm.verts)
+    bm.faces.ensure_lookup_table()
     for index in faired.chosen.tolist():
-        edited.faces[index][chosen] = 1
-    _split(edited, faired, label, chosen)
-    faces = [face for face in edited.faces if face[chosen]]
+        bm.faces[index][chosen] = 1
+    _split(bm, faired, label, chosen)
+    faces = [face for face in bm.faces if face[chosen]]
     edges = list({edge for face in faces for edge in face.edges})
     cast(Any, bmesh.ops).subdivide_edges(
-        edited, edges=edges, cuts=2**faired.levels - 1, use_grid_fill=True
+        bm, edges=edges, cuts=2**faired.levels - 1, use_grid_fill=True
     )
     tree: Any = kdtree.KDTree(len(faired.labels))
     for row, place in enumerate(faired.labels.tolist()):
         tree.insert(place, row)
     tree.balance()
-    edited_key, following = edited.verts.layers.shape.get(keys[0]), keys[1]
-    layers: Any = edited.verts.layers.shape
+    edited_key, following = bm.verts.layers.shape.get(keys[0]), keys[1]
+    layers: Any = bm.verts.layers.shape
     others = [layers[name] for name in following]
-    for vertex in {v for face in edited.faces if face[chosen] for v in face.verts}:
+    for vertex in {v for face in bm.faces if face[chosen] for v in face.verts}:
         row = tree.find(vertex[label])[1]
         vertex.co = faired.points[row].tolist()
         if vertex in old:  # whose move Blender itself hands on
             continue
         for other in others:
             vertex[other] += vertex.co - vertex[edited_key]
-    for face in edited.faces:
+    for face in bm.faces:
         face.select_set(face.select or bool(face[chosen]))
     of_vertices.remove(label)
     of_faces.remove(chosen)

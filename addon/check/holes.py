@@ -3,24 +3,24 @@
 
 from typing import Any
 
-import numpy as np
-
 from .. import core
 from ..blender import Context, Object
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import WorldShape
-from ..transfer.hole_loops import loops_without, sides_of
+from ..transfer.hole_loops import flat_faces, holes_in, sides_of
 
 MOST = 50  # that are kept, the widest; a list of more helps nobody
 
 
 def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
     """The loops of a mesh; none where the core makes no mesh of it."""
-    gone = np.zeros(len(arrays.face_sizes), bool)
+    if not (arrays.edge_uses == 1).any():
+        return []
     try:
-        return loops_without(arrays, arrays.positions, gone)
+        holes = holes_in(arrays.positions, flat_faces(arrays))
     except core.module().FairingError:
         return []
+    return [loop for hole in holes for loop in hole]
 
 
 def listed(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]]:

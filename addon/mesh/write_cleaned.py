@@ -13,6 +13,7 @@ import numpy as np
 from ..blender import Object
 from ..core import ControlArrays
 from ..transfer.filling import Patch
+from .edited import edited
 from .write_filling import write_hole
 
 
@@ -36,19 +37,8 @@ class Cleaned:
 
 def write_cleaned(target: Object, arrays: ControlArrays, made: Cleaned) -> None:
     """Makes the mesh of `target`, which is `arrays`, what was `made` of it, in whatever mode."""
-    mesh = target.data
-    if target.mode == "EDIT":
-        _change(bmesh.from_edit_mesh(mesh), arrays, made)
-        bmesh.update_edit_mesh(mesh)
-        return
-    bm = bmesh.new()
-    try:
-        bm.from_mesh(mesh)
+    with edited(target) as bm:
         _change(bm, arrays, made)
-        bm.to_mesh(mesh)
-        mesh.update()
-    finally:
-        bm.free()
 
 
 def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
@@ -171,7 +161,7 @@ def _around(items: Sequence[Any]) -> list[tuple[Any, Any]]:
 def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
     """The faces that are new, one filling after another."""
     for faces in _fillings(made):
-        patch = Patch.of(faces, made.points, made.known)
+        patch = Patch.of(faces, made.points[: made.known], made.points[made.known :])
         rim = [verts[v] for v in patch.rim.tolist()]
         write_hole(bm, patch, rim, made.positions[patch.fresh])
 

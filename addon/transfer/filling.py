@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What fills a hole, as its faces and the vertices of the mesh that they stand on."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,18 +26,13 @@ class Patch:
         )
 
     @classmethod
-    def of(cls, faces: np.ndarray, points: np.ndarray, count: int) -> "Patch":
-        """`faces` (t, 3) or (t, 4): ids, of which those below `count` are of the mesh; `points` (N, 3)."""
+    def of(cls, faces: np.ndarray, points: np.ndarray, new: np.ndarray) -> "Patch":
+        """`faces` (t, 3) or (t, 4): ids, first of the mesh at `points` (n, 3), then of the `new` points (k, 3)."""
         ids, rows = np.unique(faces, return_inverse=True)
-        split = int(np.searchsorted(ids, count))
-        spots = points[ids]
-        return cls(
-            ids[:split], ids[split:], spots, rows.reshape(faces.shape), _nearest(spots, split)
-        )
-
-    def in_whole(self, vertices: np.ndarray, count: int) -> "Patch":
-        """The same for a mesh of `count` vertices, of which those here are `vertices` (n,), rising."""
-        return replace(self, rim=vertices[self.rim], fresh=self.fresh - len(vertices) + count)
+        split = int(np.searchsorted(ids, len(points)))
+        fresh = ids[split:]
+        spots = np.concatenate([points[ids[:split]], new[fresh - len(points)]])
+        return cls(ids[:split], fresh, spots, rows.reshape(faces.shape), _nearest(spots, split))
 
 
 def _nearest(points: np.ndarray, known: int) -> np.ndarray:

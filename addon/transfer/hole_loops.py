@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which loops are holes of a mesh, or of what is left of it, and the faces around them."""
+"""Which loops are holes of a mesh, or of what is left of it."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -7,44 +7,14 @@ from typing import TypeAlias
 import numpy as np
 
 from .. import core
-from .cut_out import CutOut, cut_out
-
-RINGS, NOISY_RINGS = 2, 6  # of faces around a hole that decide what fills it
-CELLS = 64  # along the longest side of a mesh, by which it is known what is near a hole
 
 Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
 
-def loops_without(
-    arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray
-) -> list[list[int]]:
-    """Around the holes that are there without the faces `gone`: only those at a border are looked at."""
-    return [loop for hole in holes_without(arrays, points, gone) for loop in hole]
-
-
-def holes_without(
-    arrays: core.ControlArrays, points: np.ndarray, gone: np.ndarray
-) -> list[list[list[int]]]:
-    """The same by holes: of each its rim, and the rims of islands in it."""
-    kept = np.repeat(~gone, arrays.face_sizes)
-    border = arrays.edges[_uses(arrays, gone) == 1]
-    at_border = np.zeros(len(points), bool)
-    at_border[border] = True
-    face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
-    near = np.zeros(len(gone), bool)
-    near[face_of[at_border[arrays.corners] & kept]] = True
-    if not near.any():
-        return []
-    part = cut_out(arrays, near)
-    mesh = points[part.vertices], flat_faces(part.arrays)
-    sides = set(map(frozenset, border.tolist()))
-    ours = [  # the others are only there where the part was cut out
-        loop
-        for loop in core.module().find_holes(*mesh)
-        if sides.issuperset(sides_of(part.vertices[loop].tolist()))
-    ]
-    found = core.module().with_islands(*mesh, ours) if ours else []
-    return [[part.vertices[loop].tolist() for loop in hole] for hole in found]
+def holes_in(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray]) -> list[list[list[int]]]:
+    """Of each hole of a mesh with these flat `faces` its rim, and the rims of islands in it."""
+    found = core.module().with_islands(points, faces) if len(faces[0]) else []
+    return [[loop.tolist() for loop in hole] for hole in found]
 
 
 def unclear_edges(
@@ -111,46 +81,6 @@ def where_faces_were(
         if part is not None:
             holes.setdefault(part, []).append(loop)
     return [sorted(hole, key=len, reverse=True) for _, hole in sorted(holes.items())]
-
-
-def around(
-    arrays: core.ControlArrays,
-    points: np.ndarray,
-    gone: np.ndarray,
-    holes: list[list[list[int]]],
-    noisy: bool = False,
-) -> CutOut:
-    """The faces that are near these `holes`, without those that are `gone` (m,) bool, in a mesh at
-    `points` (n, 3): as many rings as the core reads, more where the rim is `noisy`, and those that a
-    filling may pass through.
-    """
-    left = np.repeat(~gone, arrays.face_sizes)
-    face_of = np.repeat(np.arange(len(gone)), arrays.face_sizes)
-    marked = np.zeros(len(arrays.positions), bool)
-    marked[[v for hole in holes for loop in hole for v in loop]] = True
-    for _ in range(NOISY_RINGS if noisy else RINGS):
-        near = np.zeros(len(gone), bool)
-        near[face_of[marked[arrays.corners] & left]] = True
-        marked[arrays.corners[near[face_of]]] = True
-    near[face_of[_within_reach(points, holes)[arrays.corners] & left]] = True
-    return cut_out(arrays, near)
-
-
-def _within_reach(points: np.ndarray, holes: list[list[list[int]]]) -> np.ndarray:
-    """(n,) which points fillings may come to: in the boxes of their rims, by half a diagonal wider, as
-    what fills half a sphere or a little more; in whole cells of a coarse grid.
-    """
-    low = points.min(axis=0)
-    size = max(float((points.max(axis=0) - low).max()) / CELLS, 1e-300)
-    marked = np.zeros((CELLS + 1,) * 3, bool)
-    for hole in holes:
-        rim = points[hole[0]]
-        reach = np.linalg.norm(np.ptp(rim, axis=0)) / 2.0
-        first = ((rim.min(axis=0) - reach - low) / size).clip(0, CELLS).astype(int)
-        last = ((rim.max(axis=0) + reach - low) / size).clip(0, CELLS).astype(int)
-        marked[tuple(slice(a, b + 1) for a, b in zip(first, last, strict=True))] = True
-    x, y, z = ((points - low) / size).astype(np.int32).T
-    return marked[x, y, z]
 
 
 def flat_faces(

@@ -147,11 +147,9 @@ py::list to_python(const Defects& defects) {
 }
 
 py::dict to_python(const FairingError& error) {
-  const bool in_pairs = error.kind == ElementKind::edge;
-  return py::dict(
-      "code"_a = name(error.code), "message"_a = error.what(),
-      "elements"_a = in_pairs ? py::cast(pairs_of(error.elements)) : py::cast(error.elements),
-      "kind"_a = name(error.kind));
+  return py::dict("code"_a = name(error.code), "cause"_a = error.message.cause,
+                  "cure"_a = error.message.cure, "elements"_a = error.elements,
+                  "kind"_a = name(error.kind));
 }
 
 py::object to_python(const MendedMesh* mended) {

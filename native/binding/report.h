@@ -19,7 +19,7 @@ pybind11::dict to_python(const Report& report);
 void add_mesh_report(pybind11::dict& to, const Report& report);
 pybind11::dict to_python(const RunSize& size);
 pybind11::list to_python(const Defects& defects);
-// "code", "message", "elements", in pairs where they are edges, and "kind".
+// The arguments of the package's fairing_error().
 pybind11::dict to_python(const FairingError& error);
 
 // What was faired in the place of the input: the arrays that discrete_fairing.result.Mended has, but

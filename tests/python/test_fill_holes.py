@@ -61,6 +61,11 @@ def assert_kept(filled, vertices, faces):
     assert np.array_equal(filled.vertices[: len(vertices)], vertices)
     assert np.array_equal(filled.faces[: len(faces)], faces)
     assert np.array_equal(filled.new_faces, np.arange(len(faces), len(filled.faces)))
+    assert np.array_equal(
+        np.concatenate([h.faces for h in filled.holes]), filled.faces[len(faces) :]
+    )
+    fresh = np.concatenate([h.vertices for h in filled.holes])
+    assert np.array_equal(fresh, filled.vertices[len(vertices) :])
 
 
 def diameter(points):
@@ -343,6 +348,8 @@ def test_hanging_nodes_are_holes_of_three(bend):
         on_gaps = {v for v in hanging if any(v in gap for gap in gaps)}
         assert {s.elements[0] for s in filled.skipped} == on_gaps and not filled.holes
         assert {s.cure for s in filled.skipped} == {"cut"}
+        (reason,) = filled.reasons
+        assert reason.startswith(f"{len(on_gaps)} vertices (") and "lie on another edge" in reason
 
 
 def test_a_hole_that_winds_by_more_than_half_a_turn():
@@ -479,9 +486,9 @@ def test_what_is_no_hole_is_skipped_and_says_why():
     assert (inside.code, inside.kind, inside.cure) == ("BAD_OPTION", "edge", "")
     assert inside.elements == [tuple(quads[14][:2])]
     a, b = quads[14][:2]
-    assert inside.message.startswith(f"At edge {a}-{b}: ") and "both sides" in inside.message
+    assert inside.message.startswith(f"1 edge ({a}-{b}) of the rim has faces on both sides. ")
     assert inside.loops[0].tolist() == quads[14].tolist()
-    assert "none of the mesh" in missing.message
+    assert "not in the mesh" in missing.message
     assert (twice.code, twice.elements) == ("REPEATED_VERTEX", [hole[0]])
     assert "another hole" in again.message
 

@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh whose holes are closed, and what is told of them."""
+"""What fills the holes of a mesh, what is told of it, and the mesh with all of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from ._native import FairingError
+from .errors import about, fairing_error
 from .near_hole import MeshPart
 from .rounds import Filling
-
-_SHOWN = 8  # elements that a message lists
 
 
 @dataclass(frozen=True, slots=True)
 class FilledHole:
-    """What has become of one hole.
+    """What fills one hole, and how it was found.
 
     loops: list of (k,) int64
         Its rim, and those of its islands.
-    vertices, faces: range
-        Ids of the new vertices and faces in `Filled`.
+    vertices: (k, 3) float64
+        The new vertices.
+    faces: (t, 3) int64, or (t, 4) of quads
+        The new faces. Ids below the number of vertices of the mesh are of these; then come the new
+        vertices, hole after hole.
     energy: str
         The energy that was minimized; "none" where the first triangulation, spread as a membrane, was
         left as it was.
@@ -41,8 +45,8 @@ class FilledHole:
     """
 
     loops: list[np.ndarray]
-    vertices: range
-    faces: range
+    vertices: np.ndarray
+    faces: np.ndarray
     energy: str
     joint: str
     converged: bool
@@ -68,74 +72,94 @@ class SkippedHole:
     loops: list of (k,) int64
         The rim of the hole, and those of its islands. None where nobody can tell what is a hole: then
         the elements are the border edges there.
-    code, message: str
-        What is wrong and what to do about it, as in FairingError.
-    why: str
-        The message without the elements.
-    elements: list
-        Ids of vertices, or edges as pairs (a, b) of vertices.
-    kind: "vertex" or "edge"
-        What the elements are.
-    cure: str
-        What makes it a hole that can be filled: "merge" the vertices by distance; "cut" an edge at the
-        vertex that lies on it; "flip" the faces that look the other way; "delete" the faces that are
-        too many; empty where there is no such command.
+    error: FairingError
+        What is wrong and what to do about it. It is not raised.
     """
 
     loops: list[np.ndarray]
-    code: str
-    message: str
-    why: str
-    elements: list[int] | list[tuple[int, int]]
-    kind: str
-    cure: str
+    error: FairingError
 
     @classmethod
     def of(cls, loops: list[np.ndarray], why: dict[str, Any], ids: np.ndarray) -> SkippedHole:
         """From what the core says of a part of the mesh with these `ids` (n,) of vertices."""
         found = ids[np.array(why["elements"], np.int64)].tolist()
-        if why["kind"] == "edge":
-            found = [tuple(edge) for edge in found]
-        return cls(
-            loops,
-            why["code"],
-            f"At {_named(why['kind'], found)}: {why['message']}",
-            why["message"],
-            found,
-            why["kind"],
-            _CURES.get(why["code"], ""),
-        )
+        return cls(loops, fairing_error(**{**why, "elements": found}))
+
+    @property
+    def code(self) -> str:
+        return self.error.code
+
+    @property
+    def message(self) -> str:
+        return str(self.error)
+
+    @property
+    def kind(self) -> str:
+        """What the elements are: "vertex", "edge", or "mesh" where there are none."""
+        return self.error.kind
+
+    @property
+    def elements(self) -> list[Any]:
+        """Ids of vertices, or edges as pairs (a, b) of vertices."""
+        ids = list(self.error.elements)
+        return list(zip(ids[::2], ids[1::2], strict=True)) if self.kind == "edge" else ids
+
+    @property
+    def cure(self) -> str:
+        """What makes it a hole that can be filled: "merge" the vertices by distance; "cut" an edge at the
+        vertex that lies on it; "flip" the faces that look the other way; "delete" the faces that are too
+        many; empty where there is no such command.
+        """
+        return _CURES.get(self.code, "")
 
 
-def _named(kind: str, elements: list[Any]) -> str:
-    """ "vertex 3", "vertices 3, 4", "edges 3-4, 4-5, …"."""
-    many = {"vertex": "vertices", "edge": "edges"}[kind]
-    shown = ["-".join(map(str, e)) if kind == "edge" else str(e) for e in elements[:_SHOWN]]
-    more = ["…"] if len(elements) > _SHOWN else []
-    return f"{kind if len(elements) == 1 else many} {', '.join(shown + more)}"
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Filled:
-    """A mesh whose holes are closed.
+    """What fills the holes of a mesh.
 
-    vertices: (N, 3) float64
-        The n old ones first, to the last bit.
-    faces: (M, 3) int64, or the pair (corners, offsets) where not all are triangles
-        The m old ones first.
-    new_faces: (M - m,) int64
-        Ids of the new ones: triangles, or on request quads.
     holes: list of FilledHole
-        What closed each hole, in the order of the holes, but for those that are skipped.
+        What closes each hole, in the order of the holes, but for those that are skipped.
     skipped: list of SkippedHole
         What could not be filled. It is as it was.
     """
 
-    vertices: np.ndarray
-    faces: np.ndarray | tuple[np.ndarray, np.ndarray]
-    new_faces: np.ndarray
     holes: list[FilledHole]
     skipped: list[SkippedHole]
+    _mesh: MeshPart = field(repr=False)
+
+    @cached_property
+    def vertices(self) -> np.ndarray:
+        """(N, 3) float64 of the filled mesh. The n old ones first, to the last bit."""
+        return np.concatenate([self._mesh.points, *(hole.vertices for hole in self.holes)])
+
+    @cached_property
+    def faces(self) -> Any:
+        """(M, 3) int64 of the filled mesh, or the pair (corners, offsets) where not all are triangles. The m
+        old ones first.
+        """
+        mesh, new = self._mesh, [hole.faces for hole in self.holes]
+        corners = np.concatenate([mesh.corners, *(faces.ravel() for faces in new)])
+        more = [np.full(len(faces), faces.shape[1]) for faces in new]
+        sizes = np.concatenate([np.diff(mesh.offsets), *more])
+        if (sizes == 3).all():
+            return corners.reshape(-1, 3)
+        return corners, np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why holes are skipped: each reason once, with the elements of all, the most frequent first."""
+        alike: dict[tuple[str, ...], list[FairingError]] = {}
+        for hole in self.skipped:
+            key = hole.code, hole.kind, *hole.error._sentences
+            alike.setdefault(key, []).append(hole.error)
+        ranked = sorted(alike.values(), key=len, reverse=True)
+        return [str(about(same[0], [v for e in same for v in e.elements])) for same in ranked]
+
+    @property
+    def new_faces(self) -> np.ndarray:
+        """(M - m,) int64 ids of the new ones: triangles, or on request quads."""
+        first = len(self._mesh.offsets) - 1
+        return np.arange(first, first + sum(len(hole.faces) for hole in self.holes))
 
 
 def put_together(
@@ -145,25 +169,12 @@ def put_together(
     told: Sequence[tuple[int, str]],
     skipped: list[SkippedHole],
 ) -> Filled:
-    """The mesh with these fillings, of the holes with these loops; of each is `told` how many of its
-    faces cross, and why it has no quads.
+    """These fillings of the holes with these loops, in a mesh; of each is `told` how many of its faces
+    cross, and why it has no quads.
     """
-    count, faces = len(mesh.points), len(mesh.offsets) - 1
     holes = []
-    vertex, face = count, faces
     for rims, f, (crossings, why) in zip(loops, fillings, told, strict=True):
-        by = f.made
-        more, filled = range(vertex, vertex + len(f.own)), range(face, face + len(f.faces))
+        by, faces = f.made, f.faces.astype(np.int64)
         found = by.energy, by.joint, by.converged, by.folds, crossings, why
-        holes.append(FilledHole(rims, more, filled, *found, list(by.ignored)))
-        vertex, face = more.stop, filled.stop
-    vertices = np.concatenate([mesh.points, *(f.own for f in fillings)])
-    new = [f.faces.astype(np.int64).ravel() for f in fillings]
-    corners = np.concatenate([mesh.corners, *new])
-    more_sizes = [np.full(len(f.faces), f.faces.shape[1]) for f in fillings]
-    sizes = np.concatenate([np.diff(mesh.offsets), *more_sizes])
-    if (sizes == 3).all():
-        whole: Any = corners.reshape(-1, 3)
-    else:
-        whole = corners, np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-    return Filled(vertices, whole, np.arange(faces, face), holes, skipped)
+        holes.append(FilledHole(rims, f.own, faces, *found, list(by.ignored)))
+    return Filled(holes, skipped, mesh)

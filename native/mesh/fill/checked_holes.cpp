@@ -19,8 +19,7 @@ void require_vertices(const Hole& hole, std::size_t number, std::int64_t count) 
     for (const std::int64_t v : loop)
       if (v < 0 || v >= count)
         throw FairingError(ErrorCode::index_out_of_range,
-                           named + " names vertex " + std::to_string(v) +
-                               ", which does not exist: ids run from 0 to " +
+                           named + " names {vertex}, which does not exist: ids run from 0 to " +
                                std::to_string(count - 1) + ".",
                            {v}, ElementKind::vertex);
 }
@@ -31,7 +30,7 @@ void require_simple(const Hole& hole) {
     for (const std::int64_t v : loop)
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
-                           {"The rim comes by a vertex twice.", "Cut it there into two holes."},
+                           {"The rim comes by {vertex} twice.", "Cut it there into two holes."},
                            {v}, ElementKind::vertex);
   if (seen.size() > longest_hole)
     throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
@@ -50,14 +49,15 @@ std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims, 
   std::vector<std::int64_t> edge = first_missing(loop, rims, true);
   if (edge.empty()) edge = first_missing(loop, rims, false);
   if (rims.is_border(edge[0], edge[1]))
-    throw FairingError(ErrorCode::inconsistent_orientation,
-                       {"Faces at the rim look different ways.", "Recalculate their normals."},
-                       edge, ElementKind::edge);
-  const std::string why =
-      rims.are_joined(edge[0], edge[1]) ? "has faces on both sides" : "is none of the mesh";
+    throw FairingError(
+        ErrorCode::inconsistent_orientation,
+        {"Faces at {edge} of the rim look different ways.", "Recalculate their normals."}, edge,
+        ElementKind::edge);
+  const std::string why = rims.are_joined(edge[0], edge[1]) ? "{has|have} faces on both sides"
+                                                            : "{is|are} not in the mesh";
   throw FairingError(
       ErrorCode::bad_option,
-      {"An edge of the rim " + why + ".", "A hole is a closed walk along edges of one face each."},
+      {"{edge} of the rim " + why + ".", "A hole is a closed walk along edges of one face each."},
       edge, ElementKind::edge);
 }
 
@@ -71,7 +71,7 @@ void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
   if (!found.empty())
     throw FairingError(
         ErrorCode::nonmanifold_edge,
-        {"More than two faces meet at an edge of the rim.", "Delete the faces that are too many."},
+        {"More than two faces meet at {edge} of the rim.", "Delete the faces that are too many."},
         found);
 }
 
@@ -91,9 +91,10 @@ void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, c
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
     if (used.contains(Rims::side(a, b)))
-      throw FairingError(ErrorCode::bad_option,
-                         {"An edge of the rim is one of another hole too.", "Name each hole once."},
-                         {a, b}, ElementKind::edge);
+      throw FairingError(
+          ErrorCode::bad_option,
+          {"{edge} of the rim {is|are} of another hole too.", "Name each hole once."}, {a, b},
+          ElementKind::edge);
   }
 }
 

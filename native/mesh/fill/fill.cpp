@@ -189,9 +189,10 @@ class OneHole {
   }
 
   [[noreturn]] void no_surface() const {
-    throw FairingError(ErrorCode::bad_option,
-                       {"The islands cannot be joined to the rim.", "Fill the hole without them."},
-                       {ids_[0]}, ElementKind::vertex);
+    throw FairingError(
+        ErrorCode::bad_option,
+        {"The islands cannot be joined to the rim at {vertex}.", "Fill the hole without them."},
+        {ids_[0]}, ElementKind::vertex);
   }
 
   Rims& rims_;
@@ -251,15 +252,16 @@ void require_areas(const Patch& patch, const OneHole& hole) {
     std::sort(ids.begin(), ids.end());
     if (!ids.empty())
       throw FairingError(ErrorCode::coincident_vertices,
-                         {"Vertices of the rim lie on one another, and nothing is between.",
+                         {"{vertex} of the rim lie on one another, and nothing is between.",
                           "Merge them by distance."},
                          ids);
     if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim)
       ids = {hole.ids()[std::size_t(middle)]};
-    throw FairingError(ErrorCode::degenerate_face,
-                       {"A vertex of the rim lies on another edge of it, and nothing is between.",
-                        "Cut that edge at the vertex."},
-                       ids, ElementKind::vertex);
+    throw FairingError(
+        ErrorCode::degenerate_face,
+        {"{vertex} of the rim {lies|lie} on another edge of it, and nothing is between.",
+         "Cut that edge at the vertex."},
+        ids, ElementKind::vertex);
   }
 }
 

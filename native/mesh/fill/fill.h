@@ -34,7 +34,7 @@ struct FilledHole {
   std::vector<Triangle> triangles;
 };
 
-// Why a hole is not filled, if so. The message names no ids.
+// Why a hole is not filled, if so.
 using Refusals = std::vector<std::optional<FairingError>>;
 
 // Turns the loops as find_holes() has them, in whatever direction, order and from wherever they were

@@ -122,11 +122,11 @@ HoleLoop from_least(const Loop& loop) {
 FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
   if (torn)
     return {ErrorCode::nonmanifold_edge,
-            {"More than two faces meet at an edge, so that nobody can tell what a hole is.",
+            {"More than two faces meet beside {edge}, so that nobody can tell what a hole is.",
              "Delete the faces that are too many."},
             std::move(edges)};
   return {ErrorCode::inconsistent_orientation,
-          {"Faces look different ways, so that nobody can tell what a hole is.",
+          {"Faces look different ways beside {edge}, so that nobody can tell what a hole is.",
            "Recalculate their normals."},
           std::move(edges),
           ElementKind::edge};

@@ -22,8 +22,8 @@ std::string too_long_text(std::size_t vertices);
 struct FoundHoles {
   // Each from its least vertex on, in ascending order of these.
   std::vector<HoleLoop> loops;
-  // Why other border edges are around no hole: one for those that share vertices. Messages name no
-  // ids; the elements are these edges.
+  // Why other border edges are around no hole: one for those that share vertices, which are
+  // the elements.
   std::vector<FairingError> unclear;
 };
 

@@ -7,8 +7,6 @@ import pytest
 from hole_scenes import borders, edit, is_closed
 from scenes import activate, add, positions
 
-from addon.transfer.hole_loops import around
-
 
 def tube(chosen):
     """A closed ring of quads with the radius 1 in the middle of its tube of 0.5, without those whose
@@ -62,21 +60,3 @@ def test_a_grid_beside_triangles():
     assert {len(face.vertices) for face in target.data.polygons} == {3, 4}
     assert is_closed(target.data) and not target.data.validate()
     assert off(target) < 0.02
-
-
-def test_what_a_filling_may_pass_through_is_read():
-    """A far face is not; one over the hole, which no edge joins to it, is."""
-    from addon import core
-
-    points = np.array(
-        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, -1, 0], [2, -1, 0], [2, 2, 0], [-1, 2, 0]]
-        + [[0, 0, 0.4], [1, 0, 0.4], [0, 1, 0.4], [90, 0, 0], [91, 0, 0], [90, 1, 0]],
-        float,
-    )
-    faces = [[4, 5, 1, 0], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3], [8, 9, 10], [11, 12, 13]]
-    target = add("Frame", points, faces)
-    from addon.mesh.read import read_mesh
-
-    arrays: core.ControlArrays = read_mesh(target.data)
-    part = around(arrays, points, np.zeros(6, bool), [[[0, 3, 2, 1]]])
-    assert sorted(part.vertices.tolist()) == list(range(11))

@@ -66,17 +66,21 @@ def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[A
     `largest`: the width of the widest; 0: what is flat within the rim has less than half of the area of
     the part: the border of a sheet has all of it, that of half a ball just half.
     """
+    if largest > 0.0:
+        holes = [hole for hole in holes if hole_width(state.points[hole[0]]) <= largest]
+    if not holes:
+        return [], []
     part, count = numbered_parts(state, state.sides.pairs)
     of_vertex = np.zeros(len(state.points), np.int64)
     of_vertex[state.corners] = part[state.face_of]
     sizes = diagonals(state, part, count)
-    areas = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
+    if largest == 0.0:
+        areas = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
     narrow: list[Any] = []
     wide: list[Any] = []
     for hole in holes:
         points, name = state.points[hole[0]], of_vertex[hole[0][0]]
-        is_narrow = largest > 0.0 and hole_width(points) <= largest
-        if is_narrow or (largest == 0.0 and _flat_area(points) < 0.5 * areas[name]):
+        if largest > 0.0 or _flat_area(points) < 0.5 * areas[name]:
             diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
             (narrow if diagonal <= 0.5 * sizes[name] else wide).append(hole)
     return narrow, wide

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .. import _native
 from ..arrays import face_arrays, vertex_array
 from ..checking import Defect, check
-from ..errors import fairing_error
+from ..errors import about, fairing_error
 from ..options import switch, whole
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import holes, shape, topology
@@ -364,9 +364,13 @@ class _Run:
         return skipped
 
     def cleaned(self, skipped: list[Any]) -> Cleaned:
-        self.state = state = self.state.compact()
+        state, number = self.state.compact()
+        self.state = state
         left = _defects(state)
-        left += open_holes(state, skipped) + crossing(state, self.watchers)
+        left += open_holes(
+            state, [about(h.error, number[h.error.elements].tolist()) for h in skipped]
+        )
+        left += crossing(state, self.watchers)
         watertight = is_watertight(state)
         rows = np.zeros(len(state.face_origin), np.int64)
         volume = float(topology.volumes(state, rows, 1)[0]) if watertight else float("nan")
@@ -399,8 +403,8 @@ def _defects(state: State) -> list[Defect]:
     ]
 
 
-def open_holes(state: State, skipped: list[Any]) -> list[Defect]:
-    """The border edges, as one defect."""
+def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
+    """The border edges, as one defect; `skipped`: why holes were left."""
     sides = state.sides
     rows = np.flatnonzero(sides.at_border)
     if not len(rows):
@@ -410,7 +414,7 @@ def open_holes(state: State, skipped: list[Any]) -> list[Defect]:
     leads = _native.joined(len(state.points), np.ascontiguousarray(ends, np.int64))
     count = len(np.unique(leads[ends[:, 0]]))
     begin = "1 hole is" if count == 1 else f"{count:,} holes are"
-    why = f" {skipped[0].message}" if skipped else ""
+    why = f" {skipped[0]}" if skipped else ""
     text = f"{begin} open, of {len(rows):,} edges.{why}"
     return [Defect("OPEN_HOLE", text, list(map(tuple, ends.tolist())), "edge", "warning", False)]
 

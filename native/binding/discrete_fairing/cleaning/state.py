@@ -87,24 +87,29 @@ class State:
             longer(self.corner_origin, len(corners)),
         )
 
-    def compact(self) -> State:
-        """Without vertices that have no face; new ones come last."""
+    def compact(self) -> tuple[State, np.ndarray]:
+        """Without vertices that have no face; new ones come last. And (n,) the ids that vertices then have."""
         used = np.zeros(len(self.points), bool)
         used[self.corners] = True
         order = np.flatnonzero(used)
         order = order[np.argsort(self.vertex_origin[order] < 0, kind="stable")]
         number = np.full(len(self.points), -1)
         number[order] = np.arange(len(order))
-        return self.replaced(
+        compact = self.replaced(
             points=self.points[order],
             corners=number[self.corners],
             vertex_origin=self.vertex_origin[order],
         )
+        return compact, number
 
     def face_vectors(self) -> np.ndarray:
         """(m, 3) normals, twice as long as the areas."""
-        first = np.repeat(self.offsets[:-1], np.diff(self.offsets))
+        sizes = np.diff(self.offsets)
         # from the first corner, so that rounding is that of the face's size
+        if (sizes == 3).all():
+            corner = self.points[self.corners.reshape(-1, 3)]
+            return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        first = np.repeat(self.offsets[:-1], sizes)
         points = self.points[self.corners] - self.points[self.corners[first]]
         return np.add.reduceat(np.cross(points, points[self.sides.next]), self.offsets[:-1])
 
