@@ -61,10 +61,9 @@ def assert_kept(filled, vertices, faces):
     assert np.array_equal(filled.vertices[: len(vertices)], vertices)
     assert np.array_equal(filled.faces[: len(faces)], faces)
     assert np.array_equal(filled.new_faces, np.arange(len(faces), len(filled.faces)))
-    assert np.array_equal(
-        np.concatenate([h.faces for h in filled.holes]), filled.faces[len(faces) :]
-    )
-    fresh = np.concatenate([h.vertices for h in filled.holes])
+    new = np.concatenate([faces[:0], *(h.faces for h in filled.holes)])
+    assert np.array_equal(new, filled.faces[len(faces) :])
+    fresh = np.concatenate([vertices[:0], *(h.vertices for h in filled.holes)])
     assert np.array_equal(fresh, filled.vertices[len(vertices) :])
 
 
