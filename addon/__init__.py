@@ -7,7 +7,7 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window, `cad` makes spline patches of it.
 """
 
-from . import cli, curve_cage, freshness, memory, preferences, queue, settings
+from . import cli, curve_cage, freshness, memory, preferences, properties, queue
 from .inspection import overlay, viewport_shading
 from .inspection import settings as inspection_settings
 from .live import handlers, kept, switch, undo
@@ -44,7 +44,7 @@ from .ui import menus, outliner, pictures
 from .ui import strain as strain_panel
 
 _MODULES = (
-    settings,
+    properties,
     memory,
     curve_cage,
     preferences,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .inspection.settings import FAIRING_PG_display, FAIRING_PG_inspection
     from .live.switch import FAIRING_PG_live
     from .memory import FAIRING_PG_mesh, FAIRING_PG_surface
-    from .settings import FAIRING_PG_settings
+    from .properties import FAIRING_PG_settings
     from .strain.settings import FAIRING_PG_strain, FAIRING_PG_strain_drawing
 
     class Mesh(bpy.types.Mesh):

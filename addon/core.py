@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from .choices import EDGE_BOUNDARIES
+from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
@@ -84,7 +85,7 @@ class ControlArrays:
 
 def fair_arguments(
     arrays: ControlArrays,
-    settings: Any,
+    settings: Settings,
     preferences: Any,
     region: np.ndarray | None = None,
     shapes: np.ndarray | None = None,
@@ -127,7 +128,7 @@ def fair_arguments(
     }
     if arrays.normals is not None and takes_normals(settings):
         arguments["normals"] = arrays.normals
-    if settings.interpolation == "LIMIT":
+    if is_limit(settings):
         arguments |= _limit(arrays, settings)
     if pulls is not None:
         arguments["weights"] = pulls
@@ -142,7 +143,7 @@ def fair_arguments(
     return arguments
 
 
-def _limit(arrays: ControlArrays, settings: Any) -> dict[str, Any]:
+def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
     """How far vertices go to their limit positions, and how sharp Subdivision Surface has creases."""
     found: dict[str, Any] = {"limit": settings.limit}
     if not settings.use_crease_attribute:
@@ -176,7 +177,7 @@ def _sharpness(creases: np.ndarray) -> np.ndarray:
     return 10.0 * creases.astype(np.float64) ** 2
 
 
-def takes_normals(settings: Any) -> bool:
+def takes_normals(settings: AnySettings) -> bool:
     """Whether fixed normals count: the other energies have nothing that would hold them."""
     return settings.energy == "THIN_PLATE"
 
@@ -222,17 +223,17 @@ def _told(
         yield part
 
 
-def patch_arguments(fairing: Mapping[str, Any], wanted: Any) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and what is
-    `wanted` of the patches (cad/settings.py). What is shown and not written is never refused.
+def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[str, Any]:
+    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and the
+    patches' own.
     """
     left_out = ("levels", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "fair_tolerance": fairing["tolerance"],
-        "tolerance": wanted.fit_tolerance,
-        "normal_tolerance": wanted.fit_angle,
-        "levels": wanted.fit_levels or None,
-        "insist": getattr(wanted, "insist", True),
+        "tolerance": options.fit_tolerance,
+        "normal_tolerance": options.fit_angle,
+        "levels": options.fit_levels or None,
+        "insist": options.insist,
     }
 
 
@@ -268,12 +269,10 @@ def mean_edge_length(arrays: ControlArrays) -> float:
     return float(lengths.mean()) if len(lengths) else 0.0
 
 
-def tolerance(settings: Any, edge_length: float) -> float:
+def tolerance(settings: AnySettings, edge_length: float) -> float:
     """The farthest that a vertex may be missed, a length; 0 where the surface passes through all."""
-    if settings.interpolation != "APPROXIMATE":
-        return 0.0
-    relative = settings.tolerance_unit == "RELATIVE"
-    return settings.relative_tolerance * edge_length if relative else settings.tolerance
+    unit = edge_length if settings.tolerance_unit == "RELATIVE" else 1.0
+    return settings.tolerance * unit if is_near(settings) else 0.0
 
 
 def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
@@ -372,7 +371,9 @@ def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarra
     return np.flatnonzero(turns).astype(np.int32)
 
 
-def _corners(arrays: ControlArrays, settings: Any, crease_threshold: float | None) -> np.ndarray:
+def _corners(
+    arrays: ControlArrays, settings: Settings, crease_threshold: float | None
+) -> np.ndarray:
     """All vertices where curves end by request."""
     found = corner_vertices(arrays, crease_threshold)
     if settings.boundary != "CORNERS":

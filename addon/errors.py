@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from . import core
+from .settings import AnySettings
 
 VERTEX_ON_EDGE = (
     "VERTEX_ON_EDGE"  # the core says DEGENERATE_FACE, of a hole whose rim has no width there
@@ -127,7 +128,7 @@ def what(defect: dict[str, Any]) -> str:
     return _sentence(_WHOLE.get(code, defect["message"]))
 
 
-def remedy(code: str, settings: Any = None) -> str:
+def remedy(code: str, settings: AnySettings | None = None) -> str:
     """What to do about it, in one sentence; empty where nobody knows. `settings`: those of the surface, if
     they are known.
     """
@@ -137,7 +138,7 @@ def remedy(code: str, settings: Any = None) -> str:
     return _sentence(_UNRESOLVED_TAUTER if more else REMEDIES[code])
 
 
-def _may_be_tauter(settings: Any) -> bool:
+def _may_be_tauter(settings: AnySettings) -> bool:
     """Whether there is more Tension than the `settings` have: Flow Lines have none."""
     return settings.energy != "MINIMUM_VARIATION" and settings.tension < 1.0
 
@@ -247,13 +248,13 @@ _FAULTS = {
 FAULT_KINDS = frozenset(_FAULTS)
 
 
-def faults_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
+def faults_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
     """What is wrong with a surface, from the number of points at which it is, and what helps."""
     summary = faults_summary(counts)
     return f"{object_name}: {faults_remedy(settings)} T{summary[1:]}: Select Places in the panel shows where."
 
 
-def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: Any) -> str:
+def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
     """The same for faces faired in their own mesh, which has no panel of theirs."""
     listed = _listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
     return f"{object_name}: {faults_remedy(settings)} Ctrl Z undoes it. What was faired {listed}."
@@ -264,7 +265,7 @@ def faults_summary(counts: Mapping[str, int]) -> str:
     return f"the surface {_listed([_FAULTS[kind] for kind in counts])}"
 
 
-def faults_remedy(settings: Any) -> str:
+def faults_remedy(settings: AnySettings) -> str:
     """What to do about it, in one sentence; `settings`: those that the surface was made with."""
     if settings.energy == "MINIMUM_VARIATION":
         return "Set Fairness to Bending, or to Curvature with Tension."

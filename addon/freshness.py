@@ -24,7 +24,7 @@ from .mesh.read import control_mesh, read_mesh, tolerance_shares, vertex_pulls
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
-from .settings import NAMES, Settings, is_evaluated
+from .settings import NAMES, AnySettings, is_evaluated
 
 SOURCE_CHANGED = "Source changed"
 SETTINGS_CHANGED = "Settings changed"
@@ -50,7 +50,7 @@ class OwnMesh:
     keys: ShapeKeys | None  # where the settings ask for them
 
     @classmethod
-    def read(cls, context: Context, source: Object, settings: Settings) -> "OwnMesh":
+    def read(cls, context: Context, source: Object, settings: AnySettings) -> "OwnMesh":
         values: list[np.ndarray | None] = []
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
@@ -69,7 +69,7 @@ class OwnMesh:
 
 
 def made_of(
-    context: Context, source: Object, settings: Settings, read: OwnMesh | None
+    context: Context, source: Object, settings: AnySettings, read: OwnMesh | None
 ) -> dict[str, Any]:
     """What a surface is made of at this moment, to be kept with it by `note`. `read`: None: to be read."""
     total = _checksum(context, source, settings, read)
@@ -135,7 +135,7 @@ def is_own(target: Object) -> bool:
     return not (target.library or target.data.library)
 
 
-def _that_count(settings: Settings) -> dict[str, Any]:
+def _that_count(settings: AnySettings) -> dict[str, Any]:
     return {name: getattr(settings, name) for name in NAMES if name not in _ELSEWHERE}
 
 
@@ -144,6 +144,8 @@ def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
     surface, counts as one that nobody has chosen.
     """
     properties: Any = settings.bl_rna.properties
+    if "relative_tolerance" in made and made.get("tolerance_unit") == "RELATIVE":
+        made = made | {"tolerance": made["relative_tolerance"]}  # of before: a number for each unit
     return any(
         now != made.get(name, properties[name].default)
         for name, now in _that_count(settings).items()
@@ -164,7 +166,7 @@ def _look() -> None:
 
 
 def _checksum(
-    context: Context, source: Object, settings: Settings, read: OwnMesh | None = None
+    context: Context, source: Object, settings: AnySettings, read: OwnMesh | None = None
 ) -> int:
     """Of all of the source that goes into a surface."""
     parts = (read or OwnMesh.read(context, source, settings)).parts

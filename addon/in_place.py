@@ -5,9 +5,8 @@ Only what is near takes part: the selection and the faces around it.
 """
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
-from types import SimpleNamespace
 from typing import Any, cast
 
 import bmesh
@@ -26,7 +25,7 @@ from .mesh.read import control_mesh, read_mesh, selected_faces
 from .mesh.shape_keys import dependent_keys
 from .mesh.world_shape import world_shape
 from .preferences import of_runs
-from .settings import Settings, snapshot
+from .settings import Settings
 from .transfer.carrier import Carrier
 from .transfer.cut_out import CutOut, cut_out, grown, inside
 from .units import Units
@@ -203,9 +202,9 @@ class InPlaceJob:
         counts = self.result.faults.counts
         if counts:
             # Near is no choice here, nor are Fairness and Tension where noise alone is taken off
-            settings = SimpleNamespace(**vars(self._wish), interpolation="APPROXIMATE")
+            settings = replace(self._asked, interpolation="APPROXIMATE")
             if self._wish.measured and not self._wish.levels:
-                settings.energy, settings.tension = "THIN_PLATE", 1.0
+                settings = replace(settings, energy="THIN_PLATE", tension=1.0)
             sentences.append(errors.faults_in_place_text(self.name, counts, settings))
         return sentences
 
@@ -265,21 +264,21 @@ def floats(arrays: Any, free: np.ndarray) -> bool:
         held = reached
 
 
-def _settings(settings: Settings, wish: Wish) -> SimpleNamespace:
+def _settings(settings: Settings, wish: Wish) -> Settings:
     unseen = 0 if wish.measured else _UNSEEN_LEVELS
-    asked = vars(snapshot(settings)) | {
-        "levels": wish.levels or unseen,
+    return replace(
+        settings,
+        levels=wish.levels or unseen,
         # a scan has no creases but those that somebody has marked
-        "use_sharp_edges": settings.use_sharp_edges or wish.measured,
-        "joint": wish.joint,
-        "energy": wish.energy,
-        "tension": wish.tension,
-        "interpolation": "EXACT",
-        "boundary": "CURVE" if settings.boundary == "CORNERS" else settings.boundary,
-        "repair": "REFUSE",
-        "symmetry_plane": "NONE",
-    }
-    return SimpleNamespace(**asked)
+        use_sharp_edges=settings.use_sharp_edges or wish.measured,
+        joint=wish.joint,
+        energy=wish.energy,
+        tension=wish.tension,
+        interpolation="EXACT",
+        boundary="CURVE" if settings.boundary == "CORNERS" else settings.boundary,
+        repair="REFUSE",
+        symmetry_plane="NONE",
+    )
 
 
 def apply(source: Object, faired: Faired) -> None:

@@ -27,7 +27,7 @@ from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
-from .settings import Settings, for_source, halves, is_evaluated, is_limit, wants_modifiers
+from .settings import Settings, halves, is_evaluated, is_limit, wants_modifiers
 from .transfer.carrier import Carrier
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
@@ -47,7 +47,7 @@ class Job:
         target: Object | None = None,
         region: np.ndarray | None = None,
     ) -> None:
-        """Reads all that will be needed; `settings` may change or go afterwards.
+        """Reads all that will be needed.
 
         `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
         (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
@@ -55,7 +55,7 @@ class Job:
         self._source = Reference(source)
         self._target = None if target is None else Reference(target)
         self.name = source.name
-        self.settings = for_source(settings, source)
+        self.settings = settings.for_source(source)
         evaluated = is_evaluated(self.settings)
         with (
             without_inspection(context, source) if evaluated else nullcontext(),

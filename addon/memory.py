@@ -6,7 +6,7 @@ unset when the file is opened or objects are appended from it.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, cast
 
 import bpy
@@ -14,7 +14,8 @@ from bpy.props import BoolProperty, FloatVectorProperty, PointerProperty, String
 
 from . import events, records
 from .blender import Context, Object, all_objects, all_scenes, attach, detach
-from .settings import FairingSettings, Settings, copy_settings
+from .properties import KeptSettings, bring_up_to_date, copy_settings
+from .settings import Settings
 
 # by the names of object and record: panels ask at every redraw, and records are long
 _parsed: dict[tuple[str, str], tuple[str, dict[str, Any] | None]] = {}
@@ -37,7 +38,7 @@ def _fits(group: Any, source: Object) -> bool:
     return not why_unfit(group.id_data, source)
 
 
-class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
+class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
     """What a faired object remembers: where it comes from, and how it was made."""
 
     source: PointerProperty(
@@ -180,9 +181,10 @@ def unset_unsound_settings(*_: Any) -> None:
     """Settings without a meaning become those that nobody has set, of linked data too: panels show
     these as well.
     """
-    for owner in (*all_objects(), *all_scenes()):
+    for owner in cast(Iterable[Any], (*all_objects(), *all_scenes())):
         for group in _GROUPS:
             _unset_unsound(getattr(owner, group, None))
+        bring_up_to_date(owner.discrete_fairing)
     for mesh in bpy.data.meshes:
         _unset_unsound(cast(Any, mesh).discrete_fairing)
 

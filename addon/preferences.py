@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on's preferences: what holds for all files of a user."""
 
-from types import SimpleNamespace
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import bpy
@@ -69,10 +69,18 @@ def preferences() -> Preferences:
     return entry.preferences if entry is not None and entry.preferences is not None else Defaults
 
 
-def of_runs() -> SimpleNamespace:
-    """What runs ask of them, as plain values: for threads, where Blender may not be asked."""
+@dataclass(frozen=True)
+class OfRuns:
+    """What runs ask of them: for threads, where Blender may not be asked."""
+
+    memory_limit: int  # megabytes
+    threads: int
+
+
+def of_runs() -> OfRuns:
+    """As they are now."""
     now = preferences()
-    return SimpleNamespace(memory_limit=now.memory_limit, threads=now.threads)
+    return OfRuns(memory_limit=now.memory_limit, threads=now.threads)
 
 
 def give_scenes_default_levels(*_: Any) -> None:

@@ -67,7 +67,7 @@ TRADES = {
 }
 EASED_FIRST = {"POINTS"}
 # what the panel shows of a job, to be changed at will
-OFFERED = {"levels", "limit", "tolerance", "relative_tolerance", "tolerance_unit"}
+OFFERED = {"levels", "limit", "tolerance", "tolerance_unit"}
 _DIGITS = 1e-6  # of Blender's numbers, which are in single precision
 
 

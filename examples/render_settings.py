@@ -76,8 +76,14 @@ FIGURES = {
         View(2.5, look="zebra", height=0.9, stripes=9),
         (
             Variant("Through"),
-            Variant("Near, 0.01", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
-            Variant("Near, 0.04", {"interpolation": "APPROXIMATE", "tolerance": 0.04}),
+            Variant(
+                "Near, 0.01",
+                {"interpolation": "APPROXIMATE", "tolerance": 0.01, "tolerance_unit": "SCENE"},
+            ),
+            Variant(
+                "Near, 0.04",
+                {"interpolation": "APPROXIMATE", "tolerance": 0.04, "tolerance_unit": "SCENE"},
+            ),
         ),
         SMOOTH,
     ),
@@ -86,7 +92,10 @@ FIGURES = {
         View(6.4, turn=-58, elevation=26, look="zebra", height=0.7, stripes=14),
         (
             Variant("As measured"),
-            Variant("Near, 10 mm", {"interpolation": "APPROXIMATE", "tolerance": 0.01}),
+            Variant(
+                "Near, 10 mm",
+                {"interpolation": "APPROXIMATE", "tolerance": 0.01, "tolerance_unit": "SCENE"},
+            ),
             Variant("Eased", key=1.0, make=meshes.eased_offsets),
         ),
         SMOOTH | {"symmetry_plane": "Y"},

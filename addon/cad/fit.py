@@ -3,7 +3,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -17,7 +16,7 @@ from ..memory import source_of
 from ..mesh.object import Reference, new_object
 from ..mesh.shape_keys import ShapeKeys
 from ..mesh.world_shape import world_matrix
-from ..settings import Settings, is_evaluated, snapshot
+from ..settings import PatchOptions, Settings, is_evaluated
 from . import colours, words
 from .nurbs import surface_of
 from .shown import Blend, distance, shares_of, shown_mesh
@@ -34,17 +33,21 @@ class PatchJob(Job):
     """Fits patches to the fair surface of one object; `patches` has them once computed."""
 
     def __init__(
-        self, context: Context, shown: Object, wanted: Any, settings: Settings | None = None
+        self,
+        context: Context,
+        shown: Object,
+        options: PatchOptions,
+        settings: Settings | None = None,
     ) -> None:
         """`shown`: a surface, made again from its source by its own settings, or a mesh to be faired
-        with `settings`; None: those of the scene. `wanted`: as cad/settings.py has it.
+        with `settings`; None: those of the scene. `options`: of the patches.
         """
         source = source_of(shown)
         if source is not None:
-            settings = shown.discrete_fairing
-        fairing = vars(snapshot(settings or context.scene.discrete_fairing))
-        one = SimpleNamespace(**{**fairing, "levels": 1})  # the lattice has its own
-        super().__init__(context, source or shown, one)
+            settings = Settings.of(shown.discrete_fairing)
+        settings = settings or Settings.of(context.scene.discrete_fairing)
+        # the lattice has levels of its own
+        super().__init__(context, source or shown, replace(settings, levels=1))
         self.name = shown.name
         self._shown = Reference(shown)
         self._way_back = self.shape.way_back
@@ -53,7 +56,7 @@ class PatchJob(Job):
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
-        self.arguments = core.patch_arguments(self.arguments, wanted)
+        self.arguments = core.patch_arguments(self.arguments, options)
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)

@@ -8,13 +8,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from ..blender import Object, current_context
 from ..errors import JobError
+from ..settings import Settings
 from ..strain import table
 from ..strain.ease import EaseJob, Wish
 from ..strain.measure import StrainJob
@@ -91,7 +91,7 @@ def shown(wanted: Wanted) -> dict[str, Any]:
 class Preparing:
     """The meshes of one file, before they are faired."""
 
-    def __init__(self, wanted: Wanted, settings: SimpleNamespace, asked: dict[str, Any]) -> None:
+    def __init__(self, wanted: Wanted, settings: Settings, asked: dict[str, Any]) -> None:
         """`asked`: arguments of the core in the place of those that the settings make."""
         self._wanted, self._settings, self._asked = wanted, settings, asked
 

@@ -9,7 +9,6 @@ import time
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from types import SimpleNamespace
 from typing import Any, TextIO
 
 import bpy
@@ -19,6 +18,7 @@ from ..blender import Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
+from ..settings import PatchOptions, Settings
 from . import ease, engines, mending, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
@@ -42,7 +42,7 @@ def main(argv: list[str]) -> int:
         return _write_report(arguments.json, output, exit_code, records)
 
 
-def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, list[Place]]:
+def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Place]]:
     """Options, settings and places; leaves by SystemExit if there is nothing to run."""
     made = parser(" ".join(f"{name} {number}" for name, number in _versions().items()))
     arguments = made.parse_intermixed_args(argv)
@@ -55,7 +55,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
         if arguments.scheduler is not None and arguments.jobs > 1:
             raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
         no_report_over(arguments.json, ways)
-        arguments.patches = step.wanted_of(arguments, settings, ways)
+        arguments.patches = step.options_of(arguments, settings, ways)
         arguments.mending = mending.asked_of(arguments, ways)
         return arguments, settings, ways
     except (ValueError, BadPlaces) as error:
@@ -64,7 +64,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, SimpleNamespace, l
 
 def _run_all(
     arguments: argparse.Namespace,
-    settings: SimpleNamespace,
+    settings: Settings,
     ways: list[Place],
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
@@ -173,7 +173,7 @@ def _say_eased(name: object, entry: dict[str, Any]) -> None:
 
 
 def _run_one(
-    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
+    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
     """Fairs one file, and notes in its record how that went."""
     start = time.perf_counter()
@@ -200,7 +200,7 @@ def _run_one(
 
 
 def _fair_file(
-    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: SimpleNamespace
+    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
     sources = read_file(way.source, arguments.merge)
     prepared = arguments.prepared
@@ -267,7 +267,7 @@ def _mend_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace
     write_file(way.target)
 
 
-def _job(source: Object, settings: SimpleNamespace, patches: SimpleNamespace | None) -> Any:
+def _job(source: Object, settings: Settings, patches: PatchOptions | None) -> Any:
     if patches is None:
         return Job(current_context(), source, settings)
     return PatchJob(current_context(), source, patches, settings)

@@ -3,11 +3,12 @@
 
 import argparse
 from collections.abc import Callable
+from dataclasses import asdict
 from math import degrees, inf, radians
-from types import SimpleNamespace
 from typing import Any
 
-from ..settings import NAMES, OF_NEAR, FAIRING_PG_settings
+from ..properties import FAIRING_PG_settings
+from ..settings import NAMES, OF_NEAR, Settings
 from . import ease, mending, step
 from .numbers import number
 from .places import FORMATS
@@ -33,7 +34,6 @@ _GROUPS = {
         "interpolation",
         "limit",
         "tolerance",
-        "relative_tolerance",
         "tolerance_group",
         "pull_group",
         "pad_size",
@@ -48,9 +48,6 @@ _GROUPS = {
         "corner_angle",
     ),
 }
-
-# said by which of these is given
-_TOLERANCE_UNITS = {"tolerance": "SCENE", "relative_tolerance": "RELATIVE"}
 
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
@@ -79,13 +76,22 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """An option for every setting that the command line has."""
     groups = {name: parser.add_argument_group(name) for name in (*_GROUPS, "advanced")}
     for name in NAMES:
-        if name in NOT_HERE or name == "weld" or _said_by_value(name):  # 0 is a distance for --weld
+        # 0 is a distance for --weld
+        if name in NOT_HERE or name in ("weld", "tolerance") or _said_by_value(name):
             continue
         group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
         _add(groups[group], name, _property(name))
+    groups["shape"].add_argument(
+        "--tolerance",
+        type=_tolerance,
+        default=argparse.SUPPRESS,
+        metavar="X|X%",
+        help="how far the surface may pass from each vertex, in the file's unit, or with %% in hundredths of the "
+        "mean edge of each mesh: a little already removes most bumps [2%%]",
+    )
 
 
-def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
+def settings_of(arguments: argparse.Namespace) -> Settings:
     """The parsed options as settings, with defaults for all that was not said.
 
     Raises ValueError if they contradict.
@@ -94,6 +100,8 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
     if given.get("weld") is None:
         given.pop("weld", None)
     settings = {name: _default(_property(name)) for name in NAMES} | given
+    if "tolerance" in given:
+        settings["tolerance"], settings["tolerance_unit"] = given["tolerance"]
     for name in given:
         if "use_" + name in NAMES:
             settings["use_" + name] = True
@@ -108,24 +116,26 @@ def settings_of(arguments: argparse.Namespace) -> SimpleNamespace:
         settings["interpolation"] = "LIMIT"
     if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":
         raise ValueError("--weld needs --repair mend")
-    units = [unit for name, unit in _TOLERANCE_UNITS.items() if name in given]
-    if len(units) > 1:
-        raise ValueError(f"give one of {' and '.join(map(option, _TOLERANCE_UNITS))}")
-    if units:
-        settings["tolerance_unit"] = units[0]
     if settings["interpolation"] == "AUTO":  # no file has modifiers
         settings["interpolation"] = "EXACT"
-    return SimpleNamespace(**settings)
+    return Settings(**settings)
 
 
-def shown(settings: SimpleNamespace) -> dict[str, Any]:
+def shown(settings: Settings) -> dict[str, Any]:
     """The settings that the command line has, as a dict."""
-    return {name: value for name, value in vars(settings).items() if name not in NOT_HERE}
+    return {name: value for name, value in asdict(settings).items() if name not in NOT_HERE}
 
 
 def option(name: str) -> str:
     """`--crease-angle` for crease_angle; the word "use" says nothing beside --x and --no-x."""
     return "--" + name.removeprefix("use_").replace("_", "-")
+
+
+def _tolerance(text: str) -> tuple[float, str]:
+    """A number and its unit."""
+    share = text.endswith("%")
+    value = _DISTANCE(text.removesuffix("%"))
+    return (value / 100.0, "RELATIVE") if share else (value, "SCENE")
 
 
 def _said_by_value(name: str) -> bool:

@@ -4,7 +4,6 @@
 import argparse
 from collections.abc import Sequence
 from math import degrees, radians
-from types import SimpleNamespace
 from typing import Any
 
 from ..cad import words
@@ -12,6 +11,7 @@ from ..cad.fit import PatchJob, refused
 from ..cad.settings import METRES
 from ..cad.step import write_jobs
 from ..errors import JobError
+from ..settings import PatchOptions, Settings
 from .files import write_whole
 from .numbers import number
 from .places import Place, is_cad
@@ -52,9 +52,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wanted_of(
-    arguments: argparse.Namespace, settings: SimpleNamespace, ways: Sequence[Place]
-) -> SimpleNamespace | None:
+def options_of(
+    arguments: argparse.Namespace, settings: Settings, ways: Sequence[Place]
+) -> PatchOptions | None:
     """What is asked of files for CAD; None where none is written. Raises ValueError if that is said
     all the same.
     """
@@ -65,12 +65,12 @@ def wanted_of(
         return None
     if arguments.pieces is not None:
         raise ValueError("--pieces is for meshes: spline patches are fitted to the whole surface")
-    return SimpleNamespace(
+    return PatchOptions(
         fit_tolerance=arguments.fit_tolerance or _TOLERANCE,
         fit_angle=radians(arguments.fit_angle or _ANGLE),
         fit_levels=settings.levels if "levels" in vars(arguments) else 0,
-        unit=arguments.unit or _UNIT,
         insist=bool(arguments.insist),
+        unit=arguments.unit or _UNIT,
     )
 
 
@@ -86,9 +86,9 @@ def require_patches(jobs: Sequence[PatchJob]) -> None:
         )
 
 
-def write_step_file(way: Place, jobs: Sequence[PatchJob], wanted: SimpleNamespace) -> None:
+def write_step_file(way: Place, jobs: Sequence[PatchJob], options: PatchOptions) -> None:
     """All parts as one file, coordinates as they are."""
-    write_whole(way.target, lambda path: write_jobs(path, jobs, wanted.unit, 1.0))
+    write_whole(way.target, lambda path: write_jobs(path, jobs, options.unit, 1.0))
 
 
 def object_entry(job: PatchJob) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from .. import core, errors
 from ..blender import Context, Object
 from ..job import Job
 from ..queue import Queue, phase_text
+from ..settings import Settings
 
 PAUSE = 0.3  # seconds without an edit
 # modal operators of these are edits
@@ -52,7 +53,7 @@ class FullLevel:
 
         `arguments`: of the live solver, for `region` or all faces.
         """
-        self.job = Job(context, source, target.discrete_fairing, target, region)
+        self.job = Job(context, source, Settings.of(target.discrete_fairing), target, region)
         now = ("vertices", "tolerance", "weights")
         its = {name: self.job.arguments[name] for name in now if name in self.job.arguments}
         self.arguments = {**arguments, **its}  # of the fresh solver

@@ -24,7 +24,7 @@ from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_share
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
-from ..settings import halves, is_evaluated, snapshot
+from ..settings import Settings, halves, is_evaluated
 from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Clock, Deadline, Pace
 from .registry import why_gone
@@ -137,7 +137,10 @@ class Session:
         clock = Clock()
         if not self._has_settings_of(source, target):
             self._forget()
-            self._settings, self._chosen = snapshot(target.discrete_fairing), _chosen_level(target)
+            self._settings, self._chosen = (
+                Settings.of(target.discrete_fairing),
+                _chosen_level(target),
+            )
             self._shape = world_shape(source)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
@@ -263,7 +266,7 @@ class Session:
     def _has_settings_of(self, source: Object, target: Object) -> bool:
         """The scale of the source counts as one."""
         return (
-            self._settings == snapshot(target.discrete_fairing)
+            self._settings == Settings.of(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
             and self._shape == world_shape(source)
         )

@@ -12,7 +12,7 @@ from .. import vertex_values
 from ..blender import Context, Mesh, Object
 from ..core import ControlArrays
 from ..errors import JobError
-from ..settings import Settings, is_near
+from ..settings import AnySettings, is_near
 from .boundary_marks import BOUNDARY
 from .fixed_normals import read_normals
 from .layers import STORAGE, find_layer, layer_values
@@ -160,7 +160,7 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
     return found
 
 
-def tolerance_shares(source: Object, mesh: Mesh, settings: Settings) -> np.ndarray | None:
+def tolerance_shares(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
     """(n,) from 0 to 1: the part of the tolerance that each vertex of `mesh` has; None: all of it.
 
     JobError if `source` has nothing by the name that the settings say.
@@ -170,7 +170,7 @@ def tolerance_shares(source: Object, mesh: Mesh, settings: Settings) -> np.ndarr
     return vertex_values.shares(source, mesh, settings.tolerance_group)
 
 
-def vertex_pulls(source: Object, mesh: Mesh, settings: Settings) -> np.ndarray | None:
+def vertex_pulls(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
     """(n,) weights of the core, one a vertex of `mesh`; None: nothing pulls.
 
     JobError if `source` has nothing by the name that the settings say.

@@ -2,7 +2,7 @@
 """Compare: the surfaces of all energies in a row beside their source, measured."""
 
 from collections.abc import Sequence
-from types import SimpleNamespace
+from dataclasses import replace
 from typing import cast
 
 import bpy
@@ -13,7 +13,7 @@ from ..choices import ENERGIES
 from ..inspection import readout
 from ..job import Job
 from ..memory import source_at_hand
-from ..settings import snapshot
+from ..settings import Settings
 from ..ui.main import settings_at_hand
 from .fair import Fairing, poll_reason
 
@@ -35,12 +35,9 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
         )
 
     def make_jobs(self, context: Context) -> list[Job]:
-        source, settings = cast(Object, source_at_hand(context)), settings_at_hand(context)
-        chosen = vars(snapshot(settings))
-        return [
-            Job(context, source, SimpleNamespace(**{**chosen, "energy": energy}))
-            for energy, *_ in ENERGIES
-        ]
+        source = cast(Object, source_at_hand(context))
+        settings = Settings.of(settings_at_hand(context))
+        return [Job(context, source, replace(settings, energy=e)) for e, *_ in ENERGIES]
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         source = cast(Object, jobs[0].source)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface from Curves: the fairest surface over a network of curves, which it follows from then on."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 from typing import Any, cast
 
 import bpy
@@ -14,11 +14,11 @@ from ..curve_cage import CageSettings
 from ..job import Job
 from ..mesh.object import Reference
 from ..mesh.read_curves import has_curves
-from ..settings import snapshot
+from ..settings import Settings
 from .fair import Fairing, poll_reason
 
 # The surface runs through the curves, is free between them, and ends as they do.
-_OURS = {
+_OURS: dict[str, Any] = {
     "interpolation": "APPROXIMATE",
     "tolerance": 0.0,
     "tolerance_unit": "SCENE",
@@ -110,9 +110,9 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
             name = "Curves" if len(sources) > 1 else sources[0].name
             cage, self._found = curve_cage.new_cage(context, f"{name} Network", sources, self)
             self._cage = Reference(cage)
-        own = vars(snapshot(context.scene.discrete_fairing)) | _OURS
-        own |= {"levels": self.levels, "energy": self.energy}
-        return [Job(context, cage, SimpleNamespace(**own))]
+        own = replace(Settings.of(context.scene.discrete_fairing), **_OURS)
+        own = replace(own, levels=self.levels, energy=self.energy)
+        return [Job(context, cage, own)]
 
     def after(self, context: Context, jobs: Any) -> None:
         faces = len(self._found.mesh.faces)

@@ -20,8 +20,9 @@ from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
+from ..properties import FairingSettings, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, MeshJob, running
-from ..settings import FairingSettings, copy_settings, fill_in, take_near
+from ..settings import Settings
 from ..ui.layout import draw_settings
 from . import redo
 from .modal import ModalRun
@@ -184,7 +185,8 @@ class FairSurface(Fairing, FairingSettings):
         return super().execute(context)
 
     def make_jobs(self, context: Context) -> list[Job]:
-        return [Job(context, source, self) for source in source_objects(context)]
+        settings = Settings.of(self)
+        return [Job(context, source, settings) for source in source_objects(context)]
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:
@@ -232,7 +234,7 @@ def _again(context: Context, target: Object) -> Job:
     """From its source as it is now, whose own curves, if there are any, come first."""
     source = cast(Object, source_of(target))
     remarks = curve_cage.follow(source).remarks if curve_cage.is_cage(source) else []
-    job = Job(context, source, target.discrete_fairing, target)
+    job = Job(context, source, Settings.of(target.discrete_fairing), target)
     job.notes += remarks
     return job
 

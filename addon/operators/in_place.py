@@ -13,6 +13,7 @@ from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
+from ..settings import Settings
 from .fair import WholeFairing, poll_reason
 
 
@@ -128,7 +129,7 @@ class InPlace(WholeFairing):
             self.vertices == "MEASURED",
             self.noise,
         )
-        settings = context.scene.discrete_fairing
+        settings = Settings.of(context.scene.discrete_fairing)
         return [
             in_place.InPlaceJob(context, target, settings, wish) for target in self.targets(context)
         ]

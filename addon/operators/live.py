@@ -11,7 +11,7 @@ from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
 from ..poll import ExplainedPoll
-from ..settings import for_source, is_limit, wants_modifiers
+from ..settings import Settings, is_limit, wants_modifiers
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
@@ -65,7 +65,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         live one.
         """
         source = cast(Object, context.active_object)
-        settings = for_source(context.scene.discrete_fairing, source)
+        settings = Settings.of(context.scene.discrete_fairing).for_source(source)
         mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
         for material in source.data.materials:
             mesh.materials.append(material)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair for …: the settings of a purpose, and the run, in one click."""
 
+from dataclasses import asdict
 from typing import Any
 
 import bpy
@@ -10,7 +11,7 @@ from ..blender import Answer, Context, registration
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..purposes import EASED_FIRST, PURPOSES, preset_file
-from ..settings import snapshot
+from ..settings import Settings
 from ..ui.main import fairing_operator, remembered, settings_at_hand
 from .fair import poll_reason
 
@@ -65,7 +66,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             operators.fairing_ease(how)
         if how == "INVOKE_DEFAULT" or remembered(context) is not None:
             return fairing_operator(context)(how, _UNDO)
-        settings = vars(snapshot(settings_at_hand(context)))
+        settings = asdict(Settings.of(settings_at_hand(context)))
         return operators.fairing_surface(how, _UNDO, **settings)
 
 

@@ -5,7 +5,7 @@ Blender calls `execute` from there, which can neither be modal nor be cancelled.
 """
 
 from collections.abc import Sequence
-from types import SimpleNamespace
+from dataclasses import replace
 from typing import Any, cast
 
 import bpy
@@ -14,6 +14,7 @@ from .. import prediction
 from ..blender import Context, Object, current_context
 from ..job import Job
 from ..queue import TimedJob, running
+from ..settings import Settings
 
 BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
 _WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
@@ -29,13 +30,13 @@ def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
     return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
 
 
-def _small(job: Job, budget: float) -> SimpleNamespace:
+def _small(job: Job, budget: float) -> Settings:
     """Its settings with as many levels, and if need be the energy, that the `budget` is enough for."""
     for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, 1)):
         for levels in range(job.settings.levels, least - 1, -1):
             if job.predict(energy, levels) <= budget:
-                return SimpleNamespace(**{**vars(job.settings), "levels": levels, "energy": energy})
-    return SimpleNamespace(**{**vars(job.settings), "levels": 1, "energy": _WITHOUT})
+                return replace(job.settings, levels=levels, energy=energy)
+    return replace(job.settings, levels=1, energy=_WITHOUT)
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:

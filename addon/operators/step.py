@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """To CAD: File > Export > Fair Surface (.step), and Show Patches."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 import bpy
@@ -13,6 +14,7 @@ from ..cad.settings import PatchSettings, StepSettings, scale_to
 from ..cad.step import summary, write_jobs
 from ..memory import source_of
 from ..mesh.read import source_objects
+from ..settings import PatchOptions
 from . import fair, redo
 from .by_browser import ByFileBrowser
 
@@ -24,7 +26,7 @@ def _to_fit(context: Context) -> list[Object]:
     return [target for target in chosen if target not in sources]
 
 
-class _Fitting(fair.Fairing):
+class _Fitting(fair.Fairing, PatchSettings):
     """What both share: patches are fitted to the surfaces of all selected objects."""
 
     @staticmethod
@@ -33,8 +35,12 @@ class _Fitting(fair.Fairing):
             "" if source_objects(context) else "Select a mesh or a faired surface first"
         )
 
+    def patch_options(self) -> PatchOptions:
+        """Of the patches."""
+        return PatchOptions(self.fit_tolerance, self.fit_angle, self.fit_levels)
+
     def make_jobs(self, context: Context) -> list[Any]:
-        return [PatchJob(context, target, self) for target in _to_fit(context)]
+        return [PatchJob(context, target, self.patch_options()) for target in _to_fit(context)]
 
     def execute(self, context: Context) -> Answer:
         """From scripts."""
@@ -42,7 +48,7 @@ class _Fitting(fair.Fairing):
         return {"CANCELLED"} if jobs is None else self._block(context, jobs)
 
 
-class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.types.Operator):
+class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.types.Operator):
     """Write the selected objects as spline patches for CAD: surfaces by their own settings, meshes by the scene's"""
 
     bl_idname = "export_scene.fairing_step"
@@ -52,6 +58,9 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.ty
     filename_ext = ".step"
 
     filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
+
+    def patch_options(self) -> PatchOptions:
+        return replace(super().patch_options(), insist=self.insist)
 
     def begin(self, context: Context) -> Answer:
         jobs = self._prepare(context)
@@ -92,7 +101,7 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, _Fitting, StepSettings, bpy.ty
         return {"FINISHED"}
 
 
-class OBJECT_OT_fairing_show_patches(_Fitting, PatchSettings, bpy.types.Operator):
+class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
     """Make a NURBS surface of the spline patches that CAD will get, beside the surface"""
 
     bl_idname = "object.fairing_show_patches"

@@ -19,7 +19,7 @@ from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import EASED, key_positions, put_key
 from ..mesh.world_shape import world_shape
 from ..preferences import preferences
-from ..settings import halves
+from ..settings import Settings, halves
 from . import words
 from .measure import plate_settings, settings_for
 
@@ -41,7 +41,11 @@ class _Moving:
     kind = "EASE"  # of runs, for predictions
 
     def __init__(
-        self, context: Context, source: Object, go_on: bool = False, settings: Any = None
+        self,
+        context: Context,
+        source: Object,
+        go_on: bool = False,
+        settings: Settings | None = None,
     ) -> None:
         """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
         was. `settings`: in the place of those of the source's surface.
@@ -104,7 +108,9 @@ class _Moving:
 class EaseJob(_Moving):
     """As `wish` says, of the mesh itself, whatever its shape keys make of it."""
 
-    def __init__(self, context: Context, source: Object, wish: Wish, settings: Any = None) -> None:
+    def __init__(
+        self, context: Context, source: Object, wish: Wish, settings: Settings | None = None
+    ) -> None:
         super().__init__(context, source, wish.go_on, settings)
         self._wish = wish
         if wish.use_selection and not self.selected.any():

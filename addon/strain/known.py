@@ -20,7 +20,7 @@ from ..live.full_level import is_dragging
 from ..mesh.object import Reference, changed_keys, session_key
 from ..queue import Queue
 from ..redraw import tag_sidebars
-from ..settings import snapshot
+from ..settings import Settings
 from .measure import StrainJob, settings_for
 from .strained import Strained
 
@@ -36,7 +36,7 @@ class _Watch:
         self.stale = True  # whether anything may have changed since
         self.error = ""
         self.job: StrainJob | None = None  # that of the result at hand
-        self._settings: Any = None
+        self._settings: Settings | None = None
         self._next: StrainJob | None = None
         self._queue: Queue | None = None
         self._begun = 0.0
@@ -55,7 +55,7 @@ class _Watch:
         source = self.reference.find()
         if source is None:
             return False
-        if self._settings != snapshot(settings_for(context, source)):
+        if self._settings != settings_for(context, source):
             self.stale = True
         if self._queue is not None:
             return self._look(self._queue)
@@ -83,7 +83,7 @@ class _Watch:
         return False
 
     def _begin(self, context: Context, source: Object) -> bool:
-        self.stale, self._settings = False, snapshot(settings_for(context, source))
+        self.stale, self._settings = False, settings_for(context, source)
         try:
             with _unnoticed(context, source):
                 self._next = StrainJob(context, source, self.job)

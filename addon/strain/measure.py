@@ -3,7 +3,6 @@
 
 from dataclasses import replace
 from time import perf_counter
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import mixed, read_shape_keys
 from ..mesh.world_shape import world_shape
 from ..preferences import preferences
-from ..settings import Settings, halves, snapshot
+from ..settings import Settings, halves
 from .strained import Strained
 
 _KIND = "STRAIN"  # of runs, for predictions
@@ -28,13 +27,12 @@ def settings_for(context: Context, source: Object) -> Settings:
     next one: its borders, creases and symmetry plane.
     """
     made = live_surfaces_of(source) or surfaces_of(source)[-1:]
-    return made[-1].discrete_fairing if made else scene_of(source).discrete_fairing
+    return Settings.of(made[-1].discrete_fairing if made else scene_of(source).discrete_fairing)
 
 
-def plate_settings(settings: Settings) -> SimpleNamespace:
+def plate_settings(settings: Settings) -> Settings:
     """The same for the whole mesh as modelled, and a surface through all vertices."""
-    asked = {"use_selection": False, "interpolation": "EXACT", "use_shape_keys": False}
-    return SimpleNamespace(**vars(snapshot(settings)) | asked)
+    return replace(settings, use_selection=False, interpolation="EXACT", use_shape_keys=False)
 
 
 class StrainJob:
@@ -46,7 +44,7 @@ class StrainJob:
         source: Object,
         known: "StrainJob | None" = None,
         as_mixed: bool = True,
-        settings: Any = None,
+        settings: Settings | None = None,
     ) -> None:
         """Reads; JobError says why that cannot be. `known`: an earlier one, whose result holds where
         nothing has changed since. `as_mixed`: as the shape keys of the source mix, not the mesh.

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import core
 from ..core import ControlArrays
+from ..settings import Settings
 from .lattice import edge_table
 from .mirror import AXES
 
@@ -16,7 +17,7 @@ from .mirror import AXES
 def seam_pairs(
     result: Any,
     arrays: ControlArrays,
-    settings: Any,
+    settings: Settings,
     edges: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> np.ndarray:
     """(k, 2) refined edges of the core's `result` for the mesh `arrays`, both in the coordinates of the

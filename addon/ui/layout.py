@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, SHORT_INTERPOLATIONS
+from ..properties import FairingSettings
 from ..purposes import name_of_purpose
-from ..settings import Settings, is_evaluated, is_limit, is_near
+from ..settings import is_evaluated, is_limit, is_near
 from .pictures import draw_choices, draw_ends, icon, name_of
 
 
@@ -37,7 +38,7 @@ class Known:
     """
 
     triangles: str = ""
-    tolerance: str = ""  # the length that a relative one comes to
+    tolerance: str = ""  # the length that it comes to
     held: str = ""  # how many vertices are as far off as they may be
     missing_groups: dict[str, str] = field(default_factory=dict)
     edges: str = ""  # border edges that are other than the setting says
@@ -50,7 +51,7 @@ _NOTHING = Known()
 
 
 def draw_job(
-    layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING, job: str = ""
+    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING, job: str = ""
 ) -> None:
     """What everyone needs: how fine, how near to the source; and where no `job` has chosen them,
     what is fair, and what vertices are.
@@ -70,7 +71,9 @@ def draw_job(
         _draw_tolerance(layout, settings, known)
 
 
-def draw_fairness(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
+def draw_fairness(
+    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
+) -> None:
     """What a job chooses: what is fair, and what vertices are."""
     draw_choices(layout, settings, "energy", ENERGY_NAMES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
@@ -79,7 +82,9 @@ def draw_fairness(layout: bpy.types.UILayout, settings: Settings, known: Known =
         _remark(layout, known.vertices)
 
 
-def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _NOTHING) -> None:
+def draw_shape(
+    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
+) -> None:
     """What else shapes the surface."""
     if is_near(settings):
         _draw_held_by(layout, settings, known)
@@ -97,21 +102,15 @@ def draw_shape(layout: bpy.types.UILayout, settings: Settings, known: Known = _N
         _remark(layout, known.normals)
 
 
-def _draw_tolerance(layout: bpy.types.UILayout, settings: Settings, known: Known) -> None:
-    relative = settings.tolerance_unit == "RELATIVE"
-    layout.prop(
-        settings,
-        "relative_tolerance" if relative else "tolerance",
-        text="Hold within",
-        slider=relative,
-    )
-    if relative and known.tolerance:
+def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
+    layout.prop(settings, "tolerance", text="Hold within")
+    if known.tolerance:
         _remark(layout, known.tolerance)
     if known.held:
         _remark(layout, known.held)
 
 
-def _draw_held_by(layout: bpy.types.UILayout, settings: Settings, known: Known) -> None:
+def _draw_held_by(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
     """What the tolerance is said in, and what it is at each vertex."""
     layout.prop(settings, "tolerance_unit")
     for name in ("tolerance_group", "pull_group"):
@@ -123,7 +122,7 @@ def _draw_held_by(layout: bpy.types.UILayout, settings: Settings, known: Known) 
             _remark(layout, missing, icon="ERROR")
 
 
-def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:
+def _draw_pads(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     start_only = settings.energy == "MINIMUM_VARIATION"
     row = layout.row()
     row.active = not start_only
@@ -134,7 +133,7 @@ def _draw_pads(layout: bpy.types.UILayout, settings: Settings) -> None:
         draw_ends(layout, settings.energy, f"{settings.energy}_SOFTLY")
 
 
-def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:
+def draw_source(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     layout.prop(settings, "use_selection")
     if settings.use_selection:
         layout.prop(settings, "joint")
@@ -149,14 +148,14 @@ def draw_source(layout: bpy.types.UILayout, settings: Settings) -> None:
         layout.prop(settings, "weld")
 
 
-def draw_creases(layout: bpy.types.UILayout, settings: Settings) -> None:
+def draw_creases(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     _switched(layout, settings, "use_crease_attribute", "crease_threshold")
     layout.prop(settings, "use_sharp_edges")
     _switched(layout, settings, "use_crease_angle", "crease_angle")
     _switched(layout, settings, "use_corner_angle", "corner_angle")
 
 
-def draw_result(layout: bpy.types.UILayout, settings: Settings) -> None:
+def draw_result(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     layout.prop(settings, "shade_smooth")
     layout.prop(settings, "hide_source")
     evaluated = is_evaluated(settings)
@@ -168,7 +167,7 @@ def draw_result(layout: bpy.types.UILayout, settings: Settings) -> None:
         _reason(layout, "Both are already in the mesh With Modifiers")
 
 
-def draw_advanced(layout: bpy.types.UILayout, settings: Settings) -> None:
+def draw_advanced(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     layout.prop(settings, "metric_exponent")
     layout.prop(settings, "memory_limit")
 
@@ -182,7 +181,7 @@ FOLDED = (
 
 
 def draw_settings(
-    layout: bpy.types.UILayout, settings: Settings, identifier: str, triangle_text: str = ""
+    layout: bpy.types.UILayout, settings: FairingSettings, identifier: str, triangle_text: str = ""
 ) -> None:
     """All of them, the rare ones folded; `identifier` tells Blender which of them are open."""
     layout.use_property_split = True
@@ -192,7 +191,7 @@ def draw_settings(
     draw_folded(layout, settings, identifier)
 
 
-def draw_folded(layout: bpy.types.UILayout, settings: Settings, identifier: str) -> None:
+def draw_folded(layout: bpy.types.UILayout, settings: FairingSettings, identifier: str) -> None:
     """The rare ones."""
     for label, draw in FOLDED:
         header, body = layout.panel(f"{identifier}.{label}", default_closed=True)

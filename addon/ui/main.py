@@ -18,17 +18,10 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS
+from ..properties import FairingSettings, KeptSettings
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
-from ..settings import (
-    Settings,
-    for_source,
-    halves,
-    is_evaluated,
-    is_limit,
-    is_near,
-    subdivision,
-)
+from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
 from .layout import Known, Sidebar, draw_fairness, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
@@ -146,7 +139,7 @@ def fairing_operator(context: Context) -> Any:
     return operators.fairing_recompute if again else operators.fairing_surface
 
 
-def _size_text(settings: Settings, sources: list[Object], triangles: int) -> str:
+def _size_text(settings: FairingSettings, sources: list[Object], triangles: int) -> str:
     """`61,952 triangles, about 12 s`; empty where there are none."""
     mesh = session_key(sources[0]) if len(sources) == 1 else None
     work = triangles * halves(settings)
@@ -172,7 +165,7 @@ def live_surface(context: Context) -> Object | None:
     return followers[0] if followers else None
 
 
-def settings_at_hand(context: Context) -> Settings:
+def settings_at_hand(context: Context) -> KeptSettings:
     """Those of the faired surface that is active, or that follows the active object; else those for
     the next one.
     """
@@ -192,8 +185,8 @@ def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object
     return [] if source is None else [source]
 
 
-def tolerance_text(context: Context, settings: Settings, sources: list[Object]) -> str:
-    """The length that a relative tolerance comes to; empty where it would not be the one that
+def tolerance_text(context: Context, settings: FairingSettings, sources: list[Object]) -> str:
+    """The length that the tolerance comes to, with its unit; empty where it would not be the one that
     counts, or takes long to find out.
     """
     if not is_near(settings) or is_evaluated(settings) or len(sources) != 1:
@@ -218,7 +211,7 @@ def _held_text(memory: FAIRING_PG_surface) -> str:
     return f"{held[0]:,} of {held[1]:,} vertices at the limit" if held and held[1] else ""
 
 
-def normals_text(settings: Settings, sources: list[Object]) -> str:
+def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
     """`Normals: 3 fixed`; empty where none is."""
     small = (o for o in sources if len(o.data.edges) <= _MEASURED)
     count = fixed_normals.count(small)
@@ -227,18 +220,18 @@ def normals_text(settings: Settings, sources: list[Object]) -> str:
     return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Bending only")
 
 
-def follows(settings: Settings, sources: list[Object]) -> bool:
+def follows(settings: FairingSettings, sources: list[Object]) -> bool:
     """Whether some surface will pass through limit positions."""
-    return any(is_limit(for_source(settings, source)) for source in sources)
+    return any(is_limit(Settings.of(settings).for_source(source)) for source in sources)
 
 
-def vertices_text(settings: Settings, sources: list[Object]) -> str:
+def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
     """What Automatic comes to; empty where it is not chosen. Limit is left out, and said so, where
     the modifier is in the mesh already.
     """
     if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
-    limit = [is_limit(for_source(settings, source)) for source in sources]
+    limit = [is_limit(Settings.of(settings).for_source(source)) for source in sources]
     subdivided = any(subdivision(source) for source in sources)
     if is_evaluated(settings) and subdivided and not any(limit):
         return "Through: subdivided already"
@@ -249,7 +242,7 @@ def vertices_text(settings: Settings, sources: list[Object]) -> str:
     return "Limit where Subdivision Surface is" if any(limit) else "Through every vertex"
 
 
-def missing_groups(settings: Settings, sources: list[Object]) -> dict[str, str]:
+def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:
     """Which source lacks a group, in a few words, by the setting that names it; none where
     modifiers may make it.
     """

@@ -11,7 +11,7 @@ import pytest
 from discrete_fairing.options import OPTIONAL, SETTINGS
 
 from addon.preferences import DiscreteFairingPreferences
-from addon.settings import FairingSettings
+from addon.properties import FairingSettings
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 REFERENCE = DOCS / "reference"

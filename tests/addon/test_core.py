@@ -3,7 +3,6 @@
 
 import warnings
 from dataclasses import replace
-from types import SimpleNamespace
 
 import bpy
 import discrete_fairing as df
@@ -25,13 +24,13 @@ from addon.core import (
 from addon.job import Job
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
-from addon.settings import NAMES
+from addon.settings import Settings
 
 
 def settings(**changes):
     """The defaults as the panel has them, with some changed."""
     scene = bpy.context.scene.discrete_fairing
-    return SimpleNamespace(**{**{name: getattr(scene, name) for name in NAMES}, **changes})
+    return replace(Settings.of(scene), **changes)
 
 
 def arguments(mesh=None, **changes):
@@ -79,10 +78,10 @@ def test_tolerance_belongs_to_approximation(unit):
     assert given["tolerance"] == 0.0
 
 
-def test_a_relative_tolerance_is_a_share_of_the_mean_edge():
+def test_a_tolerance_is_a_share_of_the_mean_edge():
     arrays = triangle()
     assert mean_edge_length(arrays) == pytest.approx((2 + 2**0.5) / 3), "the loose edge is left out"
-    near = settings(interpolation="APPROXIMATE", relative_tolerance=0.25, tolerance_unit="RELATIVE")
+    near = settings(interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="RELATIVE")
     assert fair_arguments(arrays, near, Defaults, edge_length=2.0)["tolerance"] == 0.5
     length = settings(interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE")
     assert fair_arguments(arrays, length, Defaults, edge_length=2.0)["tolerance"] == 0.25
@@ -321,7 +320,7 @@ def test_news_of_memory_stay_off_the_console(monkeypatch, recwarn):
     made = df.fair
     monkeypatch.setattr(df, "fair", takes_more)
     core._load.cache_clear()  # the filter is set with the first use
-    job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, add("Box", *CUBE), Settings.of(bpy.context.scene.discrete_fairing))
     job.compute()
     assert job.result is not None and not recwarn.list
     core.module().fair(*CUBE, 1)

@@ -12,7 +12,7 @@ import pytest
 from discrete_fairing.options import SETTINGS
 
 from addon.preferences import DiscreteFairingPreferences
-from addon.settings import FairingSettings
+from addon.properties import FairingSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"

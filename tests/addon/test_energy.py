@@ -13,6 +13,7 @@ from addon.job import Job
 from addon.memory import recall
 from addon.mesh.read import read_mesh
 from addon.operators import fair as fair_operators
+from addon.settings import Settings
 
 KEYS = [key for key, *_ in ENERGIES]
 STEP = {"decrement": 0.25}
@@ -83,7 +84,7 @@ def test_a_flat_surface_needs_no_step():
 
 
 def job_that_stopped(warnings=(), converged=False):
-    job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, add("Box", *CUBE), Settings.of(bpy.context.scene.discrete_fairing))
     job.settings.energy = "TOTAL_CURVATURE"
     job.compute()
     levels = [

@@ -12,6 +12,7 @@ from shapes import mug
 from addon.check import faults, folds
 from addon.job import Job
 from addon.mesh.write import FAULTS
+from addon.settings import Settings
 from addon.transfer.coarse import coarse_triangles
 from addon.ui import main
 
@@ -25,7 +26,7 @@ def computed(source, **settings):
     panel = bpy.context.scene.discrete_fairing
     for name, value in settings.items():
         setattr(panel, name, value)
-    job = Job(bpy.context, source, panel)
+    job = Job(bpy.context, source, Settings.of(panel))
     job.compute()
     return job
 

@@ -11,6 +11,7 @@ from scenes import CUBE, activate, add, fair, positions
 from addon import events, freshness, job, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.mesh import read as mesh_read
+from addon.settings import Settings
 from addon.ui import main, outliner
 
 
@@ -184,7 +185,7 @@ def test_a_run_reads_its_mesh_once(monkeypatch):
     add_key(source)
     for module in (job, freshness):
         monkeypatch.setattr(module, "read_mesh", counted)
-    made = job.Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    made = job.Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
     assert reads == ["Box"]
     made.compute()
     target = made.write(bpy.context)

@@ -16,6 +16,7 @@ from addon.mesh.read import read_mesh
 from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.queue import Queue
+from addon.settings import Settings
 
 RADIUS = 3.0
 SIZE = 12  # faces a side
@@ -272,7 +273,7 @@ def begun(target, **options):
     """A job as the button begins it, before it is computed."""
     wish = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
     wish = Wish(**wish | {"release": False} | options)
-    return InPlaceJob(bpy.context, target, bpy.context.scene.discrete_fairing, wish)
+    return InPlaceJob(bpy.context, target, Settings.of(bpy.context.scene.discrete_fairing), wish)
 
 
 def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():

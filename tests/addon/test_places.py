@@ -9,6 +9,7 @@ from scenes import CUBE, TRIANGLE, activate, add, fair
 from addon.freshness import stale_surfaces
 from addon.job import Job
 from addon.operators.fair import Fairing
+from addon.settings import Settings
 
 
 def counts():
@@ -121,7 +122,7 @@ def finish(*jobs):
 @pytest.mark.parametrize("mode", ["SCULPT", "EDIT", "VERTEX_PAINT"])
 def test_a_run_that_ends_leaves_whoever_has_begun_something_else_alone(mode):
     source = add("Box", *CUBE)
-    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
     other = add("Other", *TRIANGLE)
     bpy.ops.object.mode_set(mode=mode)
     finish(job)
@@ -134,7 +135,7 @@ def test_a_surface_that_is_being_sculpted_is_made_again_in_object_mode():
     source = add("Box", *CUBE)
     target = fair(levels=1)
     move(source)
-    job = Job(bpy.context, source, target.discrete_fairing, target)
+    job = Job(bpy.context, source, Settings.of(target.discrete_fairing), target)
     bpy.ops.object.mode_set(mode="SCULPT")
     finish(job)
     assert target.mode == "OBJECT" and not list(stale_surfaces())

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the user prefers reaches scenes and the core."""
 
+from dataclasses import replace
 from threading import current_thread, main_thread
 from types import SimpleNamespace
 
@@ -14,7 +15,7 @@ from addon.in_place import Wish as ScanWish
 from addon.job import Job
 from addon.mesh.read import read_mesh
 from addon.queue import Queue
-from addon.settings import snapshot
+from addon.settings import Settings
 from addon.strain.ease import EaseJob, Wish
 from addon.strain.measure import StrainJob
 
@@ -50,11 +51,11 @@ def test_memory_and_threads_reach_the_core(monkeypatch):
     chosen = prefer(monkeypatch, memory_limit=7, threads=1)
     arrays, settings = (
         read_mesh(add("Box", *CUBE).data),
-        snapshot(bpy.context.scene.discrete_fairing),
+        Settings.of(bpy.context.scene.discrete_fairing),
     )
     given = fair_arguments(arrays, settings, chosen)
     assert given["memory_limit"] == 7 * 2**20 and given["threads"] == 1
-    settings.memory_limit = 9
+    settings = replace(settings, memory_limit=9)
     assert fair_arguments(arrays, settings, chosen)["memory_limit"] == 9 * 2**20
 
 
@@ -74,7 +75,7 @@ def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
     monkeypatch.setattr(preferences, "current_context", context)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     source, scene = bpy.context.object, bpy.context.scene
-    settings = snapshot(scene.discrete_fairing)
+    settings = Settings.of(scene.discrete_fairing)
     wish = ScanWish(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
     jobs = [
         Job(bpy.context, source, settings),

@@ -10,6 +10,7 @@ from test_tolerance import add_group, moved
 from addon import vertex_values
 from addon.errors import JobError
 from addon.job import Job
+from addon.settings import Settings
 
 
 def test_a_group_goes_from_nothing_to_what_holds():
@@ -54,7 +55,13 @@ def test_a_stronger_pull_is_nearer():
 def test_the_tolerance_holds_all_the_same():
     source = add("Box", *CUBE)
     add_group(source, dict.fromkeys(range(8), 0.1), "Pulls")
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.01, pull_group="Pulls")
+    result = fair(
+        levels=1,
+        interpolation="APPROXIMATE",
+        tolerance=0.01,
+        tolerance_unit="SCENE",
+        pull_group="Pulls",
+    )
     assert moved(source, result).max() <= 0.01 * (1 + 1e-5)
 
 
@@ -62,7 +69,7 @@ def test_pulls_mean_nothing_with_through():
     source = add("Box", *CUBE)
     settings = bpy.context.scene.discrete_fairing
     settings.pull_group = "Nothing"
-    assert "weights" not in Job(bpy.context, source, settings).arguments
+    assert "weights" not in Job(bpy.context, source, Settings.of(settings)).arguments
     settings.interpolation = "APPROXIMATE"
     with pytest.raises(JobError, match="Pull Group"):
-        Job(bpy.context, source, settings)
+        Job(bpy.context, source, Settings.of(settings))

@@ -16,6 +16,7 @@ import bpy
 import addon
 from addon import core, queue
 from addon.job import Job
+from addon.settings import Settings
 from scenes import add_suzanne
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -24,7 +25,7 @@ atexit.register(addon.unregister)  # as Blender does it
 add_suzanne()
 settings = bpy.context.scene.discrete_fairing
 settings.levels, settings.energy = 6, "TOTAL_CURVATURE"
-work = queue.Queue([Job(bpy.context, bpy.context.object, settings)], core.module().Monitor)
+work = queue.Queue([Job(bpy.context, bpy.context.object, Settings.of(settings))], core.module().Monitor)
 work.start()
 while work.fraction == 0:
     time.sleep(0.001)

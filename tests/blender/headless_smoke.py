@@ -106,7 +106,7 @@ def test_cube_becomes_a_sphere():
 
 def test_approximation_runs():
     source = active_mesh_object(bpy.ops.mesh.primitive_monkey_add)
-    result = fair(source, interpolation="APPROXIMATE", tolerance=0.05)
+    result = fair(source, interpolation="APPROXIMATE", tolerance=0.05, tolerance_unit="SCENE")
     control = positions(source.data)
     moved = np.linalg.norm(positions(result.data)[: len(control)] - control, axis=1)
     assert moved.max() <= 0.05 * (1 + 1e-5), moved.max()

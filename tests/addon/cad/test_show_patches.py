@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Show Patches: the control points that CAD gets, as a NURBS surface."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
@@ -10,8 +8,9 @@ from scenes import CUBE, activate, add
 
 from addon.cad.fit import PatchJob
 from addon.errors import JobError
+from addon.settings import PatchOptions
 
-WANTED = SimpleNamespace(fit_tolerance=1e-4, fit_angle=1e-3, fit_levels=4)
+WANTED = PatchOptions(fit_tolerance=1e-4, fit_angle=1e-3, fit_levels=4)
 
 
 def patches_of(target):

@@ -22,7 +22,7 @@ def test_a_length_and_a_share_of_the_edges():
     write_obj("in.obj")  # edges of 2
     near = ("--levels", 1, "--energy", "thin_plate")
     _, (length,) = entries("in.obj", "length.obj", *near, "--tolerance", 0.1)
-    _, (share,) = entries("in.obj", "share.obj", *near, "--relative-tolerance", 0.05)
+    _, (share,) = entries("in.obj", "share.obj", *near, "--tolerance", "5%")
     assert (length["settings"]["tolerance_unit"], share["settings"]["tolerance_unit"]) == (
         "SCENE",
         "RELATIVE",

@@ -14,7 +14,7 @@ from addon.mesh.read import read_mesh
 
 def near_surface():
     source = add_suzanne()
-    options = {"interpolation": "APPROXIMATE", "relative_tolerance": 0.05}
+    options = {"interpolation": "APPROXIMATE", "tolerance": 0.05}
     bpy.ops.object.fairing_surface(levels=3, **options)
     return source, bpy.context.object
 

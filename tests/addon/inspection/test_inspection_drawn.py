@@ -232,7 +232,9 @@ def test_deviation_from_control_vertices():
     through = bpy.context.object
     assert np.abs(show_deviation(through)).max() < 1e-5
     activate(source)
-    bpy.ops.object.fairing_surface(levels=2, interpolation="APPROXIMATE", tolerance=0.1)
+    bpy.ops.object.fairing_surface(
+        levels=2, interpolation="APPROXIMATE", tolerance=0.1, tolerance_unit="SCENE"
+    )
     near = bpy.context.object
     missed = show_deviation(near)
     assert 1e-3 < np.abs(missed).max() <= 0.1 + 1e-6 and missed.max() <= 0.0, "inside of them"

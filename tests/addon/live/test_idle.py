@@ -95,7 +95,7 @@ def test_panels_measure_a_mesh_once_for_each_change(monkeypatch):
     read = main.read_mesh
     monkeypatch.setattr(main, "read_mesh", lambda mesh: drawn.append(mesh) or read(mesh))
     settings = bpy.context.scene.discrete_fairing
-    settings.interpolation, settings.relative_tolerance = "APPROXIMATE", 0.25
+    settings.interpolation, settings.tolerance = "APPROXIMATE", 0.25
 
     def said():
         return [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("= ")]

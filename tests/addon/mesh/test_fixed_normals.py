@@ -16,6 +16,7 @@ from addon.mesh import fixed_normals
 from addon.mesh.fixed_normals import NORMAL, read_normals
 from addon.mesh.read import control_mesh, read_mesh
 from addon.mesh.world_shape import world_shape
+from addon.settings import Settings
 from addon.transfer.cut_out import cut_out
 from addon.ui import main, menus
 
@@ -168,11 +169,11 @@ def test_the_other_energies_leave_them_out_and_say_so():
     set_normals(source, {INSIDE: TILTED})
     settings = bpy.context.scene.discrete_fairing
     settings.energy = "TOTAL_CURVATURE"
-    job = Job(bpy.context, source, settings)
+    job = Job(bpy.context, source, Settings.of(settings))
     assert "normals" not in job.arguments
     assert any("only Bending" in note for note in job.notes)
     settings.energy = "THIN_PLATE"
-    job = Job(bpy.context, source, settings)
+    job = Job(bpy.context, source, Settings.of(settings))
     assert job.arguments["normals"].any(axis=1).sum() == 1
     assert not any("Bending" in note for note in job.notes)
 
@@ -250,6 +251,6 @@ def test_a_cut_takes_them_along():
 def test_normals_on_the_border_are_named():
     source = sheet()
     fix(source, 0, INSIDE)
-    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
     job.compute()
     assert any("not fixed" in warning and "(0)" in warning for warning in job.warnings())

@@ -55,7 +55,7 @@ def test_symmetry_is_exact_all_the_same():
 def test_a_tolerance_is_a_length_in_the_scene(scale):
     source = add("Box", *CUBE)
     source.scale = scale
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.02)
+    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.02, tolerance_unit="SCENE")
     missed = np.linalg.norm(in_the_world(result)[:8] - stretched(source), axis=1)
     assert 0.9 * 0.02 < missed.max() <= 0.02 * (1 + 1e-4)
 

@@ -229,7 +229,9 @@ def test_report_stays_with_the_result():
 @pytest.mark.parametrize("energy", BY_COST)
 def test_approximation_keeps_its_tolerance(energy):
     source = add_suzanne()
-    result = fair(levels=1, energy=energy, interpolation="APPROXIMATE", tolerance=0.02)
+    result = fair(
+        levels=1, energy=energy, interpolation="APPROXIMATE", tolerance=0.02, tolerance_unit="SCENE"
+    )
     moved = np.linalg.norm(
         positions(result.data)[: len(source.data.vertices)] - positions(source.data), axis=1
     )

@@ -10,8 +10,9 @@ from scenes import CUBE, add, fair
 
 import addon
 from addon.operators.presets import NOT_KEPT
+from addon.properties import FairingSettings
 from addon.purposes import PRESET_FOLDER, preset_values
-from addon.settings import NAMES, FairingSettings
+from addon.settings import NAMES
 
 FOLDER = Path(addon.__file__).parent / "presets" / PRESET_FOLDER
 SHIPPED = ("Default", "Character", "Hull", "Mechanical", "Panel", "Points")
@@ -32,7 +33,7 @@ def test_blender_finds_them_for_the_operator():
 def test_menu_applies_them(name):
     given = values(name)
     assert list(given) == [name for name in NAMES if name not in NOT_KEPT], (
-        "all of them, and what a tolerance is said in behind the tolerances"
+        "all of them, in their order"
     )
     bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / f"{name}.py"))
     settings = bpy.context.scene.discrete_fairing
@@ -55,6 +56,8 @@ op = bpy.context.active_operator
 
 op.interpolation = "APPROXIMATE"
 op.tolerance = 0.005
+op.relative_tolerance = 0.25
+op.tolerance_unit = "RELATIVE"
 op.vertex_release = 0.125
 op.repair_orientation = True
 op.shade_smooth = True
@@ -66,7 +69,7 @@ def test_a_preset_from_before_still_opens(tmp_path):
     settings = bpy.context.scene.discrete_fairing
     bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Old.py"))
     assert settings.shade_smooth, "to its last line"
-    assert (settings.tolerance, settings.tolerance_unit) == (pytest.approx(0.005), "SCENE")
+    assert (settings.tolerance, settings.tolerance_unit) == (0.25, "RELATIVE")
     for gone in ("vertex_release", "repair_orientation"):
         assert gone not in FairingSettings.__dict__ and settings.get(gone) is None
     assert settings.repair == "MEND"

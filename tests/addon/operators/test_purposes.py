@@ -61,7 +61,7 @@ def test_measured_points_lose_their_scatter(seed):
         places = positions(shown.data)
         return np.sqrt(((places[:, 2] - dome(*places[:, :2].T)) ** 2).mean())
 
-    bpy.ops.object.fairing_surface(interpolation="APPROXIMATE", relative_tolerance=0.1)
+    bpy.ops.object.fairing_surface(interpolation="APPROXIMATE", tolerance=0.1)
     near = off(bpy.context.active_object)
     source.hide_set(False)
     activate(source)
@@ -113,7 +113,7 @@ def test_the_panel_shows_one_slider_by_what_holds():
 
 def test_how_many_vertices_are_at_the_limit_is_said():
     add_suzanne()
-    bpy.ops.object.fairing_surface(levels=1, interpolation="APPROXIMATE", relative_tolerance=0.05)
+    bpy.ops.object.fairing_surface(levels=1, interpolation="APPROXIMATE", tolerance=0.05)
     assert any(str(line).endswith("vertices at the limit") for line in draw(VIEW3D_PT_fairing))
 
 

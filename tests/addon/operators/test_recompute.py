@@ -117,11 +117,11 @@ def test_without_its_source_it_is_a_mesh_like_any_other():
 def test_panel_shows_what_is_remembered():
     source = add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
-    assert "relative_tolerance" in draw(main.VIEW3D_PT_fairing)
+    assert "tolerance" in draw(main.VIEW3D_PT_fairing)
     fair(levels=1)
     log = draw(main.VIEW3D_PT_fairing)
     assert "object.fairing_recompute" in log and "object.fairing_surface" not in log
-    assert "source" in log and "relative_tolerance" not in log, "its own settings, not the scene's"
+    assert "source" in log and "tolerance" not in log, "its own settings, not the scene's"
     assert "48 triangles" in log, "counted from its source"
     assert bpy.ops.object.fairing_show_source() == {"FINISHED"}
     assert bpy.context.active_object == source and source.visible_get()

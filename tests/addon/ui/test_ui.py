@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel computes and draws, on a layout that only remembers."""
 
+from dataclasses import asdict
 from types import SimpleNamespace
 
 import bpy
@@ -18,8 +19,9 @@ from addon.choices import (
     SHORT_INTERPOLATIONS,
 )
 from addon.operators.fair import FairSurface
+from addon.properties import copy_settings, fill_in
 from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
-from addon.settings import NAMES, copy_settings, fill_in, snapshot
+from addon.settings import NAMES, Settings
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, pictures
 from addon.ui.layout import Sidebar
@@ -51,9 +53,7 @@ def test_every_setting_is_shown_somewhere():
     settings.interpolation = "APPROXIMATE"
     settings.use_selection = True
     panels = [cls for cls in main.CLASSES if issubclass(cls, Sidebar)]
-    log = []
-    for settings.tolerance_unit in ("RELATIVE", "SCENE"):
-        log += [entry for cls in panels for entry in draw(cls)]
+    log = [entry for cls in panels for entry in draw(cls)]
     settings.interpolation = "LIMIT"
     log += [entry for cls in panels for entry in draw(cls)]
     assert set(NAMES) <= set(log)
@@ -68,23 +68,22 @@ def near(**changes):
     return draw(main.VIEW3D_PT_fairing)
 
 
-def test_the_tolerance_that_counts_is_shown():
+def test_the_tolerance_is_shown_where_it_counts():
     add("Box", *CUBE)
-    assert not {"tolerance", "relative_tolerance"} & set(draw(main.VIEW3D_PT_fairing))
-    assert "relative_tolerance" in near() and "tolerance" not in near()
-    assert "tolerance" in (log := near(tolerance_unit="SCENE")) and "relative_tolerance" not in log
+    assert "tolerance" not in draw(main.VIEW3D_PT_fairing)
+    assert "tolerance" in near()
 
 
-def test_a_relative_tolerance_says_its_length():
+def test_the_tolerance_says_its_length():
     add("Box", *CUBE)  # edges of 2
-    assert "= 0.25 m" in near(relative_tolerance=0.125)
+    assert "= 0.25 m" in near(tolerance=0.125)
     bpy.context.scene.unit_settings.scale_length = 0.001
     bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
-    assert "= 0.25 mm" in near(relative_tolerance=0.125)
+    assert "= 0.25 mm" in near(tolerance=0.125)
     bpy.context.scene.unit_settings.system = "NONE"
-    assert "= 0.25" in near(relative_tolerance=0.125)
-    for unknown in ({"mesh_source": "EVALUATED"}, {"tolerance_unit": "SCENE"}):
-        assert not [line for line in near(**unknown) if line.startswith("= ")]
+    assert "= 0.25" in near(tolerance=0.125)
+    assert "= 0.125" in near(tolerance_unit="SCENE")
+    assert not [line for line in near(mesh_source="EVALUATED") if line.startswith("= ")]
 
 
 def test_a_group_that_is_not_there_is_said():
@@ -185,20 +184,11 @@ class Given(SimpleNamespace):
 def test_what_is_not_said_is_that_of_the_panel():
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.tension = 4, 0.5
-    settings.relative_tolerance = 0.125
-    given = Given(given={"tension"}, **vars(snapshot(settings)))
-    given.levels, given.tension, given.relative_tolerance = 1, 0.25, 0.0
+    settings.tolerance = 0.125
+    given = Given(given={"tension"}, **asdict(Settings.of(settings)))
+    given.levels, given.tension, given.tolerance = 1, 0.25, 0.0
     fill_in(settings, given)
-    assert (given.levels, given.tension, given.relative_tolerance) == (4, 0.25, 0.125)
-
-
-def test_a_tolerance_that_is_said_keeps_its_unit():
-    settings = bpy.context.scene.discrete_fairing
-    settings.relative_tolerance = 0.125
-    given = Given(given={"tolerance"}, **vars(snapshot(settings)))
-    given.tolerance, given.tolerance_unit = 0.5, "SCENE"
-    fill_in(settings, given)
-    assert (given.tolerance, given.tolerance_unit) == (0.5, "SCENE")
+    assert (given.levels, given.tension, given.tolerance) == (4, 0.25, 0.125)
 
 
 def test_drawing_touches_no_operator():

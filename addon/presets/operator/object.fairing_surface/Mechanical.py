@@ -10,7 +10,6 @@ op.energy = "THIN_PLATE"
 op.interpolation = "APPROXIMATE"
 op.limit = 1.0
 op.tolerance = 0.0
-op.relative_tolerance = 0.02
 op.tolerance_unit = "SCENE"
 op.pad_size = 1.0
 op.tension = 0.0
